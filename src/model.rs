@@ -49,7 +49,7 @@ use schedule::Group;
 use tolerance::Resolved;
 use tolerance::choice::Choice;
 
-/// Everything known before time starts: bodies, and when they meet.
+/// Everything known before time starts: the bodies and the schedule of their exchanges.
 pub struct Model {
     scene: Scene,
     layout: InputLayout,
@@ -58,14 +58,14 @@ pub struct Model {
     links: Vec<Link>,
     joints: Vec<Joint>,
     schedule: Vec<Group>,
-    /// Of each running maximum the place of its body and its number among those of the body.
+    /// For each running maximum, the place of its body and its number within the body.
     peaks: Vec<(usize, usize)>,
-    /// What a step of the droplets takes, at most [B].
+    /// Largest memory of a step of the droplets [B].
     memory_of_droplets: usize,
-    /// Of meshes, for those that choose the same meanwhile.
+    /// Chosen meshes, kept for models that need the same.
     #[expect(dead_code, reason = "held for others")]
     choices: Vec<Arc<Choice>>,
-    /// What the outputs of each body err by, estimated when first asked for.
+    /// Relative errors of the outputs of each body, estimated when first read.
     errors: Vec<MadeOnce<f64>>,
 }
 
@@ -76,17 +76,16 @@ pub struct State {
     pub time: f64,
     /// Values of the inputs, in the order of the [`InputLayout`].
     pub inputs: Vec<f64>,
-    /// Time derivatives of the inputs at this time: the first of all inputs [1/s], then the second
-    /// [1/s²], as far as there are any. Without any, inputs are held.
+    /// Time derivatives of the inputs at this time: the first of all inputs [1/s], then the second [1/s²], if set.
+    /// Without any, inputs are constant.
     pub derivatives: Vec<Vec<f64>>,
-    /// Unknowns of each body, in the order of their names. Those of a droplet grow in number when a drop is
-    /// released.
+    /// Unknowns of each body, in the order of their names. Their number grows in a droplet when a drop is released.
     pub bodies: Vec<Vec<f64>>,
-    /// Running maxima, body by body in the order of their lists; none as long as nothing is noted.
+    /// Running maxima, body by body in the order of their lists; none before the first is noted.
     pub peaks: Vec<Peak>,
 }
 
-/// What solves the mechanics of several bodies.
+/// Elastic problems of several bodies.
 pub type Stiffness = Vec<Arc<ElasticProblem>>;
 
 impl Model {
@@ -96,12 +95,12 @@ impl Model {
         Ok(Self { choices, ..aside(|| Self::build_here(&scene, threads, Readings::Usual))? })
     }
 
-    /// The same on the mesh that follows from the scene's keys alone.
+    /// Builds the model on the mesh that follows from the scene's keys alone.
     fn build_as_it_is(scene: &Scene, threads: usize) -> Result<Self, ModelError> {
         aside(|| Self::build_here(scene, threads, Readings::Usual))
     }
 
-    /// The same, of which so many states are read.
+    /// Builds the model to be read in this number of states.
     fn build_for_states(scene: &Scene, threads: usize, count: usize) -> Result<Self, ModelError> {
         aside(|| Self::build_here(scene, threads, Readings::OfStates(count)))
     }
@@ -145,17 +144,17 @@ impl Model {
         &self.layout
     }
 
-    /// Time zero, inputs at their start values.
+    /// Returns the state at time zero, with inputs at their start values.
     pub fn initial_state(&self) -> State {
         let bodies = aside(|| self.bodies.iter().map(|body| body.initial_state()).collect());
         let inputs = initial_inputs(&self.scene);
         State { time: 0.0, inputs, derivatives: Vec::new(), bodies, peaks: Vec::new() }
     }
 
-    /// Whether all inputs make sense: finite, temperatures above absolute zero, footprints on their
-    /// faces and within their ranges.
+    /// Checks all inputs: they must be finite, temperatures above absolute zero, footprints on their faces and within
+    /// their ranges.
     pub fn check_inputs(&self, inputs: &[f64]) -> Result<(), ModelError> {
-        // Without a way out of the loop, many values are looked at in one go.
+        // Without an early exit the loop is vectorised.
         let all_finite = inputs.iter().fold(true, |fine, value| fine & value.is_finite());
         if !all_finite && let Some(index) = inputs.iter().position(|value| !value.is_finite()) {
             let message = format!("{} is not a finite number", inputs[index]);
@@ -164,13 +163,13 @@ impl Model {
         Ok(self.bodies.iter().try_for_each(|body| body.check_inputs(inputs))?)
     }
 
-    /// Advances by `dt` [s]. Inputs follow their derivatives over the step and are held without; at
-    /// its end the state has their values and derivatives there. A refusal changes nothing.
+    /// Advances by `dt` [s]. Inputs follow their derivatives over the step, or are constant without any; the state ends
+    /// with their values and derivatives at that time. An error changes nothing.
     pub fn step(&self, state: &mut State, cache: &mut Cache, dt: f64) -> Result<(), ModelError> {
         self.step_unless(&Interrupt::default(), state, cache, dt)
     }
 
-    /// The same, unless it is interrupted meanwhile, which changes nothing either.
+    /// Advances like [`Self::step`], unless it is interrupted, which changes nothing either.
     pub fn step_unless(
         &self,
         interrupt: &Interrupt,
@@ -181,7 +180,7 @@ impl Model {
         self.step_within(&Allowance::of_step(interrupt), state, cache, dt)
     }
 
-    /// The same, as far as an allowance goes.
+    /// Advances within an allowance of work.
     pub fn step_within(
         &self,
         allowance: &Allowance,
@@ -207,7 +206,7 @@ impl Model {
         (path, dt): (&InputPath, f64),
     ) -> Result<(), ModelError> {
         let mut next = state.clone();
-        // What inputs make jump is there before any heat has moved.
+        // Jumps of inputs act before any heat has moved.
         self.note_peaks_here(&mut next, cache).map_err(|(_, error)| error)?;
         cache.update(self, state);
         self.advance(&mut next.bodies, cache, (path, dt), allowance)?;
@@ -222,7 +221,7 @@ impl Model {
         }
         cache.forget_states(self);
         if let Err((place, error)) = self.note_peaks_here(&mut next, cache) {
-            // It holds what follows from a state that is not taken.
+            // The cache follows from a state that is discarded.
             cache.clear();
             let body = self.bodies[place].name().to_owned();
             let is_too_large = matches!(error, BodyError::NotFinite(_));
@@ -232,7 +231,7 @@ impl Model {
         Ok(())
     }
 
-    /// Runs `work` on a thread of ours if steps take more stack than a host's thread need have.
+    /// Runs `work` on a thread of our own if steps need more stack than a host's thread has to provide.
     fn with_stack<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
         match self.bodies.iter().any(|body| body.steps_are_deep()) {
             true => aside(work),
@@ -257,12 +256,12 @@ impl Model {
         self.reader(state, cache)?.value(output)
     }
 
-    /// Brings what the cache holds up to date with a state whose inputs make sense.
+    /// Updates the cache to a state whose inputs are valid.
     pub fn refresh(&self, state: &State, cache: &mut Cache) {
         cache.update(self, state);
     }
 
-    /// Reads outputs of a state one after another; looks at the inputs once for all of them.
+    /// Reads several outputs of a state; checks the inputs once for all of them.
     pub fn reader<'a>(
         &'a self,
         state: &'a State,
@@ -290,10 +289,10 @@ impl Model {
         Ok(fields)
     }
 
-    /// All particles of a droplet, images at mirrors included.
+    /// Values of all particles of a droplet, including mirror images.
     ///
     /// # Panics
-    /// If the body is none of particles.
+    /// If the body has no particles.
     pub fn particle_fields(&self, state: &State, body: &str) -> ParticleFields {
         let place = self.place(body);
         let mut memo = self.bodies[place].memo(&state.inputs, &[]);
@@ -319,18 +318,18 @@ impl Model {
         }
     }
 
-    /// Whether a body's nodes are those of a meridian section.
+    /// Returns true if a body's nodes are those of a meridian section.
     pub fn is_axisymmetric(&self, body: &str) -> bool {
         self.scene.body.get(body).is_some_and(scene::Body::is_round)
     }
 
-    /// Most threads that any body may use.
+    /// Largest number of threads that any body may use.
     pub fn threads(&self) -> usize {
         self.bodies.iter().map(|body| body.threads()).max().unwrap_or(1)
     }
 
-    /// What solves the mechanics of its bodies; models that differ in what concerns heat alone share it as long as
-    /// somebody holds it.
+    /// Returns the elastic problems of its bodies; models that differ only in thermal data share them while they are
+    /// held.
     pub fn stiffness(&self) -> Stiffness {
         self.bodies.iter().filter_map(|body| body.stiffness()).collect()
     }
@@ -340,8 +339,8 @@ impl Model {
         self.bodies.iter().map(|body| body.factor_entries()).sum()
     }
 
-    /// Estimate of the largest relative error of a body's outputs over the default experiment, that of its mesh [1];
-    /// −1 where there is none.
+    /// Estimate of the largest relative error of a body's outputs over the default experiment, caused by its mesh [1];
+    /// −1 without an estimate.
     pub fn estimated_error(&self, place: usize) -> f64 {
         let Some(name) = self.scene.body.keys().nth(place) else { return NO_ESTIMATE };
         let known = self.scene.refinement.get(name).and_then(|factors| factors.estimated_error);
@@ -352,14 +351,14 @@ impl Model {
         })
     }
 
-    /// Of each reduced body its name and what it was reduced to; others that need the same find it as long as this is
-    /// held.
+    /// Returns the name and the reduction of each reduced body. Other models that need the same reduction find it while
+    /// this is held.
     pub fn reductions(&self) -> Vec<(String, KeptReduction)> {
         let bodies = self.bodies.iter();
         bodies.filter_map(|body| Some((body.name().to_owned(), body.reduction()?))).collect()
     }
 
-    /// What was chosen or left out, and why: a sentence each.
+    /// Returns notes on choices and simplifications, with reasons: one sentence each.
     pub fn notes(&self) -> Vec<String> {
         self.bodies.iter().flat_map(|body| body.notes()).collect()
     }
@@ -370,7 +369,7 @@ impl Model {
     }
 }
 
-/// What stands for an error that is not estimated.
+/// Value of an error that is not estimated.
 const NO_ESTIMATE: f64 = -1.0;
 
 /// Start values of all inputs, in the order of the layout.

@@ -1,5 +1,5 @@
-//! Parts of a scene that do not go together: a droplet that nothing catches, what is wider than the plate,
-//! loads that the mesh does not see.
+//! Parts of a scene that do not fit together: a droplet without a surface, loads wider than the plate, loads that the
+//! mesh does not resolve.
 
 use super::Reviewer;
 use crate::scene::check::{fits, number};
@@ -9,7 +9,7 @@ use crate::scene::{Coupling, Droplet, Wall};
 use crate::scene::{Footprint, Load, Mesh, Solid};
 use crate::warning;
 
-/// Fewest distances of nodes over the radius of a spot or half the size of tiles.
+/// Smallest number of node spacings over the radius of a spot or half the size of tiles.
 pub const NODES_PER_RADIUS: f64 = 2.0;
 
 pub fn review(reviewer: &mut Reviewer) {
@@ -39,7 +39,7 @@ pub fn review(reviewer: &mut Reviewer) {
     }
 }
 
-/// Warns of a droplet above a solid that it does not meet.
+/// Warns of a droplet above a solid that it does not touch.
 fn caught(reviewer: &mut Reviewer, path: &Path, name: &str) {
     let scene = reviewer.scene;
     if scene.wall_under(name).is_some() || scene.coupling_from(name).is_some() {
@@ -51,12 +51,12 @@ fn caught(reviewer: &mut Reviewer, path: &Path, name: &str) {
     }
 }
 
-/// Warns of a droplet whose first drop does not come down by the stop time.
+/// Warns of a droplet whose first drop does not land by the stop time.
 fn arrives(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
     let Some(arrival) = droplet.arrivals().first() else { return };
     let stop = reviewer.scene.stop_time;
     let down = arrival.time + droplet.fall_time(droplet.normal_speed());
-    // A drop that is released half a distance of particles above the wall touches it.
+    // A drop released half a particle spacing above the wall touches it.
     if down <= stop * (1.0 + 1e-9) || (arrival.time < stop && droplet.gap() <= droplet.spacing) {
         return;
     }
@@ -72,7 +72,7 @@ fn arrives(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
     reviewer.warn(&path.key(key), finding);
 }
 
-/// Warns of fine meshes and of drops that are wider than the plate.
+/// Warns of fine meshes and drops that are wider than the plate.
 fn width(reviewer: &mut Reviewer, path: &Path, coupling: &Coupling, droplet: &Droplet) {
     let Some((solid, below)) = reviewer.scene.solid_below(coupling) else { return };
     let half = lateral_extents(&below.shape).map(|extent| 0.5 * extent);
@@ -92,7 +92,7 @@ fn width(reviewer: &mut Reviewer, path: &Path, coupling: &Coupling, droplet: &Dr
     }
 }
 
-/// Warns of droplets of two bodies that are expected to spread over each other.
+/// Warns of droplets of two bodies that are expected to overlap as they spread.
 fn apart(
     reviewer: &mut Reviewer,
     path: &Path,
@@ -111,12 +111,12 @@ fn apart(
     }
 }
 
-/// Widest cells over the distance of particles that tell a solid apart that the fluid's heat warms by more than half of
-/// what there is: beyond, its middle is off by more than a tenth of its rise.
+/// Widest cells over the particle spacing at which a separate solid is resolved if the fluid's heat warms it by more
+/// than half of the temperature difference. Beyond, the error at its middle is more than a tenth of its rise.
 const WIDEST_ON_POOR: f64 = 1.2;
 
-/// Warns of cells that are narrower than particles, which then tell one cell from the next by chance alone, and of wide
-/// ones on solids that conduct less than the fluid: within these, flux and temperature differ.
+/// Warns of cells narrower than particles, whose differences are then random. Also warns of wide cells on solids that
+/// conduct less than the fluid: within these, flux and temperature vary.
 fn resolved(reviewer: &mut Reviewer, path: &Path, wall: &Wall, droplet: &Droplet) {
     let (key, widths) = match wall.footprint {
         Footprint::Rings { count, radius } => ("rings", vec![radius / count as f64]),
@@ -145,7 +145,7 @@ fn resolved(reviewer: &mut Reviewer, path: &Path, wall: &Wall, droplet: &Droplet
     }
 }
 
-/// Largest distance of nodes along the surface that comes of a `spacing` [m].
+/// Largest node spacing along the surface for a `spacing` [m].
 fn distance(spacing: f64, solid: &Solid) -> f64 {
     if solid.mesh.growth == Some(1.0) {
         return spacing;
@@ -156,7 +156,7 @@ fn distance(spacing: f64, solid: &Solid) -> f64 {
     spacing.min(0.5 * x.max(y) / (Mesh::LATERAL_ELEMENTS * order))
 }
 
-/// Warns of loads that are smaller than the distances of nodes that the scene asks for.
+/// Warns of loads that are smaller than the node spacings of the scene.
 fn seen(reviewer: &mut Reviewer, path: &Path, load: &Load) {
     let Some(solid) = reviewer.scene.solid_under(load) else { return };
     if let (None, Footprint::Ring { inner, outer }) = (solid.mesh.spacing, load.footprint)

@@ -7,7 +7,7 @@ use crate::scene::{Body, Scene};
 const LIGHTEST_COMMON: f64 = 150.0;
 
 impl Scene {
-    /// Returns true if the scene says that it is cold, or is so throughout.
+    /// Returns whether the scene is declared cold, or is cold throughout.
     pub fn cold(&self) -> Cold {
         let is_light = self.droplets().any(|(_, drop)| drop.fluid.density < LIGHTEST_COMMON);
         if self.cryogenic || is_light {
@@ -19,7 +19,7 @@ impl Scene {
         }
     }
 
-    /// Returns true if something in the scene is no colder than what is plausible beside warm things.
+    /// Returns true if something in the scene is at least as warm as is plausible next to warm things.
     fn has_warm(&self) -> bool {
         let is_warm = |temperature: f64| temperature >= BESIDE_WARM;
         let of_walls = self.wall.iter().any(|wall| {

@@ -1,4 +1,4 @@
-//! Drops that are replayed and say little of what they land on.
+//! Replayed drops on surfaces for which their records are unreliable.
 
 use super::{Path, Reviewer, number};
 use crate::closed_form::DropImpact;
@@ -19,12 +19,12 @@ pub fn review(reviewer: &mut Reviewer) {
     }
 }
 
-/// Most films on one place that were compared with particles (`docs/fidelity.md`).
+/// Largest number of films on one place that were compared with particles (`docs/fidelity.md`).
 pub const MEASURED_FILMS: f64 = 3.0;
-/// Time after which a film gives a thousandth of its heat, over that in which it cools.
+/// Time after which a film transfers a thousandth of its heat, over the time in which it cools.
 const SPENT: f64 = 3.0;
 
-/// Warns of arrivals on one place where more films than were ever measured still give heat.
+/// Warns of arrivals on one place at which more films than were ever measured still transfer heat.
 fn stacked(reviewer: &mut Reviewer, (name, droplet): (&str, &Droplet)) {
     let (speed, _) = droplet.contact(droplet.normal_speed());
     if droplet.fluid.conductivity == 0.0 || speed <= 0.0 || droplet.is_on_demand() {
@@ -46,11 +46,11 @@ fn stacked(reviewer: &mut Reviewer, (name, droplet): (&str, &Droplet)) {
     reviewer.warn(&path, warning::drops_stack(time, films, MEASURED_FILMS));
 }
 
-/// Effusivities of layers of which the one may be taken for the other.
+/// Ratio of effusivities up to which two layers count as equal.
 const ALIKE: f64 = 1.25;
 
-/// Warns of drops on what is thinner than their heat goes while they cool: what is known of them was found on a half
-/// space, from which heat does not come back.
+/// Warns of drops on layers thinner than the heat penetration depth during cooling: records were computed on a half
+/// space, from which no heat returns.
 fn thin(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Droplet)) {
     let Some((thickness, diffusivity)) = half_space(reviewer.scene, name) else { return };
     let (speed, _) = droplet.contact(droplet.normal_speed());
@@ -66,7 +66,7 @@ fn thin(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Droplet))
     reviewer.warn(path, warning::layer_thinner_than_heat_penetrates(thickness, depth));
 }
 
-/// Thickness [m] to which what lies below a droplet is much like its top, and the diffusivity of that [m²/s].
+/// Thickness [m] over which the material below a droplet is similar to its top, and the diffusivity of that [m²/s].
 fn half_space(scene: &Scene, name: &str) -> Option<(f64, f64)> {
     scene.effusivity_below(name)?;
     let coupling = &scene.coupling[scene.coupling_from(name)?];
@@ -80,7 +80,7 @@ fn half_space(scene: &Scene, name: &str) -> Option<(f64, f64)> {
     Some((alike.map(|layer| layer.thickness()).sum(), top.diffusivity()))
 }
 
-/// Time in which the film of a drop cools [s]: `δ²/a` over the square of what part of its heat the wall takes up.
+/// Time in which the film of a drop cools [s]: `δ²/a` over the square of the share of its heat that the wall absorbs.
 fn cooling_time(scene: &Scene, (name, droplet): (&str, &Droplet)) -> f64 {
     let fluid = &droplet.fluid;
     let own = fluid.effusivity();
@@ -89,17 +89,17 @@ fn cooling_time(scene: &Scene, (name, droplet): (&str, &Droplet)) -> f64 {
     thickness(droplet).powi(2) / (diffusivity * taken.powi(2))
 }
 
-/// Of the film that a drop becomes [m].
+/// Thickness of the film that a drop forms [m].
 fn thickness(droplet: &Droplet) -> f64 {
     let spread = droplet.spread_diameter() / droplet.diameter;
     2.0 / 3.0 * droplet.diameter / spread.powi(2)
 }
 
-/// Fourier number of a film over D/U from which on it has cooled through while its drop still comes down.
+/// Fourier number of a film over D/U from which on it has cooled through while its drop still arrives.
 const COOLED: f64 = 0.25;
 
-/// Warns of films that have given their heat before fresh fluid has ceased to come: metals on what conducts. They are as
-/// thin from the first as they get.
+/// Warns of films that have cooled before fresh fluid stops arriving: metals on good conductors. They have their final
+/// thickness from the start.
 fn depleted(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Droplet)) {
     let (speed, _) = droplet.contact(droplet.normal_speed());
     if droplet.fluid.conductivity == 0.0 || speed <= 0.0 {
@@ -114,10 +114,11 @@ fn depleted(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Dropl
     reviewer.warn(path, warning::film_cools_through(fourier, COOLED));
 }
 
-/// Effusivity of what lies below over that of the fluid below which heat follows the wetted area: mercury on polymers.
+/// Effusivity of the material below over that of the fluid, below which heat follows the wetted area: mercury on
+/// polymers.
 const INSULATES: f64 = 0.15;
 
-/// Warns of films on what conducts next to nothing, whose heat follows the wetted area (`docs/fidelity.md`).
+/// Warns of films on near-insulators, whose heat follows the wetted area (`docs/fidelity.md`).
 fn insulated(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Droplet)) {
     let Some(below) = reviewer.scene.effusivity_below(name) else { return };
     if droplet.fluid.conductivity == 0.0 || below >= INSULATES * droplet.fluid.effusivity() {
@@ -126,11 +127,11 @@ fn insulated(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Drop
     reviewer.warn(path, warning::film_on_insulator());
 }
 
-/// Reynolds number below which drops rest on a flat that is much smaller than the fitted footprint.
+/// Reynolds number below which drops rest on a flat much smaller than the fitted footprint.
 const VISCOUS: f64 = 4.0;
 
-/// Warns of drops beyond the ranges over which footprints of films were fitted. Beside particles (D/Δx 40 and 80) heat
-/// after 1 D/U was 1.9 times as much at Re 2.4, 2.9 and 3.1 times at Re 0.7, and 8.9 times at Re 0.1.
+/// Warns of drops beyond the ranges over which footprints of films were fitted. Compared with particles (D/Δx 40 and
+/// 80), heat after 1 D/U was 1.9 times as much at Re 2.4, 2.9 and 3.1 times at Re 0.7, and 8.9 times at Re 0.1.
 fn unfitted(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
     let impact =
         DropImpact { speed: droplet.contact(droplet.normal_speed()).0, ..droplet.impact() };

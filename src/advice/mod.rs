@@ -30,14 +30,15 @@ pub fn parse_with_warnings(text: &str, file: &str) -> Result<(Scene, Vec<Warning
     Ok((scene, found))
 }
 
-/// What is implausible in a scene whose constants were changed after it was read; no lines are named.
+/// Returns warnings about a scene whose constants were changed after it was read; no lines are named.
 pub fn warnings(scene: &Scene) -> Vec<Warning> {
     let Ok(text) = toml::to_string(scene) else { return Vec::new() };
     let Ok(source) = Source::parse(&text, scene::CHANGED) else { return Vec::new() };
     found(scene, (&source, false), &Schema::of_scenes())
 }
 
-/// Warnings of a checked scene in the order of its lines; `names_lines` if the source is the user's file.
+/// Returns the warnings of a checked scene in the order of its lines; `names_lines` is set if the source is the user's
+/// file.
 fn found(scene: &Scene, (source, names_lines): (&Source, bool), schema: &Schema) -> Vec<Warning> {
     let mut reviewer = Reviewer { scene, source, names_lines, found: Vec::new() };
     let cold = scene.cold();
@@ -101,7 +102,7 @@ fn implausible(range: &Range, value: f64) -> Option<Finding> {
     })
 }
 
-/// The way out for scenes that are cold.
+/// Remedy for scenes that are cold.
 const COLD_ON_PURPOSE: &str = " If the scene is meant to be this cold, set `cryogenic = true`";
 
 /// 0 °C [K].
@@ -112,18 +113,18 @@ fn celsius(temperature: f64) -> String {
     format!("{} °C", number(temperature - CELSIUS).replace('-', "−"))
 }
 
-/// What inputs are that act on bodies.
+/// Kinds of inputs that act on bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Measure {
     Temperature,
-    /// Temperature of what flows by.
+    /// Temperature of a passing fluid.
     Ambient,
     HeatTransfer,
     HeatFlux,
     Traction,
 }
 
-/// The warning of a value that is hardly meant for an input of a unit of the scene.
+/// Returns a warning about an implausible value of an input of a scene's unit.
 pub fn implausible_input(
     scene: &Scene,
     name: &str,

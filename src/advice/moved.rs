@@ -1,4 +1,4 @@
-//! Footprints that an input moves to where the mesh does not see them, or makes too small for it.
+//! Footprints that an input moves out of the fine mesh, or makes too small for it.
 
 use super::arrangement::NODES_PER_RADIUS;
 use super::place_of_input;
@@ -7,14 +7,16 @@ use crate::scene::lateral_extents;
 use crate::scene::{Load, Mesh, MeshFactors, Scene, Solid};
 use crate::warning::{self, Warning};
 
-/// Growth of elements away from loads, where the scene names none.
+/// Growth of elements away from loads, unless the scene sets it.
 const GROWTH: f64 = 1.2;
-/// Nodes over the least feature of a load, where the scene names no spacing.
+/// Number of nodes over the smallest feature of a load, unless the scene sets a spacing.
 const NODES_PER_FEATURE: f64 = 10.0;
 
-/// The warning of a value [m] of the input `LOAD.x` or `LOAD.y` that puts the footprint where nodes are too far apart.
+/// Returns a warning about a value [m] of the input `LOAD.x` or `LOAD.y` at which the mesh is too coarse for the
+/// footprint.
 ///
-/// Certain rather than complete: nodes stand as densely as all loads of the body and its symmetry let them.
+/// It has no false positives, but may miss cases: it assumes the densest nodes that the body's loads and symmetry
+/// allow.
 pub fn implausible_place(scene: &Scene, name: &str, value: f64) -> Option<Warning> {
     if let Some(load) = scene.load.iter().find(|load| is_radius(load, name)) {
         return implausible_radius(scene, load, (name, value));
@@ -30,7 +32,7 @@ pub fn implausible_place(scene: &Scene, name: &str, value: f64) -> Option<Warnin
     let on_body = || scene.load.iter().filter(|other| other.body_and_face().0 == body);
     let way = on_body().map(|other| way_from(other, axis, value)).fold(f64::INFINITY, f64::min);
     if way == 0.0 {
-        // Where the mesh is as fine as anywhere, `check` warns of a load too small for it.
+        // If the mesh is at its finest, `check` warns of a load too small for it.
         return None;
     }
     let finest = on_body().map(|other| spacing(solid, other)).fold(f64::INFINITY, f64::min);
@@ -48,7 +50,7 @@ pub fn implausible_place(scene: &Scene, name: &str, value: f64) -> Option<Warnin
     })
 }
 
-/// The warning of a radius [m] across which too few nodes lie, where nodes are as dense as anywhere.
+/// Returns a warning about a radius [m] that is too small even for the finest part of the mesh.
 fn implausible_radius(scene: &Scene, load: &Load, (name, value): (&str, f64)) -> Option<Warning> {
     let body = load.body_and_face().0;
     let apart = spacing(scene.solid_under(load)?, load) / along(scene, body);
@@ -63,12 +65,12 @@ fn is_radius(load: &Load, name: &str) -> bool {
     name.strip_prefix(load.name.as_str()).is_some_and(|rest| matches!(rest, ".radius" | "_radius"))
 }
 
-/// How many times as many elements as usual a body has along the surface.
+/// Ratio of a body's number of elements along the surface to the usual number.
 fn along(scene: &Scene, body: &str) -> f64 {
     scene.refinement.get(body).map_or(1.0, |factors: &MeshFactors| factors.along)
 }
 
-/// Which place of a load a variable is, in either way of naming.
+/// Returns the coordinate of a load that a variable represents, in either naming.
 fn axis(load: &Load, name: &str) -> Option<usize> {
     match name.strip_prefix(load.name.as_str())? {
         ".x" | "_x" => Some(0),
@@ -77,7 +79,7 @@ fn axis(load: &Load, name: &str) -> Option<usize> {
     }
 }
 
-/// How far a place is from where the mesh is fine for a load, or from the image of that [m].
+/// Distance of a place from the fine mesh of a load, or from the image of that [m].
 fn way_from(load: &Load, axis: usize, value: f64) -> f64 {
     let (start, range) = match axis {
         0 => (load.start.x, load.range.x),
@@ -90,7 +92,7 @@ fn way_from(load: &Load, axis: usize, value: f64) -> f64 {
     (beyond(value).min(beyond(-value)) - reach).max(0.0)
 }
 
-/// Distance of nodes at a load [m].
+/// Node spacing at a load [m].
 fn spacing(solid: &Solid, load: &Load) -> f64 {
     let least = load.range.radius.map(|[least, _]| least).or(load.start.radius);
     let feature = load.footprint.half_width(least);

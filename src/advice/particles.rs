@@ -1,4 +1,4 @@
-//! Particles too few, or of a kernel too wide, for what a scene asks of them.
+//! Too few particles, or too wide a kernel, for a scene.
 
 use super::Reviewer;
 use super::resolution::{HeatError, Resolution};
@@ -8,15 +8,15 @@ use crate::scene::Droplet;
 use crate::scene::locate::Path;
 use crate::warning::{self, Finding};
 
-/// Distances of particles over the thickness of a film below which it breaks up too soon, and what is proposed instead.
+/// Particle spacings over the thickness of a film below which it breaks up too soon, and the proposed number.
 const THINNEST: f64 = 1.5;
 const THICK: f64 = 2.0;
-/// Least expected error of heat that is warned of, half as much again as what that is known to.
+/// Smallest expected error of heat that causes a warning, one and a half times the uncertainty of the estimate.
 const LEAST_TOLD: f64 = 0.08;
-/// Fewest particles across a drop that tell its heat, and some that do.
+/// Smallest number of particles across a drop that resolves its heat, and a recommended number.
 const FEWEST: f64 = 7.9;
 const SOME: f64 = 12.0;
-/// δ below which pressures ring, and the usual one.
+/// δ below which pressures oscillate, and the usual δ.
 const LEAST_DIFFUSION: f64 = 0.01;
 const USUAL_DIFFUSION: f64 = 0.1;
 
@@ -34,9 +34,9 @@ pub fn review(reviewer: &mut Reviewer) {
     }
 }
 
-/// Widest support of a spline, in distances of particles, at which no pairs form under pressure: that of 55 neighbours
-/// and of 180 (W. Dehnen & H. Aly 2012, Mon. Not. R. Astron. Soc. 425, 1068–1082, doi
-/// 10.1111/j.1365-2966.2012.21439.x). Under Wendland's kernels none form.
+/// Largest support of a spline, in particle spacings, at which no pairs form under pressure: that of 55 neighbours and
+/// of 180 (W. Dehnen & H. Aly 2012, Mon. Not. R. Astron. Soc. 425, 1068–1082, doi 10.1111/j.1365-2966.2012.21439.x).
+/// Under Wendland's kernels none form.
 fn widest_support(kernel: Kernel) -> Option<(&'static str, f64)> {
     match kernel {
         Kernel::CubicSpline => Some(("cubic", 2.35)),
@@ -55,7 +55,7 @@ fn pairs(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
     reviewer.warn(&path.key("kernel"), finding);
 }
 
-/// Warns of density diffusion too weak to damp waves of pressure.
+/// Warns of density diffusion too weak to damp pressure waves.
 fn ringing(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
     if droplet.density_diffusion >= LEAST_DIFFUSION {
         return;
@@ -64,7 +64,7 @@ fn ringing(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
     reviewer.warn(&path.key("density_diffusion"), finding);
 }
 
-/// Warns of particles that line up along streams, as nothing moves them apart.
+/// Warns of particles that align along streamlines without shifting.
 fn streams(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
     let free = Droplet { shifting: None, ..droplet.clone() };
     if droplet.shifts() || !free.shifts() {
@@ -73,7 +73,7 @@ fn streams(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
     reviewer.warn(&path.key("shifting"), warning::particles_line_up());
 }
 
-/// Warns of a drop of next to no particles.
+/// Warns of a drop of very few particles.
 fn coarse(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
     let across = droplet.diameter / droplet.spacing;
     if across >= FEWEST {
@@ -83,8 +83,8 @@ fn coarse(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
     reviewer.warn(path, warning::drop_of_few_particles(across, spacing));
 }
 
-/// Warns of a film that gets too thin for its particles by the stop time, or of particles too wide for the layers of
-/// shear and heat in it.
+/// Warns of a film that becomes too thin for its particles by the stop time, or of particles too wide for its shear and
+/// thermal layers.
 fn resolved(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Droplet)) {
     let Some(resolution) = Resolution::of(reviewer.scene, (name, droplet)) else { return };
     let heat = resolution.heat().filter(|_| droplet.fluid.conductivity > 0.0);
@@ -117,7 +117,7 @@ fn resolved(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Dropl
     reviewer.warn(path, off(&resolution, &heat, tolerated, remedy));
 }
 
-/// The expected error of heat and its cause, or the interval that covers it outside of the fitted ranges.
+/// Expected error of heat and its cause, or outside the fitted ranges the interval that covers it.
 fn off(resolution: &Resolution, heat: &HeatError, tolerated: f64, remedy: String) -> Finding {
     if let Some(outside) = &heat.outside {
         return warning::heat_error_not_fitted(percent(heat.half), outside, remedy);
@@ -128,7 +128,7 @@ fn off(resolution: &Resolution, heat: &HeatError, tolerated: f64, remedy: String
     warning::heat_beyond_tolerance(error, tolerated, film, sheared, warmed, remedy)
 }
 
-/// A film on a poor conductor whose wetted area so few particles do not resolve.
+/// Warns of a film on a poor conductor whose wetted area is not resolved by its particles.
 fn wetted(resolution: &Resolution, droplet: &Droplet) -> Option<Finding> {
     if droplet.fluid.conductivity == 0.0 {
         return None;
@@ -144,7 +144,7 @@ fn wetted(resolution: &Resolution, droplet: &Droplet) -> Option<Finding> {
     }
 }
 
-/// A film that gets too thin for its particles.
+/// Warns of a film that becomes too thin for its particles.
 fn thin(resolution: &Resolution, droplet: &Droplet, heat: Option<&HeatError>) -> Option<Finding> {
     let [film, _] = resolution.layers();
     if film >= THINNEST {
@@ -156,13 +156,13 @@ fn thin(resolution: &Resolution, droplet: &Droplet, heat: Option<&HeatError>) ->
     Some(warning::film_thinner_than_particles(film, THINNEST, of_heat, force, spacing))
 }
 
-/// A number below a bound, with as many digits as tell it from that, up to three.
+/// Formats a number below a bound with as many digits as distinguish it from the bound, up to three.
 fn below(value: f64, bound: f64) -> String {
     let digits = (1..3).find(|&digits| format!("{value:.digits$}") != format!("{bound:.digits$}"));
     format!("{value:.0$}", digits.unwrap_or(3))
 }
 
-/// An error and what it may be off by, in words.
+/// Formats an error and its uncertainty.
 fn percents(heat: &HeatError) -> String {
     format!("{:+.0} ± {:.0} %", 100.0 * heat.expected, 100.0 * heat.half)
 }
@@ -171,12 +171,12 @@ fn percent(error: f64) -> String {
     format!("{:.0} %", 100.0 * error)
 }
 
-/// To two digits.
+/// Formats to two digits.
 fn digits(value: f64) -> String {
     if value < 10.0 { format!("{value:.2}") } else { format!("{value:.0}") }
 }
 
-/// To two digits, downward.
+/// Rounds down to two digits.
 fn rounded(value: f64) -> f64 {
     let unit = 10f64.powf(value.log10().floor() - 1.0);
     let text = format!("{:.1e}", (value / unit).floor() * unit);

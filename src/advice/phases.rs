@@ -1,4 +1,4 @@
-//! Points of freezing and boiling that do not go with the temperature of their drops.
+//! Freezing and boiling points that contradict the temperature of their drops.
 
 use super::{CELSIUS, Reviewer, celsius, number};
 use crate::limits::plausible::{BESIDE_WARM, Cold};
@@ -14,7 +14,7 @@ pub fn review(reviewer: &mut Reviewer, cold: Cold) {
     }
 }
 
-/// Warns of drops that start frozen, and of points that fit their drops in °C.
+/// Warns of drops that start frozen, and of points that match their drops if read in °C.
 fn freezing(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet, cold: Cold) {
     let start = droplet.initial_temperature;
     let Some(point) = droplet.fluid.freezes_at else { return };
@@ -27,7 +27,7 @@ fn freezing(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet, cold: Cold)
     }
 }
 
-/// Warns of drops that start above the point at which they boil.
+/// Warns of drops that start above their boiling point.
 fn boiling(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
     let start = droplet.initial_temperature;
     let Some(point) = droplet.fluid.boils_at.filter(|&point| point < start) else { return };

@@ -1,4 +1,4 @@
-//! Constants that are plausible each, but not together; and what loads come to.
+//! Constants that are plausible alone, but not together; and effects of loads.
 
 use std::f64::consts::PI;
 
@@ -11,25 +11,25 @@ use crate::scene::locate::Path;
 use crate::scene::{CellValues, FaceName, HeatMethod, Mesh, Solid};
 use crate::warning;
 
-/// Foams and aerogels are lighter [kg/m³] and conduct less [W/(m K)] than this.
+/// Foams and aerogels have a lower density [kg/m³] and conductivity [W/(m K)] than these.
 const LIGHT: f64 = 30.0;
 const LIGHT_CONDUCTS: f64 = 1.0;
-/// At which materials are looked at that no body is known of [K].
+/// Temperature at which unknown materials are judged [K].
 const ROOM: f64 = 293.15;
-/// Speed of sound √(E/ρ) in a bar, 18 600 m/s in diamond [m/s].
+/// Upper limit of the speed of sound √(E/ρ) in a bar; it is 18 600 m/s in diamond [m/s].
 const FASTEST_SOUND: f64 = 22_000.0;
-/// Liquids that take up heat like water, or that conduct like a metal, are thinner than this [Pa s].
+/// Viscosity limit of liquids with the heat capacity of water or the conductivity of a metal [Pa s].
 const THIN: f64 = 0.1;
 const WATERY: f64 = 3900.0;
 const METALLIC: f64 = 7.0;
-/// Distances of particles below heated faces over √(at) up to which their temperatures are right to some per cent.
+/// Particle spacing below heated faces over √(at) up to which their temperatures are accurate to some per cent.
 const COARSEST_PARTICLES: f64 = 1.5;
-/// Those that would do.
+/// Recommended spacing over √(at).
 const FINE_PARTICLES: f64 = 0.3;
-/// Width over thickness from which on the bending of a plate loses its digits: rounding errs by some 10⁻¹⁷ times its
-/// fourth power, by 10 % to 60 % at 20 000.
+/// Width over thickness from which on the bending of a plate is lost in rounding. The rounding error is some 10⁻¹⁷
+/// times its fourth power, 10 % to 60 % at 20 000.
 const MOST_SLENDER: f64 = 5e3;
-/// Rise of the surface that nothing solid bears [K].
+/// Rise of the surface that no solid withstands [K].
 const HOTTEST_RISE: f64 = 1e4;
 
 pub fn review(reviewer: &mut Reviewer) {
@@ -89,7 +89,7 @@ fn fluid(reviewer: &mut Reviewer, path: &Path, fluid: &Fluid) {
     }
 }
 
-/// Warns of particles that are farther apart below the faces than heat goes by the stop time.
+/// Warns of particles that are further apart below the faces than the heat penetration depth at the stop time.
 fn particles(reviewer: &mut Reviewer, path: &Path, solid: &Solid) {
     let Mesh { spacing, depth_spacing, .. } = solid.mesh;
     let (HeatMethod::Sph, Some(apart)) = (solid.heat, depth_spacing.or(spacing)) else { return };
@@ -103,7 +103,7 @@ fn particles(reviewer: &mut Reviewer, path: &Path, solid: &Solid) {
     }
 }
 
-/// Warns of plates that bend and are so thin that nothing is left of their deflection but rounding.
+/// Warns of bending plates so thin that their deflection is lost in rounding.
 fn slender(reviewer: &mut Reviewer, path: &Path, (name, solid): (&str, &Solid)) {
     let is_flat = [FaceName::Top, FaceName::Bottom].into_iter().any(|face| {
         let face = solid.face(face);
@@ -118,12 +118,12 @@ fn slender(reviewer: &mut Reviewer, path: &Path, (name, solid): (&str, &Solid)) 
     reviewer.warn(&path.key("shape"), warning::plate_too_slender(ratio, most));
 }
 
-/// In two digits.
+/// Formats to two digits.
 fn rounded(value: f64) -> String {
     format!("{value:.1e}")
 }
 
-/// What the fluxes of loads and faces come to by the stop time.
+/// Warns of the effect of fluxes of loads and faces at the stop time.
 fn fluxes(reviewer: &mut Reviewer, (path, name): (&Path, &str), solid: &Solid) {
     for (face, condition) in &solid.faces {
         if let Some(flux) = condition.flux {
@@ -142,14 +142,14 @@ fn fluxes(reviewer: &mut Reviewer, (path, name): (&Path, &str), solid: &Solid) {
     }
 }
 
-/// The rise of a half space's surface under a constant flux, `2q√(at/π)/k`, and no more than on the
-/// axis of a disc in the long run, `qR/k`.
+/// Warns of the rise of a half space's surface under a constant flux, `2q√(at/π)/k`, limited by the steady state on the
+/// axis of a disc, `qR/k`.
 fn flux_of(reviewer: &mut Reviewer, path: &Path, (flux, radius): (f64, f64), solid: &Solid) {
     let half_space = |law: &Constants| {
         let depth = 2.0 * (law.diffusivity() * reviewer.scene.stop_time / PI).sqrt();
         flux * depth.min(radius) / law.conductivity
     };
-    // Of layers, the one that would be heated least.
+    // For layers, the smallest rise of any of them.
     let rises = solid.strata().into_iter().map(|layer| half_space(&layer.constants));
     let rise = rises.reduce(|a, b| if b.abs() < a.abs() { b } else { a }).unwrap_or(0.0);
     if !plausible::HEAT_FLUX.holds(flux) {
@@ -163,7 +163,7 @@ fn flux_of(reviewer: &mut Reviewer, path: &Path, (flux, radius): (f64, f64), sol
     }
 }
 
-/// The value of the largest magnitude.
+/// Returns the value of the largest magnitude.
 fn largest(values: &CellValues) -> f64 {
     let larger = |a: f64, b: &f64| if b.abs() > a.abs() { *b } else { a };
     match values {

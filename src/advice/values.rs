@@ -1,4 +1,4 @@
-//! Every number of a scene against its plausible range.
+//! Checks every number of a scene against its plausible range.
 
 use super::{Reviewer, implausible};
 use crate::limits::plausible::Cold;
@@ -8,7 +8,7 @@ pub fn review(reviewer: &mut Reviewer, schema: &Schema, cold: Cold) {
     let copies = reviewer.scene.copied_materials();
     let mut warned_list = None;
     schema.numbers(reviewer.source, &mut |place, limits, value| {
-        // Of a list, the first number that is out of range: the others are hardly better.
+        // In a list, only the first number out of range is reported: the others are hardly better.
         let is_said = place.list().is_some() && place.list() == warned_list;
         if limits.is_usual(value) || is_said {
             return;

@@ -1,4 +1,4 @@
-//! Which kind of body a scene's table makes, and what joins them.
+//! Builds the bodies of a scene's tables, and the links and joints between them.
 
 use super::contract::Body;
 use super::droplet::{DropletBody, ReplayBody};
@@ -18,16 +18,16 @@ pub struct Assembly {
     pub joints: Vec<Joint>,
 }
 
-/// How much of a model is read.
+/// Number of states in which a model will be read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Readings {
-    /// As many states as the scene's default experiment has.
+    /// The number of states of the scene's default experiment.
     Usual,
     OfStates(usize),
 }
 
-/// Builds the bodies of a scene, whose inputs begin as `start` says, and what joins them. Of the threads that are
-/// wanted, 0 for as many as are worth it, no more are taken than a second number.
+/// Builds the bodies of a scene with their links and joints; `start` holds the initial inputs. The first number
+/// requests threads, with 0 for as many as are worthwhile; the second one limits them.
 pub fn build(
     scene: &Scene,
     (layout, start): (&InputLayout, &[f64]),
@@ -81,7 +81,7 @@ pub fn build(
     Ok(Assembly { bodies: built.into_iter().flatten().collect(), links, joints })
 }
 
-/// The reductions of a scene whose inputs begin as `start` says, each with the name of its body, as bytes.
+/// Returns the reductions of a scene with initial inputs `start`, as bytes, each with the name of its body.
 pub fn reductions(
     scene: &Scene,
     (layout, start): (&InputLayout, &[f64]),
@@ -94,7 +94,7 @@ pub fn reductions(
     scene.solids().filter(|(name, _)| scene.is_reduced(name)).map(bytes).collect()
 }
 
-/// Threads for a body; 0 are wanted for as many as are worth it.
+/// Number of threads for a body; if `wanted` is 0, as many as are worthwhile.
 pub fn threads_for(wanted: usize, is_large: bool) -> usize {
     match wanted {
         0 if !is_large => 1,

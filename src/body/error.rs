@@ -6,13 +6,13 @@ use crate::quantity::kelvin;
 use crate::runtime::address_space::TooLittle;
 use crate::runtime::allowance::Halt;
 
-/// Why a body does not do what it is asked for.
+/// Reasons why a body refuses a call.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum BodyError {
-    /// An input is out of place; `index` is its place among the inputs.
+    /// An input is outside its limits; `index` is its place among the inputs.
     #[error("{message}")]
     Input { index: usize, message: String },
-    /// An input goes out of place in the course of a step, `after` seconds.
+    /// An input leaves its limits during a step, after `after` seconds.
     #[error("{message}, {after:e} s into the step")]
     Underway { index: usize, message: String, after: f64 },
     /// The results of a step are too large for numbers.
@@ -36,13 +36,13 @@ pub enum BodyError {
         "the value is {0}, beyond what numbers can hold: an input or constant is far too large"
     )]
     NotFinite(f64),
-    /// Nonlinear heat did not advance.
+    /// The nonlinear heat problem failed to advance.
     #[error("{body}: {failure}")]
     Heat { body: String, failure: NonlinearFailure },
     /// A body that yields found no equilibrium.
     #[error("{body}: {error}")]
     Equilibrium { body: String, error: InelasticError },
-    /// Loads on part of a body that stands for the whole do not.
+    /// Loads on a body modelled by one part are not symmetric about its planes of symmetry.
     #[error(
         "{body}: forces are not even about the planes of symmetry, which a body that yields needs (allowed: forces that \
          are, or `symmetry = \"none\"`)"
@@ -56,7 +56,7 @@ pub enum BodyError {
     /// A reduced model could not be made.
     #[error("the body cannot be reduced: {message} (allowed: fidelity full)")]
     Reduction { message: String },
-    /// The heat between two bodies that touch could not be found.
+    /// The heat between two bodies in contact could not be found.
     #[error(
         "the heat between {} and {} could not be found (allowed: shorter communication steps, or a shorter `interval` \
          of the coupling)",
@@ -64,16 +64,16 @@ pub enum BodyError {
         sides[1]
     )]
     Contact { sides: [String; 2] },
-    /// What is asked for takes more address space than the process may have.
+    /// The call needs more address space than the process may have.
     #[error(transparent)]
     NoRoom(#[from] TooLittle),
-    /// A step was ended before it was done.
+    /// A step was ended before it was complete.
     #[error("{body}: {halt}")]
     Halted { body: String, halt: Halt },
-    /// A value that this kind of body does not have.
+    /// This kind of body has no such value.
     #[error("the body has no such value")]
     NoSuchReading,
-    /// What has no derivative.
+    /// The value has no derivative.
     #[error(
         "what droplets give, what follows from heat that is not linear, and running maxima are known step by step: they \
          have no derivative"
@@ -82,7 +82,7 @@ pub enum BodyError {
 }
 
 impl BodyError {
-    /// The same of inputs as they are some time into a step [s].
+    /// Converts an error of the inputs into one at a time within a step [s].
     pub fn underway(self, after: f64) -> Self {
         match self {
             Self::Input { index, message } => Self::Underway { index, message, after },
@@ -90,7 +90,7 @@ impl BodyError {
         }
     }
 
-    /// Refuses what is no finite number.
+    /// Refuses values that are not finite.
     pub fn unless_finite(value: f64) -> Result<f64, Self> {
         if value.is_finite() { Ok(value) } else { Err(Self::NotFinite(value)) }
     }

@@ -1,4 +1,4 @@
-//! What a scene will cost.
+//! Cost of a scene.
 
 pub use super::droplet::DropletForecast;
 use super::solid::forecast_solid;
@@ -6,20 +6,20 @@ pub use super::solid::{BodyForecast, ParticleForecast};
 use super::{link, reduced};
 use crate::scene::{Coupling, Scene};
 
-/// What a scene will cost, estimated before it is built.
+/// Cost of a scene, estimated before it is built.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Forecast {
-    /// Of the solids.
+    /// Costs of the solids.
     pub bodies: Vec<BodyForecast>,
     pub droplets: Vec<DropletForecast>,
-    /// Communication steps of the default experiment.
+    /// Number of communication steps of the default experiment.
     pub steps: f64,
-    /// Time to find what passes between solids that touch in a communication step [s].
+    /// Time to solve for the heat between touching solids in one communication step [s].
     pub contact_time: f64,
 }
 
 impl Forecast {
-    /// Time to build the model and to run the default experiment, all stresses read in every step [s].
+    /// Time to build the model and run the default experiment, with all stresses read in every step [s].
     pub fn run_time(&self) -> f64 {
         let of_solid = |body: &BodyForecast| body.build_time + (self.steps + 1.0) * body.step_time;
         let of_bodies = self.bodies.iter().map(of_solid);
@@ -29,7 +29,7 @@ impl Forecast {
     }
 }
 
-/// What a scene will cost, without building it.
+/// Estimates the cost of a scene without building it.
 pub fn forecast(scene: &Scene) -> Forecast {
     let solids = scene.solids().map(|(name, solid)| {
         let full = forecast_solid(scene, name, solid);
@@ -42,11 +42,11 @@ pub fn forecast(scene: &Scene) -> Forecast {
     Forecast { bodies, droplets: droplets.collect(), steps, contact_time }
 }
 
-/// What an exchange between solids takes for each node of both [s]: some eight iterations of two stages each, as
-/// measured on pairs of 14 000 to 19 000 nodes.
+/// Time of an exchange between solids per node of both [s]: some eight iterations of two stages each, measured on pairs
+/// of 14 000 to 19 000 nodes.
 const CONTACT: f64 = 1.7e-6;
 
-/// Of a communication step; parts by which long steps begin are not counted.
+/// Time for the contacts in a communication step [s]; the extra parts at the start of long steps are not counted.
 fn contact_time(scene: &Scene, bodies: &[BodyForecast]) -> f64 {
     let nodes = |name: &str| {
         let body = bodies.iter().find(|body| body.name == name);
@@ -60,7 +60,7 @@ fn contact_time(scene: &Scene, bodies: &[BodyForecast]) -> f64 {
     scene.coupling.iter().filter_map(of_contact).sum()
 }
 
-/// The same of its droplets alone.
+/// Estimates the cost of the scene's droplets alone.
 fn droplet_forecasts(scene: &Scene) -> impl Iterator<Item = DropletForecast> {
     scene.droplets().map(|(name, droplet)| DropletForecast::of(scene, name, droplet))
 }

@@ -1,4 +1,4 @@
-//! Which bodies exchange heat and force, and how often.
+//! Exchange of heat and force between bodies: partners and intervals.
 
 use super::Body;
 use super::droplet;
@@ -10,36 +10,36 @@ use crate::port::{CommonCells, LateralModes};
 use crate::port::{SurfaceResponse, WallCells};
 use crate::scene::{Coupling, Droplet, FaceName, Scene};
 
-/// Most parts of a step that is cut where bodies ask for it.
+/// Largest number of parts of a step that is cut at the moments bodies ask for.
 pub const MOST_PARTS: usize = 64;
 
 /// A body that stands on a face of another.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Link {
-    /// Places of the bodies, the one above first.
+    /// Places of the upper and of the lower body.
     pub from: usize,
     pub to: usize,
-    /// Of the body below.
+    /// Face of the lower body.
     pub face: FaceName,
     /// Longest time between two exchanges [s].
     pub interval: f64,
-    /// Whether forces pass.
+    /// True if forces are transferred.
     pub traction: bool,
 }
 
-/// Two faces that touch, between which heat passes in proportion to the difference of their temperatures.
+/// Two faces in contact, between which heat flows in proportion to their temperature difference.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
-    /// Heat counts from the first to the second.
+    /// The heat flow is positive from the first side to the second.
     pub sides: [Side; 2],
     /// h [W/(m² K)]
     pub conductance: f64,
     /// Longest part of a step [s].
     pub interval: f64,
     pub cells: CommonCells,
-    /// Along the cells.
+    /// Modes along the cells.
     pub modes: LateralModes,
-    /// How fast two bodies whose temperatures are even each come to one temperature [1/s].
+    /// Rate at which two bodies, each of uniform temperature, equilibrate [1/s].
     rate: f64,
 }
 
@@ -51,7 +51,7 @@ pub struct Side {
     pub face: FaceName,
     /// Cells of the face along x, and all of them.
     pub counts: [usize; 2],
-    /// How the face answers to heat that is uniform along it, and the diffusivity of what is below [m²/s].
+    /// Response of the face to heat that is uniform along it, and diffusivity of the material below [m²/s].
     pub response: SurfaceResponse,
     pub diffusivity: f64,
 }
@@ -62,19 +62,19 @@ impl Joint {
         parts(self.interval, dt)
     }
 
-    /// How often a part of a step of this length [s] is halved for its first parts. What is fast beside a part would go
-    /// beyond its rest in the stages of one, by a tenth; parts that grow let it come to rest first.
+    /// Number of times that a part of a step of this length [s] is halved to form its first parts. Modes that are fast
+    /// relative to a part overshoot their equilibrium by a tenth in its stages; growing parts let them decay first.
     pub fn halvings(&self, length: f64) -> usize {
         let ratio = length * self.rate / FASTEST;
         if ratio > 1.0 { (ratio.log2().ceil() as usize).min(MOST_HALVINGS) } else { 0 }
     }
 
-    /// Temperatures of a side's cells as they are at the common ones.
+    /// Temperatures of a side's cells, transferred to the common cells.
     pub fn values(&self, side: usize, own: &[f64]) -> Vec<f64> {
         self.cells.values(side, own, self.sides[side].counts[0])
     }
 
-    /// Amounts at the common cells as those of a side's own.
+    /// Amounts at the common cells, transferred to a side's own cells.
     pub fn deposit(&self, side: usize, amounts: &[f64]) -> Vec<f64> {
         self.cells.deposit(side, amounts, self.sides[side].counts)
     }
@@ -93,7 +93,7 @@ pub fn linked_faces(scene: &Scene, name: &str) -> Vec<FaceName> {
     faces
 }
 
-/// Most cells of a face that touches a body; `place` tells that of a body.
+/// Largest number of cells of a face that touches a body; `place` returns the place of a body.
 pub fn most_cells(
     scene: &Scene,
     name: &str,
@@ -113,7 +113,7 @@ pub fn most_cells(
     scene.coupling.iter().filter_map(of_partner).max().unwrap_or(0)
 }
 
-/// The joints of a scene; `place` tells that of a body.
+/// Returns the joints of a scene; `place` returns the place of a body.
 pub fn joints(
     scene: &Scene,
     bodies: &[Option<Box<dyn Body>>],
@@ -143,7 +143,7 @@ pub fn joints(
         };
         let (from, to) = (side(0)?, side(1)?);
         let conductance = coupling.conductance?;
-        // Of the slowest mode, the inverse of the body's heat capacity per area; of the others, its own resistance.
+        // Slowest mode: inverse of the body's heat capacity per area; other modes: their own resistance.
         let slowest = |side: &Side| side.response.gains.first().copied().unwrap_or(0.0);
         let resistance = |side: &Side| {
             let modes = side.response.rates.iter().zip(&side.response.gains).skip(1);
@@ -162,7 +162,7 @@ pub fn joints(
     scene.coupling.iter().filter_map(joint).collect()
 }
 
-/// Cells along x.
+/// Number of cells along x.
 fn width(cells: &WallCells) -> usize {
     match cells {
         WallCells::Nodes { x, .. } => x.len(),
@@ -170,14 +170,14 @@ fn width(cells: &WallCells) -> usize {
     }
 }
 
-/// What may happen in a part of a step, over a relaxation time: at three times that stages go beyond rest.
+/// Largest length of a part of a step over the relaxation time; at three times that, stages overshoot equilibrium.
 const FASTEST: f64 = 1.5;
 const MOST_HALVINGS: usize = 20;
 
-/// Least part of a squared element's length over which heat may diffuse along it between two exchanges.
+/// Lower bound of the limit on `a Δt/h²` for diffusion along an element between two exchanges.
 const LEAST_ALONG: f64 = 0.01;
 
-/// The links of a scene; `place` tells that of a body.
+/// Returns the links of a scene; `place` returns the place of a body.
 pub fn links(scene: &Scene, place: impl Fn(&str) -> Option<usize>) -> Vec<Link> {
     let link = |coupling: &Coupling| {
         let (solid, droplet) = (coupling.solid()?, scene.droplet(&coupling.from)?);
@@ -202,20 +202,20 @@ impl Link {
 
 /// Number of equal parts of a step of `dt` [s], each with one exchange.
 pub fn parts(interval: f64, dt: f64) -> usize {
-    // A step that is an interval but for rounding is one part.
+    // A step of one interval, up to rounding, is one part.
     (dt / interval - 1e-9).ceil().max(1.0) as usize
 }
 
-/// Longest time between exchanges [s]: the scene's own, or the shorter of those in which
-/// - the flow goes by a distance of particles, Δx/U, and
-/// - heat that passes along the surface within an exchange, which only the next one finds there, stays small:
-///   `a Δt/h² ≤ e/(e + e_f)`, but no less than [`LEAST_ALONG`], with the solid's diffusivity a, its shortest
-///   element h, and effusivities e and e_f of solid and fluid; of layers, the largest a and the least e. On a good
-///   insulator it would else take places that are as warm as the fluid beyond its temperature;
+/// Longest time between exchanges [s]: the value of the scene, or the shorter of two times. During them
+/// - the flow passes one particle spacing, Δx/U, and
+/// - heat that spreads along the surface within an exchange, which only the next exchange notices, stays small:
+///   `a Δt/h² ≤ e/(e + e_f)`, but no less than [`LEAST_ALONG`]. Here a is the solid's diffusivity, h its shortest
+///   element, and e and e_f are the effusivities of solid and fluid; of layers, the largest a and the smallest e.
+///   Otherwise places on a good insulator that are as warm as the fluid would exceed its temperature.
 ///
-/// but no shorter than a time step of the droplet.
+/// The result is at least one time step of the droplet.
 ///
-/// Drops that are replayed know heat and force of any time, and exchange once in a communication step.
+/// Replayed drops know heat and force at any time, and exchange once in a communication step.
 pub fn interval(coupling: &Coupling, droplet: &Droplet, plan: &Plan) -> f64 {
     if droplet.is_replayed() {
         return coupling.interval.unwrap_or(f64::INFINITY);
@@ -233,12 +233,12 @@ pub fn interval(coupling: &Coupling, droplet: &Droplet, plan: &Plan) -> f64 {
     coupling.interval.unwrap_or_else(|| flow.min(along).max(time_step))
 }
 
-/// What was chosen, as a sentence.
+/// Returns a note on the chosen interval.
 pub fn note(interval: f64) -> String {
     format!("heat and momentum pass between droplet and solid at least every {interval:.3e} s")
 }
 
-/// Along the surface [m].
+/// Length of the shortest element along the surface [m].
 fn shortest_element(plan: &Plan) -> f64 {
     let lengths = plan.mesh.axes[..2].iter().flat_map(|axis| {
         (0..axis.elements()).map(|element| {

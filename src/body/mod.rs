@@ -1,6 +1,6 @@
-//! The bodies of a scene behind one interface: how they start, advance, meet each other and are read.
+//! The bodies of a scene behind one interface: they start, advance, exchange and are read.
 //!
-//! A kind of body is a folder. Only this module and the scene's own know which kinds there are.
+//! Each kind of body is a folder. Only this module and `scene` distinguish kinds.
 
 mod build;
 mod contract;

@@ -1,4 +1,4 @@
-//! Bodies of one temperature T: `C dT/dt = P − G (T − T∞) + Q`, with what solids that touch give, Q.
+//! Bodies of one temperature T: `C dT/dt = P − G (T − T∞) + Q`, with the heat flow Q from solids in contact.
 //!
 //! Sources are polynomials in time over a step, under which the equation is solved exactly (φ-functions, M. Hochbruck
 //! and A. Ostermann 2010, doi 10.1017/S0962492910000048).
@@ -20,7 +20,7 @@ use crate::runtime::allowance::Allowance;
 use crate::scene::{FaceName, Reservoir};
 use crate::state::{Field, Layout, Per};
 
-/// A reservoir and what of the scene concerns it.
+/// A reservoir, with the scene's data that concern it.
 pub struct ReservoirBody {
     name: String,
     /// C [J/K].
@@ -29,22 +29,22 @@ pub struct ReservoirBody {
     conductance: f64,
     /// [K]
     initial_temperature: f64,
-    /// Places of the heating and, where heat is lost, of the surroundings among the inputs.
+    /// Places of the heating among the inputs and, if heat is lost, of the ambient temperature.
     inputs: Range<usize>,
-    /// Most cells of a face that touches it.
+    /// Largest number of cells of a face that touches it.
     cells: usize,
 }
 
-/// Of a state: temperature above the initial one [K], heat brought in and heat lost since time zero [J].
+/// Length of a state: temperature above the initial one [K], heat supplied and heat lost since time zero [J].
 const LEN: usize = 3;
 
-/// Part of the heat in a reservoir and of the heat that passed which a balance may miss: runs keep it to rounding.
+/// Share of the stored or transferred heat that a balance may miss; runs keep the balance to rounding.
 const BALANCE: f64 = 1e-6;
 
-/// How well heat passes along a reservoir, beside all that conducts [m²/s]: it is the same all over.
+/// Diffusivity that represents the uniform temperature of a reservoir, far above that of any conductor [m²/s].
 const EVEN: f64 = 1e3;
 
-/// P and T∞, or derivatives of them, and Q.
+/// The sources P, T∞ and Q, or their time derivatives.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sources {
     heating: f64,
@@ -68,7 +68,7 @@ const fn heat(key: &'static str, words: &'static str) -> Descriptor {
     Descriptor { key, words, quantity: Quantity::Energy, direct: Direct::Nothing }
 }
 
-/// The totals that every reservoir offers.
+/// Returns the totals that every reservoir offers.
 pub fn offered_totals() -> Vec<(usize, Descriptor)> {
     TOTALS.into_iter().enumerate().collect()
 }
@@ -85,14 +85,14 @@ impl ReservoirBody {
         }
     }
 
-    /// Of inputs, or of a derivative of them.
+    /// Sources of inputs, or of a time derivative of them.
     fn sources(&self, inputs: &[f64]) -> Sources {
         let own = &inputs[self.inputs.clone()];
         let ambient = own.get(1).copied().unwrap_or_default();
         Sources { heating: own[0], ambient, received: 0.0 }
     }
 
-    /// The sources at the beginning of a step and their time derivatives.
+    /// Returns the sources at the beginning of a step and their time derivatives.
     fn over_step(&self, path: &InputPath, received: &[Received]) -> [Sources; 3] {
         let mut all = [Sources::default(); 3];
         for (sources, inputs) in all.iter_mut().zip(path.derivatives()) {
@@ -113,8 +113,8 @@ impl ReservoirBody {
         let rate = self.conductance / self.heat_capacity;
         let (z, start) = (rate * h, self.initial_temperature);
         let weights = exponential::weights(z);
-        // Temperatures count from that of the surroundings where these rule, from the initial one elsewhere: so
-        // neither what is stored nor what is lost is a small difference of large numbers.
+        // Temperatures are relative to the surroundings if these dominate, and to the initial one otherwise. Then
+        // neither the stored nor the lost heat is a small difference of large numbers.
         let rules = z > 1.0;
         let base = |k: usize| match (rules, k) {
             (true, _) => sources.get(k).map_or(0.0, |s| s.ambient),
@@ -126,7 +126,7 @@ impl ReservoirBody {
         let mut above = weights[0] * (start + state[0] - base(0));
         let mut integral = h * weights[1] * (start + state[0] - base(0));
         if !rules {
-            // To the bit where nothing acts.
+            // Bitwise unchanged if nothing acts.
             above = weights[0] * state[0];
             integral = h * weights[1] * state[0];
         }
@@ -151,7 +151,7 @@ impl ReservoirBody {
         self.initial_temperature + state[0]
     }
 
-    /// A total of a state, or of a change of it if temperatures count from zero.
+    /// Returns a total of a state, or of a change of it if temperatures are relative to zero.
     fn total(&self, state: &[f64], from: f64, reading: &Reading) -> Result<f64, BodyError> {
         match reading {
             Reading::Total(0) => Ok(from + state[0]),
@@ -163,7 +163,7 @@ impl ReservoirBody {
     }
 }
 
-/// Mean flow of heat of what was given [W].
+/// Mean heat flow of a transfer [W].
 fn flow(given: &Given) -> f64 {
     let heat: f64 = given.heat.iter().sum();
     if given.duration > 0.0 { heat / given.duration } else { 0.0 }

@@ -1,4 +1,4 @@
-//! What a body at the top or the bottom of a solid sees of it, and what the solid gets from that body.
+//! Cells of the top or the bottom of a solid: its temperatures for the body there, and the transfer from that body.
 
 use faer::Mat;
 
@@ -10,23 +10,23 @@ use crate::port::WallCells;
 use super::symmetry::split_load;
 use super::transfer::Transfer;
 
-/// The whole top or bottom of a solid, images at mirrors included, in cells about the ends of elements.
+/// The whole top or bottom of a solid, including mirror images, in cells about the ends of elements.
 ///
-/// Others give heat and force to functions that are linear between the ends of elements; seen
-/// as densities, these become the nodal vectors of the elements' own shape functions. Both sets of
-/// functions sum to one everywhere, so all that is given arrives, and what is uniform stays so. As the shape
-/// functions can be those densities, the surface takes them without going beyond: it is never warmer than
-/// the fluid that warms it.
+/// Other bodies transfer heat and force to functions that are linear between the ends of elements. As densities, these
+/// become the nodal vectors of the elements' own shape functions. Both sets of functions sum to one everywhere, so the
+/// transfer is conservative, and uniform values stay uniform. As the shape functions can represent those densities, the
+/// surface follows them without overshoot: it is never warmer than the fluid that warms it.
 pub struct FaceCells {
     mesh: Mesh,
-    /// `(node, is it the image)` of the ends of elements along x and y, coordinates ascending.
+    /// `(node, whether it is the image)` of the ends of elements along x and y, coordinates ascending.
     places: [Vec<(usize, bool)>; 2],
     /// From amounts on the linear functions to nodal vectors, along x and y of the mesh.
     consistent: [Mat<f64>; 2],
 }
 
 impl FaceCells {
-    /// Of the top or the bottom, whose nodes lie alike; `lumped` for particles, each of which has a volume of its own.
+    /// Cells of the top or the bottom, which have equal nodes; `lumped` is set for particles, each of which has a
+    /// volume of its own.
     pub fn of(mesh: &Mesh, lumped: bool) -> Self {
         Self {
             mesh: mesh.clone(),
@@ -42,7 +42,7 @@ impl FaceCells {
         }
     }
 
-    /// The whole face from a layer of nodes of each symmetry class; classes that are zero are empty.
+    /// Returns the whole face from a layer of nodes of each symmetry class; classes that are zero are empty.
     fn unfolded(&self, classes: &[Vec<f64>], layer: usize) -> Vec<f64> {
         let [nx, ny, _] = self.mesh.node_counts();
         let first = nx * ny * layer;
@@ -60,9 +60,9 @@ impl FaceCells {
         whole
     }
 
-    /// Nodal vectors, one a symmetry class, of an amount at each cell: heat, or a component of a
-    /// force that mirrors turn round along the axes in `flips`. Classes that are odd about a plane
-    /// in which the fluid is `symmetric` have none.
+    /// Nodal vectors, one for each symmetry class, of an amount at each cell: heat, or a component of a force whose
+    /// sign mirrors reverse along the axes in `flips`. Classes that are odd about a plane in which the fluid is
+    /// `symmetric` have none.
     fn nodal(&self, amounts: &[f64], flips: [bool; 2], symmetric: [bool; 2]) -> Vec<Vec<f64>> {
         let one = Mat::from_fn(1, 1, |_, _| 1.0);
         let matrices = [&self.consistent[0], &self.consistent[1], &one];
@@ -76,8 +76,7 @@ impl FaceCells {
         vectors
     }
 
-    /// The amounts on the meshed part as they are at its image; the symmetry planes halve those on
-    /// them.
+    /// Amounts on the meshed part as seen at its image; the symmetry planes halve those on them.
     fn seen(&self, amounts: &[f64], image: [bool; 2]) -> Vec<f64> {
         let [nx, ny] = [0, 1].map(|axis| self.consistent[axis].ncols());
         let place = |axis: usize, node: usize| match (self.mesh.mirrored[axis], image[axis]) {
@@ -200,7 +199,7 @@ mod tests {
         choices.iter().flat_map(|&m| [mesh(1, m), mesh(2, m)]).collect()
     }
 
-    /// What a place gives to the cells.
+    /// Transfer from a place to the cells.
     fn given(face: &FaceCells, x: f64, y: f64, amount: f64) -> Vec<f64> {
         let cells = face.cells();
         let mut out = vec![0.0; cells.len()];
@@ -211,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn all_that_is_given_anywhere_arrives() {
+    fn transfer_is_conservative_everywhere() {
         for mesh in meshes() {
             let face = FaceCells::of(&mesh, false);
             for (x, y) in [(0.0, 0.0), (-0.33, 0.2), (0.7, -1.0), (0.05, 0.05)] {
@@ -223,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn the_parts_of_a_force_give_back_the_force_on_each_side() {
+    fn force_parts_sum_to_the_force_on_each_side() {
         let mesh = mesh(2, [true, false]);
         let face = FaceCells::of(&mesh, false);
         let flips = [true, false]; // A force along x.
@@ -237,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn a_uniform_density_becomes_the_load_of_the_shape_functions() {
+    fn uniform_density_is_the_consistent_load() {
         let mesh = mesh(2, [false, false]);
         let face = FaceCells::of(&mesh, false);
         let [x, y] = [&mesh.axes[0], &mesh.axes[1]];
@@ -257,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn a_symmetric_fluid_makes_no_odd_part() {
+    fn symmetric_fluid_has_no_odd_part() {
         let mesh = mesh(1, [true, true]);
         let face = FaceCells::of(&mesh, false);
         let amounts: Vec<f64> = (0..face.cells().len()).map(|i| 1.0 + 1e-16 * i as f64).collect();

@@ -9,8 +9,8 @@ use crate::scene::Footprint;
 
 /// For each cell the weights of nodal values, which sum to 1: `Σ_i w_i T_i = ∫ T dA / A`.
 ///
-/// The weights are the nodal vectors of loads on the same cells over these' areas. So a heat flux on the cells and the
-/// mean temperatures there make up the power pair of the body's own equations: nothing is lost between the two.
+/// The weights are the nodal vectors of loads on the same cells over the areas of these. Heat fluxes on the cells and
+/// mean temperatures there are therefore conjugate in the body's own equations, and the transfer is conservative.
 pub struct FaceMeans {
     cells: Vec<CellMean>,
 }
@@ -18,13 +18,13 @@ pub struct FaceMeans {
 struct CellMean {
     /// Symmetry class, node and weight.
     heat: Vec<(usize, usize, f64)>,
-    /// Place [m] and weight of nodes of the mesh of displacements, on the whole face.
+    /// Place [m] and weight of nodes of the displacement mesh, on the whole face.
     points: Vec<([f64; 3], f64)>,
 }
 
 impl FaceMeans {
-    /// Of a footprint about a place [m] on the top if `high`, on the mesh of heat and, where means of what follows from
-    /// displacements are asked for, on that of these.
+    /// Means of a footprint about a place [m] on the top if `high`, on the mesh of heat. If means of mechanical
+    /// quantities are needed, also on the mesh of displacements.
     pub fn of(
         (heat, force): (&Mesh, Option<&Mesh>),
         high: bool,
@@ -51,7 +51,8 @@ impl FaceMeans {
         self.cells[cell].heat.iter().map(value).sum()
     }
 
-    /// The weights of nodal temperatures of each symmetry class, in the plane of the face; whether that is the top.
+    /// Returns the weights of nodal temperatures of each symmetry class, in the plane of the face, and true if that is
+    /// the top.
     pub fn on_face(&self, cell: usize, mesh: &Mesh) -> (Vec<Vec<f64>>, bool) {
         let [nx, ny, nz] = mesh.sided_counts();
         let plane = nx * ny;
@@ -66,13 +67,13 @@ impl FaceMeans {
         (weights, high)
     }
 
-    /// Places [m] and weights whose sum is the mean on a cell of what is interpolated between nodes.
+    /// Places [m] and weights whose sum is the mean on a cell of a field interpolated between nodes.
     pub fn points(&self, cell: usize) -> &[([f64; 3], f64)] {
         &self.cells[cell].points
     }
 }
 
-/// A cell as it is seen at each image of the meshed part of a face: along which axes it is mirrored, nodal vector.
+/// A cell as seen at each image of the meshed part of a face: axes along which it is mirrored, and nodal vector.
 type Seen = Vec<([bool; 2], SparseVector)>;
 
 fn seen_on(
@@ -96,7 +97,7 @@ fn seen_on(
     })
 }
 
-/// The copies of the mesh that make the body.
+/// Mirror images of the mesh that form the body.
 fn images_of(mesh: &Mesh) -> impl Iterator<Item = [bool; 2]> {
     let [x, y] = mesh.mirrored.map(|is_mirrored| if is_mirrored { 2 } else { 1 });
     (0..y).flat_map(move |j| (0..x).map(move |i| [i == 1, j == 1]))
@@ -106,7 +107,7 @@ fn area(cell: &Seen) -> f64 {
     cell.iter().flat_map(|(_, vector)| vector).map(|(_, weight)| weight).sum()
 }
 
-/// Weights of the parts of a field: odd ones count with the sign that they have at the image.
+/// Weights of the parts of a field: odd ones have the sign of the image.
 fn heat_weights(mesh: &Mesh, high: bool, cell: &Seen) -> Vec<(usize, usize, f64)> {
     let [nx, ny, nz] = mesh.sided_counts();
     let first = if high { nx * ny * (nz - 1) } else { 0 };

@@ -1,4 +1,4 @@
-//! What drops that are round see of the top or the bottom of a box, and what the box gets from them.
+//! Rings on the top or the bottom of a box: its temperatures for axisymmetric drops, and the transfer from these.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -15,16 +15,16 @@ use crate::port::WallCells;
 /// Rings about the middle of a face of a box, out to its nearest edge, with the functions φ that are linear between
 /// their radii.
 ///
-/// A ring's temperature is its mean over the face as that is between the ends of elements, `∫ φ h_i dA / ∫ φ dA` of
-/// each node's; what the ring gets, the nodes get by the same weights. So nothing is lost between the two, what is even
-/// stays so, and of the body's symmetry classes only the even one takes part.
+/// A ring's temperature is its mean over the face, interpolated between the ends of elements: `∫ φ h_i dA / ∫ φ dA` of
+/// each node's. The ring's heat is distributed to the nodes with the same weights. The transfer is therefore
+/// conservative and keeps uniform values uniform. Of the body's symmetry classes only the even one takes part.
 pub struct FaceRings {
     mesh: Mesh,
     /// [m]
     radii: Vec<f64>,
     /// Nodes on the meshed part of the face at ends of elements along x and y.
     ends: [Vec<usize>; 2],
-    /// What each ring has in common with cells about these nodes, x fastest.
+    /// Overlap of each ring with cells about these nodes, x fastest.
     shares: Vec<Vec<Share>>,
     /// From amounts on the linear functions to nodal vectors, along x and y of the mesh.
     consistent: [Mat<f64>; 2],
@@ -32,25 +32,25 @@ pub struct FaceRings {
 
 struct Share {
     cell: usize,
-    /// Part of the ring, which is about an image of the cell as much as about the cell.
+    /// Fraction of the ring, which covers an image of the cell as much as the cell.
     weight: f64,
-    /// Mean direction outward times the part.
+    /// Mean outward direction times that fraction.
     outward: [f64; 2],
 }
 
-/// Points along the radius and along arcs on which parts of a ring are integrated between the lines of the mesh.
+/// Numbers of integration points along the radius and along arcs for parts of a ring between the lines of the mesh.
 const POINTS: [usize; 2] = [4, 4];
-/// Parts into which a ring is cut, as circles do not only touch lines of the mesh but go through its corners.
+/// Number of parts into which a ring is cut, as circles not only touch lines of the mesh but pass through its corners.
 const PARTS: usize = 4;
 /// Longest arc [rad].
 const ARC: f64 = 0.125 * PI;
-/// Cells of a ring for each line of the mesh: nodes within an element of two rows of these, all the way round.
+/// Number of cells of a ring per line of the mesh: nodes of elements in two rows of these, around the whole circle.
 const CELLS_OF_A_LINE: f64 = 7.0;
 /// Relative distance below which two places are one.
 const SAME: f64 = 1e-9;
 
 impl FaceRings {
-    /// Of the top or the bottom, whose nodes lie alike; `lumped` for nodes each of which has a volume of its own.
+    /// Rings of the top or the bottom, which have equal nodes; `lumped` is set if each node has a volume of its own.
     pub fn of(mesh: &Mesh, lumped: bool) -> Self {
         let order = mesh.order();
         let ends = [0, 1].map(|axis| (0..mesh.axes[axis].len()).step_by(order).collect());
@@ -67,13 +67,13 @@ impl FaceRings {
         }
     }
 
-    /// Memory of rings on a mesh [B], about: a circle meets twice as many cells as it crosses lines.
+    /// Approximate memory of rings on a mesh [B]: a circle meets twice as many cells as it crosses lines.
     pub fn expected_bytes(mesh: &Mesh) -> f64 {
         let [x, y] = [0, 1].map(|axis| mesh.axes[axis].elements() as f64);
         CELLS_OF_A_LINE * size_of::<Share>() as f64 * x * (x + y)
     }
 
-    /// Means over rings of a layer of nodes; the odd classes, which mirrors turn round, have none.
+    /// Means over rings of a layer of nodes; the odd classes have none.
     fn means(&self, classes: &[Vec<f64>], layer: usize) -> Vec<f64> {
         let part = classes.get(self.even()).map_or(&[][..], Vec::as_slice);
         if part.is_empty() {
@@ -90,12 +90,13 @@ impl FaceRings {
         self.shares.iter().map(mean).collect()
     }
 
-    /// Nodal vectors, one a symmetry class, of an amount of each ring that is even round it: heat, or force along z.
+    /// Nodal vectors, one for each symmetry class, of an amount of each ring that is uniform around it: heat, or force
+    /// along z.
     fn nodal(&self, amounts: &[f64]) -> Vec<Vec<f64>> {
         self.nodal_of(amounts, |share| share.weight)
     }
 
-    /// The same of the component along x (0) or y (1) of forces that point outward.
+    /// Nodal vectors of the component along x (0) or y (1) of outward forces.
     fn nodal_outward(&self, amounts: &[f64], axis: usize) -> Vec<Vec<f64>> {
         self.nodal_of(amounts, |share| share.outward[axis])
     }
@@ -116,7 +117,7 @@ impl FaceRings {
         vectors
     }
 
-    /// The class that is even about both middles.
+    /// Returns the class that is even about both middle planes.
     fn even(&self) -> usize {
         let parities = self.mesh.parities();
         parities.iter().position(|parity| parity.is_even()).unwrap_or(0)
@@ -157,7 +158,7 @@ fn radii(mesh: &Mesh) -> Vec<f64> {
     let [x, y] = [0, 1].map(|axis| element_ends(mesh, axis));
     let edge = [&x, &y].map(|ends| ends[ends.len() - 1]).into_iter().fold(f64::INFINITY, f64::min);
     let widths = x.windows(2).map(|pair| pair[1] - pair[0]);
-    // Narrower rings would be as warm as others.
+    // Narrower rings would have the temperatures of others.
     let least = 0.5 * widths.fold(edge, f64::min);
     let mut radii = vec![0.0];
     for r in x {
@@ -175,7 +176,7 @@ fn element_ends(mesh: &Mesh, axis: usize) -> Vec<f64> {
     axis.nodes.iter().copied().step_by(axis.order).collect()
 }
 
-/// What rings and cells have in common, by integrals along arcs between the lines of the mesh.
+/// Computes the overlap of rings and cells, by integrals along arcs between the lines of the mesh.
 fn shares(mesh: &Mesh, radii: &[f64]) -> Vec<Vec<Share>> {
     let ends = [0, 1].map(|axis| element_ends(mesh, axis));
     let mut sums: Vec<BTreeMap<usize, [f64; 3]>> = vec![BTreeMap::new(); radii.len()];
@@ -186,7 +187,7 @@ fn shares(mesh: &Mesh, radii: &[f64]) -> Vec<Vec<Share>> {
         let cut = |n: usize| inner + (outer - inner) * n as f64 / PARTS as f64;
         for [low, high] in pieces(lines.chain((1..PARTS).map(cut)), [inner, outer]) {
             let length = high - low;
-            // A circle reaches beyond a line that it touches as √(r − low).
+            // A circle extends beyond a line that it touches as √(r − low).
             for (part, weight) in gauss_on(POINTS[0], 0.0, 1.0) {
                 let (r, dr) = (low + length * part * part, 2.0 * length * part * weight);
                 let beyond = (r - inner) / (outer - inner);
@@ -209,8 +210,8 @@ fn shares(mesh: &Mesh, radii: &[f64]) -> Vec<Vec<Share>> {
     rings.map(|(sums, area)| sums.into_iter().map(|sum| share(area, sum)).collect()).collect()
 }
 
-/// Integrals along the part of a circle that is meshed of the functions of cells, and of these times the cosine and
-/// the sine: cell and integrals [rad], each cell as often as arcs meet it.
+/// Integrals along the meshed part of a circle of the functions of cells, and of these times the cosine and the sine:
+/// cell and integrals [rad], each cell once per arc that meets it.
 fn along_circle(
     [x, y]: &[Vec<f64>; 2],
     mirrored: [bool; 2],
@@ -252,7 +253,7 @@ fn along_circle(
     found.into_iter()
 }
 
-/// The pieces into which places cut an interval.
+/// Intervals into which places cut an interval.
 fn pieces(places: impl Iterator<Item = f64>, [low, high]: [f64; 2]) -> Vec<[f64; 2]> {
     let slack = SAME * (high - low);
     let mut cuts: Vec<f64> =
@@ -289,7 +290,7 @@ mod tests {
         choices.iter().flat_map(|&m| [mesh(1, m), mesh(2, m)]).collect()
     }
 
-    /// The nodal temperatures of the even class, of a function of places.
+    /// Nodal temperatures of the even class, from a function of places.
     fn field(mesh: &Mesh, f: impl Fn(f64, f64) -> f64) -> Vec<Vec<f64>> {
         let [nx, ny, _] = mesh.node_counts();
         let at = |node: usize| f(mesh.axes[0].nodes[node % nx], mesh.axes[1].nodes[node / nx]);
@@ -303,7 +304,7 @@ mod tests {
     }
 
     #[test]
-    fn all_that_rings_get_arrives_and_points_outward() {
+    fn ring_transfer_is_conservative_and_radial() {
         for mesh in meshes() {
             let rings = FaceRings::of(&mesh, false);
             assert_eq!(*rings.radii.last().unwrap(), 1.0);
@@ -317,7 +318,7 @@ mod tests {
                 let force = rings.nodal_outward(&amounts, axis);
                 let sum = force[0].iter().sum::<f64>();
                 let whole = mesh.mirrored[axis];
-                // Of a half, 2/π of the force points away from the plane on average.
+                // For a half, 2/π of the force points away from the plane on average.
                 let wanted = if whole { 2.0 / PI * given / mesh.copies() } else { 0.0 };
                 assert!((sum - wanted).abs() < 1e-9 * given, "{axis}: {sum} {wanted}");
             }

@@ -14,7 +14,7 @@ use crate::scene::{Footprint, Profile};
 
 pub use cells::{SparseVector, cells_on_plane, cells_on_radius};
 
-/// Where a footprint lies on its face [m].
+/// Position of a footprint on its face [m].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placement {
     pub x: f64,
@@ -23,7 +23,7 @@ pub struct Placement {
     pub radius: f64,
 }
 
-/// How the values of a footprint's cells fill it.
+/// Distribution of values over a footprint's cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pattern {
     /// The value itself.
@@ -41,8 +41,8 @@ impl Placement {
 }
 
 impl Pattern {
-    /// Nodal vector on the face with axes `x` and `y` (x fastest) of the load as it stands at the
-    /// mirror image of each point. `values` holds one value per cell, the first index slowest.
+    /// Nodal vector on the face with axes `x` and `y` (x fastest) of the load at the mirror image of each point.
+    /// `values` holds one value per cell, the first index slowest.
     pub fn on_plane(
         self,
         [x, y]: [&Axis; 2],
@@ -107,7 +107,7 @@ fn disc([x, y]: [&Axis; 2], place: &Placement, radius: f64, pattern: Pattern) ->
                 let distance = offset[0].hypot(offset[1]);
                 if distance > 0.0 { offset[axis] / distance } else { 0.0 }
             };
-            // The direction turns within a distance of about the chord's from the centre.
+            // The direction turns over a length of about the chord's distance from the centre.
             let turn = (height - place.y).abs();
             let mut ends = vec![from, place.x, to];
             for steps in TURN_STEPS {
@@ -144,7 +144,7 @@ fn disc([x, y]: [&Axis; 2], place: &Placement, radius: f64, pattern: Pattern) ->
     out
 }
 
-/// Where pieces of a quadrature end that must resolve a turn of unit width.
+/// Ends of the pieces of a quadrature that must resolve a turn of unit width.
 const TURN_STEPS: [f64; 5] = [1.0, 4.0, 16.0, 64.0, 256.0];
 
 const GAUSS_OVER_ANGLE: usize = 8;
@@ -168,7 +168,7 @@ fn chord_angles([x, y]: [&Axis; 2], place: &Placement, radius: f64, pattern: Pat
         }
     }
     if pattern != Pattern::Scalar {
-        // Chords near the centre, where the direction turns ever faster.
+        // Chords near the centre, where the direction turns increasingly fast.
         for steps in TURN_STEPS {
             angles.extend([1e-3 * steps, -1e-3 * steps]);
         }
@@ -276,9 +276,9 @@ fn tile_strips(
     [strips(x, place.x, nx, size[0]), strips(y, place.y, ny, size[1])]
 }
 
-/// Sum over tiles of value times the product of what stands for their column and their row.
+/// Sum over tiles of the value times the product of the factors of their column and row.
 fn tile_sum(columns: &[Vec<f64>], rows: &[Vec<f64>], values: &[f64], image: [bool; 2]) -> Vec<f64> {
-    // Seen in a mirror, the tiles run the other way.
+    // In a mirror, the tiles are in reverse order.
     let index = |i: usize, n: usize, mirror: bool| if mirror { n - 1 - i } else { i };
     let (nx, ny, width) = (columns.len(), rows.len(), columns[0].len());
     let mut out = vec![0.0; width * rows[0].len()];
@@ -333,7 +333,7 @@ mod tests {
     const NO_IMAGE: [bool; 2] = [false; 2];
 
     #[test]
-    fn a_disc_carries_its_area_and_centre_on_any_mesh() {
+    fn disc_has_exact_area_and_centre_on_any_mesh() {
         for order in [1, 2] {
             let x = axis(order);
             for (cx, cy, radius) in [(0.0, 0.0, 0.5), (0.13, -0.2, 0.77), (0.21, 0.4, 0.011)] {
@@ -353,7 +353,7 @@ mod tests {
     }
 
     #[test]
-    fn a_disc_across_the_edge_carries_what_is_on_the_face() {
+    fn disc_across_the_edge_has_the_area_on_the_face() {
         let x = Axis::from_element_ends(&[0.0, 0.3, 1.0], 1, Weight::Uniform);
         let place = Placement { x: 0.0, y: 0.0, radius: 0.4 };
         let footprint = Footprint::Disc { radius: 0.4 };
@@ -362,7 +362,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ring_carries_its_area_on_any_mesh_and_of_any_width() {
+    fn ring_has_exact_area_on_any_mesh_at_any_width() {
         for order in [1, 2] {
             let (x, r) = (
                 axis(order),
@@ -371,7 +371,7 @@ mod tests {
             for (inner, outer) in [(0.2, 0.5), (1e-6, 0.3), (0.599, 0.6), (0.01, 0.011)] {
                 let footprint = Footprint::Ring { inner, outer };
                 let area = |scale: f64| PI * scale * scale * (outer - inner) * (outer + inner);
-                // As it is, and grown by its input.
+                // Unchanged, and enlarged by its input.
                 for scale in [1.0, 1.3] {
                     let place = Placement { x: 0.03, y: -0.12, radius: scale * outer };
                     let v = Pattern::Scalar.on_plane([&x; 2], &footprint, &place, &[2.0], NO_IMAGE);
@@ -395,7 +395,7 @@ mod tests {
     }
 
     #[test]
-    fn a_gaussian_carries_its_power_even_on_a_coarse_mesh() {
+    fn gaussian_has_exact_power_on_coarse_meshes() {
         let place = Placement { x: 0.1, y: 0.05, radius: 0.08 };
         let footprint = Footprint::Gaussian { radius: 0.08 };
         for order in [1, 2] {
@@ -451,7 +451,7 @@ mod tests {
     }
 
     #[test]
-    fn an_outward_traction_has_no_resultant_but_stretches() {
+    fn outward_traction_has_a_first_moment_and_no_resultant() {
         let x = axis(2);
         let place = Placement { x: 0.05, y: 0.0, radius: 0.4 };
         let rings = Footprint::Rings { count: 2, radius: 0.4 };

@@ -1,4 +1,4 @@
-//! Transfer to and from faces that keeps integrals: what leaves one side arrives at the other.
+//! Conservative transfer to and from faces: the integral on one side equals that on the other.
 
 mod face_cells;
 mod face_means;

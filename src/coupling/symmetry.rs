@@ -2,9 +2,9 @@ use crate::method::mesh::Mesh;
 
 /// Splits a load on a face into nodal vectors of the mesh's symmetry classes, in their order.
 ///
-/// `of_image(image)` integrates shape functions of the meshed part against the load as it is at
-/// the mirror image of each point. `flips` says along which axes a mirror turns the quantity round:
-/// x for a traction along x, none for heat. A class without load gets an empty vector.
+/// `of_image(image)` integrates shape functions of the meshed part against the load at the mirror image of each point.
+/// `flips` contains the axes along which a mirror reverses the sign of the quantity: x for a traction along x, none for
+/// heat. A class without load gets an empty vector.
 pub fn split_load(
     mesh: &Mesh,
     flips: [bool; 2],
@@ -48,7 +48,7 @@ mod tests {
     }
 
     #[test]
-    fn a_central_load_is_even_and_costs_no_odd_part() {
+    fn central_load_has_no_odd_part() {
         let parts = split_load(&quarter(), [false; 2], |_| vec![1.0; 4]);
         assert_eq!(parts, [vec![1.0; 4], vec![], vec![], vec![]]);
         let shear = split_load(&quarter(), [true, false], |_| vec![1.0; 4]);
@@ -56,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn the_parts_sum_to_the_load_at_every_image() {
+    fn parts_sum_to_the_load_at_every_image() {
         let mesh = quarter();
         let value = |image: [bool; 2]| match image {
             [false, false] => 3.0,

@@ -1,4 +1,4 @@
-//! What the model descriptions of both versions share, sections 2.2 of FMI 2.0 and 2.4 of FMI 3.0.
+//! Common parts of the model descriptions of both versions, sections 2.2 of FMI 2.0 and 2.4 of FMI 3.0.
 
 use std::collections::BTreeSet;
 use std::io;
@@ -14,7 +14,7 @@ use crate::variables::{Causality, DisplayUnit, Quantity, Registry};
 pub type Xml = Writer<Vec<u8>>;
 pub type Attributes = Vec<(&'static str, String)>;
 
-/// A modelDescription.xml: what a version of the standard writes in its own way.
+/// A modelDescription.xml: the parts that depend on the version of the standard.
 pub trait Description {
     const VERSION: &'static str;
     /// Name of the attribute that holds the GUID.
@@ -38,7 +38,7 @@ pub trait Description {
     fn structure(&self, xml: &mut Xml) -> io::Result<()>;
 }
 
-/// The text of a description; `scene_text` is what the unit carries.
+/// Returns the text of a description; `scene_text` is the scene text stored in the unit.
 pub fn model_description<D: Description>(
     description: &D,
     scene: &Scene,
@@ -102,7 +102,7 @@ pub fn kind(of: Causality, is_tunable: bool, quantity: Option<Quantity>) -> Attr
     let (variability, initial) = match of {
         Causality::Parameter if is_tunable => ("tunable", Some("exact")),
         Causality::Parameter => ("fixed", Some("exact")),
-        // Counts change in steps alone.
+        // Counts change only in steps.
         Causality::Input if quantity == Some(Quantity::Count) => ("discrete", None),
         Causality::Input => ("continuous", None),
         Causality::Output => ("continuous", Some("calculated")),
@@ -110,7 +110,7 @@ pub fn kind(of: Causality, is_tunable: bool, quantity: Option<Quantity>) -> Attr
     kind_of(causality(of), variability, initial)
 }
 
-/// The attributes of a variable that tell its causality, its variability and how it is initialised.
+/// Returns the attributes of a variable for its causality, its variability and its initialisation.
 pub fn kind_of(
     causality: &'static str,
     variability: &'static str,

@@ -1,4 +1,4 @@
-//! The GUID of a unit: it ties a modelDescription.xml to the scene and the library beside it.
+//! The GUID of a unit: it identifies the scene and the library that belong to a modelDescription.xml.
 
 use sha2::{Digest, Sha256};
 
@@ -14,7 +14,7 @@ pub fn guid(scene_text: &str, registry: &Registry) -> String {
         hash.update(part);
     };
     add(env!("CARGO_PKG_VERSION"));
-    // What packing adds follows from the rest.
+    // The text added by packing follows from the rest.
     add(scene_text.split(PACKED).next().unwrap_or_default());
     for variable in &registry.variables {
         add(&variable.name);
@@ -41,7 +41,7 @@ mod tests {
     "#;
 
     #[test]
-    fn the_guid_has_the_form_of_a_uuid_and_follows_text_and_variables() {
+    fn guid_is_a_uuid_of_text_and_variables() {
         let scene = crate::scene::parse(SCENE, "scene.toml").unwrap();
         let mut registry = Registry::of(&scene);
         let first = guid(SCENE, &registry);

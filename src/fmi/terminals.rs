@@ -1,5 +1,5 @@
-//! terminalsAndIcons.xml: which variables belong together, and where they stand on the unit's icon;
-//! FMI 3.0, section 2.4.9, which units of FMI 2.0 may carry too.
+//! terminalsAndIcons.xml: groups of variables and their positions on the unit's icon; FMI 3.0, section 2.4.9, also
+//! allowed in units of FMI 2.0.
 //!
 //! Every load, wall, probe, field and body is a terminal of its inputs and outputs.
 
@@ -26,12 +26,12 @@ const COLOUR: &str = "196 46 28";
 pub struct Member {
     pub variable: String,
     pub terminal: String,
-    /// Name within the terminal; terminals of equal members fit each other.
+    /// Name within the terminal; terminals with equal members are compatible.
     pub name: String,
     pub causality: Causality,
 }
 
-/// What passes through a terminal, and so which icon it has.
+/// Direction of the flow through a terminal, which determines its icon.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Direction {
     In,
@@ -40,7 +40,7 @@ pub enum Direction {
 }
 
 impl Member {
-    /// A variable by its name and its structured one; none if it is a parameter.
+    /// Creates a member from a variable's name and structured name; `None` for a parameter.
     pub fn of(variable: &str, structured: &str, causality: Causality) -> Option<Self> {
         let (terminal, name) = structured.split_once('.')?;
         (causality != Causality::Parameter).then(|| Self {
@@ -51,7 +51,7 @@ impl Member {
         })
     }
 
-    /// All members of a unit of FMI 3.0, whose variables are arrays where they can be.
+    /// Returns all members of a unit of FMI 3.0, with arrays as variables where possible.
     pub fn arrays(scene: &Scene) -> Vec<Self> {
         let registry = Registry::of(scene);
         let (arrays, structured) = (ArrayRegistry::of(scene), ArrayRegistry::structured(scene));
@@ -92,7 +92,7 @@ impl Direction {
     }
 }
 
-/// The file for the members of a scene's unit.
+/// Returns the file for the members of a scene's unit.
 pub fn terminals_and_icons(scene: &Scene, members: &[Member]) -> String {
     let terminals = group(members);
     document("fmiTerminalsAndIcons", &[("fmiVersion", "3.0".into())], |xml| {
@@ -105,7 +105,7 @@ struct Terminal<'a> {
     members: Vec<&'a Member>,
 }
 
-/// The terminals in the order of their first members.
+/// Groups members to terminals in the order of their first members.
 fn group(members: &[Member]) -> Vec<Terminal<'_>> {
     let mut terminals: Vec<Terminal> = Vec::new();
     let mut places: HashMap<&str, usize> = HashMap::new();
@@ -166,8 +166,8 @@ fn element(
     })
 }
 
-/// Where the terminals' icons stand: what takes something on the left edge, the others on the right,
-/// from top to bottom.
+/// Positions of the terminals' icons: terminals with inputs on the left edge, the others on the right, from top to
+/// bottom.
 fn places(terminals: &[Terminal]) -> Vec<Attributes> {
     let is_left = |terminal: &Terminal| Direction::of(&terminal.members) != Direction::Out;
     let left = terminals.iter().filter(|terminal| is_left(terminal)).count();
@@ -195,7 +195,7 @@ fn extent(low: [f64; 2], high: [f64; 2]) -> [(&'static str, String); 4] {
     ]
 }
 
-/// Descriptions of the terminals of loads, probes, walls and fields by name, of which no two are the same.
+/// Descriptions of the terminals of loads, probes, walls and fields by name, which are unique.
 fn descriptions(scene: &Scene) -> HashMap<&str, String> {
     let loads = scene.load.iter().map(|load| (load.name.as_str(), format!("load on {}", load.on)));
     let of_probe = |probe: &Probe| format!("values at a point of {}", probe.body);
@@ -210,7 +210,7 @@ fn descriptions(scene: &Scene) -> HashMap<&str, String> {
     loads.chain(probes).chain(walls).chain(fields).collect()
 }
 
-/// The description of the terminal of a name; terminals that no table describes are bodies.
+/// Description of the terminal of a name; terminals that no table describes are bodies.
 fn description(described: &HashMap<&str, String>, name: &str) -> String {
     let own = described.get(name).cloned();
     own.unwrap_or_else(|| format!("what {name} is given and shows as a whole"))

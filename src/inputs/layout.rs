@@ -3,7 +3,7 @@ use std::ops::Range;
 use crate::channel::Channel;
 use crate::scene::{Body, CellShape, FaceName, Footprint, Load, Scene, Wall};
 
-/// Where each input of a scene stands in [`crate::model::State::inputs`].
+/// Places of the inputs of a scene in [`crate::model::State::inputs`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct InputLayout {
     /// In the order of the scene's loads.
@@ -11,7 +11,7 @@ pub struct InputLayout {
     pub faces: Vec<FaceInput>,
     /// Temperatures of the cells of each wall, in the order of the scene's walls.
     pub walls: Vec<Range<usize>>,
-    /// Those of bodies as wholes, in the order of [`crate::scene::Body::inputs`], of the bodies that have any.
+    /// Inputs of whole bodies, in the order of [`crate::scene::Body::inputs`], of the bodies that have any.
     pub bodies: Vec<(String, Range<usize>)>,
     /// Number of inputs.
     pub len: usize,
@@ -20,7 +20,7 @@ pub struct InputLayout {
 /// Places of a load's inputs; a range holds a value for each cell, the first index running slowest.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LoadInputs {
-    /// Of the amounts that it brings.
+    /// Places of its amounts.
     pub amounts: Vec<(Channel, Range<usize>)>,
     pub x: Option<usize>,
     pub y: Option<usize>,
@@ -58,7 +58,7 @@ impl InputLayout {
         Self { loads, faces, walls, bodies, len: next }
     }
 
-    /// Those of a body as a whole.
+    /// Inputs of a whole body.
     pub fn of_body(&self, name: &str) -> Range<usize> {
         let own = self.bodies.iter().find(|(body, _)| body == name);
         own.map_or(0..0, |(_, range)| range.clone())

@@ -1,4 +1,4 @@
-//! The inputs of a scene: where each stands in a state, and the path that all follow over a step.
+//! The inputs of a scene: their places in a state, and their common path over a step.
 
 mod layout;
 mod path;

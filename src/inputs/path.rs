@@ -9,7 +9,7 @@ pub struct InputPath {
 }
 
 impl InputPath {
-    /// The path through `inputs` with these derivatives; those that are zero are as if they were not given.
+    /// Creates the path through `inputs` with these derivatives; trailing zero derivatives are dropped.
     pub fn new(inputs: &[f64], derivatives: &[Vec<f64>]) -> Self {
         let last = derivatives.iter().rposition(|list| list.iter().any(|&v| v != 0.0));
         let higher = &derivatives[..last.map_or(0, |last| last + 1)];
@@ -45,7 +45,7 @@ impl InputPath {
         sum
     }
 
-    /// What is left of the path from `s` [s] on.
+    /// Remainder of the path from `s` [s] on.
     pub fn from(&self, s: f64) -> Self {
         Self { derivatives: (0..self.derivatives.len()).map(|order| self.at(order, s)).collect() }
     }
@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_rest_of_a_path_goes_on_where_the_path_was() {
+    fn path_remainder_continues_the_path() {
         let path = InputPath::new(&[1.0, -2.0], &[vec![3.0, 0.5], vec![-4.0, 2.0]]);
         let rest = path.from(0.3);
         for s in [0.0, 0.2, 0.7] {

@@ -37,7 +37,7 @@ impl Constants {
         (self.conductivity * self.heat_capacity()).sqrt()
     }
 
-    /// The thermo-elastic law, if all of its constants are there.
+    /// Returns the thermo-elastic law, if all of its constants are set.
     pub fn law(&self) -> Option<Thermoelastic> {
         let (young, poisson, expansion) = (self.young?, self.poisson?, self.expansion?);
         Some(Thermoelastic { young, poisson, expansion })

@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::solid::{Elasticity, FlowLaw};
 use super::{Conduction, Constants, Part, PartVisitor, Property, SolidLaw};
 
-/// What a solid is made of: how it conducts heat, and how it deforms.
+/// Thermal and mechanical law of a solid.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Material {
     #[serde(flatten)]
@@ -24,7 +24,7 @@ impl Material {
         SolidLaw::visit_parts(model, visitor);
     }
 
-    /// The numbers that hold at a temperature [K], without latent heat.
+    /// Returns the constants at a temperature [K], without latent heat.
     pub fn at(&self, temperature: f64) -> Constants {
         let value = |property: &Property| property.value(temperature);
         let Elasticity { young, poisson, expansion } = self.law.deformation().elasticity();
@@ -50,21 +50,21 @@ impl Material {
         heat.number(key).or_else(|| law.parts_mut().into_iter().find_map(|part| part.number(key)))
     }
 
-    /// Returns true if strain may stay.
+    /// Returns true if the law allows permanent strain.
     pub fn yields(&self) -> bool {
         self.law.deformation().yields()
     }
 
-    /// The law by which the body deforms, free of stress at a temperature [K].
+    /// Returns the flow law of the body, stress-free at a temperature [K].
     ///
     /// # Panics
-    /// If constants of elasticity are missing, which checked scenes that ask for mechanics have.
+    /// If constants of elasticity are missing; checked scenes with mechanics have them.
     pub fn flow_law(&self, stress_free_temperature: f64) -> Arc<dyn FlowLaw> {
         self.law.deformation().flow_law(stress_free_temperature)
     }
 
-    /// The material without melting and without constants that depend on the temperature, as it is at one [K].
-    /// A law with a history stays, unless `elastic` is asked for.
+    /// Returns the material with constants at a temperature [K], without melting. A law with a history is kept unless
+    /// `elastic` is set.
     pub fn linearised(&self, temperature: f64, elastic: bool) -> Self {
         let heat = self.heat.linearised(temperature);
         let law = match elastic {
@@ -75,7 +75,7 @@ impl Material {
     }
 }
 
-/// As a table of keys for each model; those of heat stand in all of them.
+/// The schema is a table of keys for each model; all of them include those of heat.
 impl JsonSchema for Material {
     fn schema_name() -> Cow<'static, str> {
         "Material".into()
@@ -94,7 +94,7 @@ impl JsonSchema for Material {
     }
 }
 
-/// Inserts the keys of another table behind the first of a table, the tag, and allows no further ones.
+/// Inserts the keys of another table behind the first key of a table, the tag, and forbids any others.
 fn join(table: &mut Value, other: &Value) {
     let of = |value: &Value| {
         value.get("properties").and_then(Value::as_object).cloned().unwrap_or_default()

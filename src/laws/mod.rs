@@ -1,4 +1,4 @@
-//! Constitutive laws, one a file. Each owns its keys with their limits, its history and its response.
+//! Constitutive laws, one per file. Each owns its scene keys with their limits, its history and its response.
 //!
 //! A [`Material`] conducts heat by [`heat::Conduction`] and deforms by one of [`solid::SolidLaw`]; these types are also
 //! the parser, the schema and the documentation of a scene's `material` table.

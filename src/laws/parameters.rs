@@ -7,7 +7,7 @@ use super::{Conduction, Material, Part, PartVisitor, SolidLaw};
 use crate::limits::Bounds;
 use crate::quantity::Quantity;
 
-/// A constant of materials that is a parameter of units where a scene gives it as a number.
+/// A material constant that is a parameter of units if a scene sets it as a number.
 #[derive(Debug)]
 pub struct MaterialConstant {
     /// Key in the scene and last part of the variable's name.
@@ -19,13 +19,13 @@ pub struct MaterialConstant {
     pub start: AtStart,
 }
 
-/// How what a body shows at time zero, before heat has moved, follows a constant.
+/// Dependence of outputs at time zero, before heat has moved, on a constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum AtStart {
     Never,
-    /// Smoothly, but for a pole at zero.
+    /// Smooth, except for a pole at zero.
     PoleAtZero,
-    /// Smoothly between two poles.
+    /// Smooth between two poles.
     PolesAt([f64; 2]),
     /// As a polynomial of low degree.
     Polynomial,
@@ -43,7 +43,7 @@ impl MaterialConstant {
         found.0
     }
 
-    /// The constant with that key.
+    /// Returns the constant with a key.
     pub fn named(key: &str) -> Option<&'static Self> {
         Self::all().into_iter().find(|constant| constant.key == key)
     }
@@ -53,7 +53,7 @@ impl MaterialConstant {
         self.place(&mut material.clone()).is_some()
     }
 
-    /// Where it stands in a material that names it as a number.
+    /// Returns the constant's place in a material that sets it as a number.
     pub fn place<'a>(&self, material: &'a mut Material) -> Option<&'a mut f64> {
         material.number(self.key)
     }
@@ -69,7 +69,7 @@ impl PartVisitor for Found {
     }
 }
 
-/// Keys tell constants apart.
+/// Constants with equal keys are equal.
 impl PartialEq for MaterialConstant {
     fn eq(&self, other: &Self) -> bool {
         self.key == other.key

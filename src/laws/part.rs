@@ -5,7 +5,7 @@ use serde::de::DeserializeOwned;
 
 use super::{MaterialConstant, Property};
 
-/// A group of constants that a scene names side by side, such as those of elasticity.
+/// A group of related constants of a scene, such as those of elasticity.
 pub trait Part {
     /// Rows of the constants that units offer as parameters.
     fn parameters() -> &'static [MaterialConstant]
@@ -19,12 +19,12 @@ pub trait Part {
     fn number(&mut self, key: &str) -> Option<&mut f64>;
 }
 
-/// Something that is done with every part of a material, by type.
+/// Operation on every part of a material, by type.
 pub trait PartVisitor {
     fn part<P: Part + DeserializeOwned + JsonSchema>(&mut self);
 }
 
-/// Returns the constant that stands at a key, if it is a number.
+/// Returns the constant of a key, if it is a number.
 pub fn number_among<'p, const N: usize>(
     key: &str,
     constants: [(&str, Option<&'p mut Property>); N],

@@ -29,7 +29,7 @@ pub struct Table {
     pub value: Vec<f64>,
 }
 
-/// Why a property is none.
+/// Reasons why a property is invalid.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PropertyError {
     #[error("a table has {0} temperatures (allowed: at least 2)")]
@@ -47,7 +47,7 @@ pub enum PropertyError {
 }
 
 impl Property {
-    /// Finds what is wrong with numbers of which none may be zero or below.
+    /// Checks numbers that must all be above zero.
     pub fn check(&self) -> Result<(), PropertyError> {
         if let Self::Table(table) = self {
             table.check()?;
@@ -64,12 +64,12 @@ impl Property {
         self.about(temperature).at(0.0).0
     }
 
-    /// Returns true unless the property depends on the temperature.
+    /// Returns true if the property is independent of the temperature.
     pub fn is_constant(&self) -> bool {
         matches!(self, Self::Constant(_))
     }
 
-    /// The constant property that has the value of this one at a temperature [K].
+    /// Returns the constant property with the value of this one at a temperature [K].
     pub fn at(&self, temperature: f64) -> Self {
         Self::Constant(self.value(temperature))
     }
@@ -82,7 +82,7 @@ impl Property {
         }
     }
 
-    /// Derivative over temperature [1/K]: of the interval above where two meet, zero outside of a table.
+    /// Derivative with respect to temperature [1/K]: at a knot that of the interval above, outside a table zero.
     pub fn derivative(&self, temperature: f64) -> f64 {
         let Self::Table(table) = self else { return 0.0 };
         let above = table.temperature.partition_point(|&knot| knot <= temperature);
@@ -98,7 +98,7 @@ impl Property {
         self.about(from).at(to - from).1
     }
 
-    /// The same as a function of the temperature above a reference [K].
+    /// Returns the property as a function of the temperature above a reference [K].
     pub fn about(&self, reference: f64) -> Curve {
         Curve::new(self, reference)
     }
@@ -121,7 +121,7 @@ impl Property {
 }
 
 impl<'de> Deserialize<'de> for Property {
-    /// By hand, so that what is wrong within a table is told at its place.
+    /// Implemented by hand, so that errors within a table are reported at their place.
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Reader;
 
@@ -160,7 +160,7 @@ impl From<f64> for Property {
 }
 
 impl Table {
-    /// Finds what is wrong with the lists.
+    /// Checks the lists.
     pub fn check(&self) -> Result<(), PropertyError> {
         let Self { temperature, value } = self;
         if temperature.len() != value.len() {
@@ -179,7 +179,7 @@ impl Table {
         }
     }
 
-    /// No number of a table that [`Self::check`] refuses for its lengths.
+    /// NaN for a table that [`Self::check`] refuses because of its lengths.
     fn value(&self, temperature: f64) -> f64 {
         if self.value.is_empty() || self.value.len() != self.temperature.len() {
             return f64::NAN;
@@ -199,7 +199,7 @@ impl Table {
 
 /// A property and its integral as functions of the temperature above a reference.
 ///
-/// The reference is a knot of its own, so that small differences to it keep all digits.
+/// The reference is a knot, so that small differences to it keep all digits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
     knots: Vec<Knot>,
@@ -207,10 +207,10 @@ pub struct Curve {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Knot {
-    /// Above the reference [K].
+    /// Temperature above the reference [K].
     rise: f64,
     value: f64,
-    /// Up to the next knot [1/K].
+    /// Slope up to the next knot [1/K].
     slope: f64,
     /// `∫ value dT` from the reference.
     integral: f64,
@@ -269,7 +269,7 @@ mod tests {
     }
 
     #[test]
-    fn a_table_is_linear_between_and_held_outside() {
+    fn tables_interpolate_linearly_and_extrapolate_constantly() {
         let property = table(&[200.0, 300.0, 500.0], &[4.0, 2.0, 6.0]);
         for (t, value, derivative) in [
             (100.0, 4.0, 0.0),
@@ -323,7 +323,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_property_is_refused() {
+    fn invalid_properties_are_refused() {
         let refused = |t: &[f64], v: &[f64]| table(t, v).check().unwrap_err();
         assert_eq!(refused(&[1.0], &[1.0]), PropertyError::TooShort(1));
         let lengths = PropertyError::Lengths { temperatures: 2, values: 3 };

@@ -2,27 +2,27 @@ use super::schedule::Exchange;
 use super::{Model, State};
 use crate::body::Memo;
 
-/// Values derived from one state, computed when first asked for. Clear it when the state changes;
-/// changed inputs are noticed, and what does not follow them at once is kept.
+/// Lazily computed values of one state. It must be cleared when the state changes. Changed inputs are detected, and
+/// values that do not follow them without delay are kept.
 #[derive(Debug, Default)]
 pub struct Cache {
     inputs: Vec<f64>,
-    /// Of each body; those of bodies that receive from others follow from the state, too.
+    /// Memo of each body; memos of bodies that receive from others depend on the state, too.
     memos: Vec<Memo>,
 }
 
 impl Cache {
-    /// Forgets everything.
+    /// Discards everything.
     pub fn clear(&mut self) {
         *self = Self::default();
     }
 
-    /// Expects other inputs. What does not follow them at once is kept.
+    /// Marks the inputs as changed. Values that do not follow them without delay are kept.
     pub fn expect_inputs(&mut self) {
         self.inputs.clear();
     }
 
-    /// Forgets all that depends on the unknowns.
+    /// Discards all that depends on the unknowns.
     pub(super) fn forget_states(&mut self, model: &Model) {
         if !model.links.is_empty() {
             self.clear();
@@ -32,7 +32,7 @@ impl Cache {
         }
     }
 
-    /// Brings what acts up to date with the inputs and with what bodies gave last.
+    /// Updates the loads to the inputs and to the last transfers between bodies.
     pub(super) fn update(&mut self, model: &Model, state: &State) {
         if self.inputs == state.inputs && self.memos.len() == model.bodies.len() {
             return;
@@ -49,7 +49,7 @@ impl Cache {
         }
     }
 
-    /// What the bodies remember where that follows from no inputs: of a change, say.
+    /// Creates a cache of memos that follow from no inputs, such as those of a change.
     pub(super) fn of_memos(memos: Vec<Memo>) -> Self {
         Self { inputs: Vec::new(), memos }
     }

@@ -6,7 +6,7 @@ use crate::scene::SceneError;
 
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ModelError {
-    /// A body does not do what it is asked for.
+    /// A body refused a call.
     #[error(transparent)]
     Body(#[from] BodyError),
     /// A state does not fit the model.
@@ -14,7 +14,7 @@ pub enum ModelError {
     State(String),
     #[error("{0}")]
     Scene(#[from] SceneError),
-    /// A step of a length that arithmetic does not bear.
+    /// A step length outside the limits of the arithmetic.
     #[error("step size {step:e} s {requirement} (allowed: {bounds} s)")]
     StepLength { step: f64, requirement: String, bounds: Bounds },
     /// A scene is too large for the machine.
@@ -33,7 +33,7 @@ pub enum ModelError {
         size: String,
         remedy: &'static str,
     },
-    /// A scene is too large for what the process may take of address space.
+    /// A scene needs more address space than the process may have.
     #[error(
         "{space}, most of it for `{body}` with its {size} (allowed: a scene that fits, such as with {remedy}, or \
          more address space)"
@@ -42,7 +42,7 @@ pub enum ModelError {
 }
 
 impl ModelError {
-    /// Why a step was ended, if it was.
+    /// Returns why a step was ended, if it was.
     pub fn halt(&self) -> Option<&Halt> {
         match self {
             Self::Body(BodyError::Halted { halt, .. }) => Some(halt),

@@ -1,4 +1,4 @@
-//! Heat between solids that touch.
+//! Heat transfer between solids in contact.
 
 use super::schedule::{Exchange, Group, Part, acts};
 use super::{Cache, Model};
@@ -7,30 +7,31 @@ use crate::math::anderson::Anderson;
 use crate::port::SurfaceResponse;
 use crate::runtime::allowance::Allowance;
 
-/// Parts of a step at whose ends the law of the contact holds: those of the method Radau IIA of third order (E. Hairer
-/// and G. Wanner, *Solving Ordinary Differential Equations II*, Springer 1996, §IV.5). Between them the flux is linear.
+/// Times of a step at which the contact law holds: those of the method Radau IIA of third order (E. Hairer and G.
+/// Wanner, *Solving Ordinary Differential Equations II*, Springer 1996, §IV.5). Between them the flux is linear.
 const STAGES: [f64; 2] = [1.0 / 3.0, 1.0];
 
-/// What is left of the fluxes, over the largest.
+/// Residual of the fluxes, over the largest flux.
 const TOLERANCE: f64 = 1e-10;
-/// What may be left where rounding lets no more be found, as of a contact that hardly resists: heat balances whatever it is.
+/// Residual that is accepted where rounding prevents a smaller one, as for a contact of hardly any resistance; heat
+/// balances whatever it is.
 const GOOD_ENOUGH: f64 = 1e-5;
-/// Difference of temperatures that is rounding, over the temperatures.
+/// Difference of temperatures due to rounding, over the temperatures.
 const ROUNDING: f64 = 1e-12;
-/// What steps of bodies that are not exact may change of temperatures from one try to the next, over their tolerance.
+/// Change of temperatures between iterations due to inexact steps of bodies, over their tolerance.
 const NOISE: f64 = 0.1;
-/// More iterations than any contact was seen to take.
+/// Upper limit of iterations, above the number that any contact needed.
 const MOST_ITERATIONS: usize = 100;
 
-/// Two fluxes at each place of fluxes of each joint [W/m²].
+/// Two fluxes at each place of each joint [W/m²].
 type Fluxes = Vec<[f64; 2]>;
 
 impl Model {
-    /// What passes through the joints of a group over a part of a step, all found together; nothing has advanced yet.
-    /// `others` is what comes from elsewhere.
+    /// Computes the transfers through all joints of a group over a part of a step, before anything has advanced.
+    /// `others` holds the transfers from elsewhere.
     ///
-    /// The law holds exactly between the bodies as they are at the stages, whatever these conduct within: iterations
-    /// correct the fluxes as if both bodies ended where the contact does.
+    /// The contact law holds exactly between the bodies as they are at the stages, whatever their internal conduction.
+    /// Iterations correct the fluxes as if both bodies ended at the contact.
     pub(super) fn settle_joints(
         &self,
         group: &Group,
@@ -77,7 +78,7 @@ impl Model {
                 let hottest = sides.as_flattened().iter().flatten().fold(0.0_f64, |m, t| m.max(*t));
                 let rounding = joint.conductance * (ROUNDING * hottest).max(noise);
                 for (off, corrected) in off.iter().zip(corrections[n].apply(&off)) {
-                    // Not `>`, by which what is no number would be settled.
+                    // Not `>`, with which NaN would count as settled.
                     is_settled &= (0..2).all(|s| {
                         corrected[s].abs() <= TOLERANCE * largest || off[s].abs() <= rounding
                     });
@@ -104,7 +105,7 @@ impl Model {
         Err(BodyError::Contact { sides })
     }
 
-    /// What temperatures of bodies in a group may err by [K].
+    /// Largest error of temperatures of bodies in a group [K].
     fn tolerance_of(&self, group: &Group) -> f64 {
         let conductors = group.bodies.iter().filter_map(|&body| self.bodies[body].conductor());
         conductors.map(|conductor| conductor.tolerance()).fold(0.0, f64::max)
@@ -140,7 +141,7 @@ impl Model {
         Ok(all)
     }
 
-    /// What passes through all joints at one moment, as if it went on for a second.
+    /// Returns the transfers through all joints at one moment, as if they lasted for a second.
     pub(super) fn through_joints(
         &self,
         states: &[Vec<f64>],
@@ -169,7 +170,7 @@ impl Model {
     }
 }
 
-/// What the bodies at both sides of joints get when these fluxes pass.
+/// Returns the transfers to the bodies on both sides of joints for these fluxes.
 fn exchanges(joints: &[&Joint], fluxes: &[[f64; 2]], dt: f64) -> Vec<Exchange> {
     let mut first = 0;
     let mut all = Vec::new();
@@ -179,7 +180,7 @@ fn exchanges(joints: &[&Joint], fluxes: &[[f64; 2]], dt: f64) -> Vec<Exchange> {
         let stage =
             |s: usize| joint.cells.spread(&own.iter().map(|flux| flux[s]).collect::<Vec<_>>());
         let both = stage(0).into_iter().zip(stage(1)).zip(&joint.cells.areas);
-        // Of a flux that is linear through its values at the stages: the mean, and what it is above that at first.
+        // For a flux that is linear through its values at the stages: the mean, and the initial excess over the mean.
         let (heat, falling): (Vec<f64>, Vec<f64>) = both
             .map(|((early, late), area)| {
                 (area * dt * (0.75 * early + 0.25 * late), area * 0.75 * (early - late))
@@ -203,12 +204,12 @@ fn exchanges(joints: &[&Joint], fluxes: &[[f64; 2]], dt: f64) -> Vec<Exchange> {
     all
 }
 
-/// What corrects the fluxes of a joint for what they are wrong by: the inverse of `1 + h R`, R the rise of both sides at
-/// the stages by the fluxes. A flux that varies along the face like a mode of wave number κ makes the rise of a uniform
-/// one whose modes of rate λ decay at λ + aκ²: exact for bodies that end where the contact does.
+/// Correction of a joint's fluxes from their residuals: the inverse of `1 + h R`, where R is the rise of both sides at
+/// the stages per flux. A flux that varies along the face like a mode of wave number κ causes the rise of a uniform
+/// one, with decay rates λ + aκ² instead of λ. This is exact for bodies that end at the contact.
 struct Correction<'a> {
     joint: &'a Joint,
-    /// Of each mode along the cells.
+    /// Inverse for each mode along the cells.
     inverses: Vec<[[f64; 2]; 2]>,
 }
 
@@ -218,7 +219,7 @@ impl<'a> Correction<'a> {
         Self { joint, inverses }
     }
 
-    /// What to add to the fluxes.
+    /// Returns the correction to be added to the fluxes.
     fn apply(&self, off: &[[f64; 2]]) -> Fluxes {
         let modes = &self.joint.modes;
         let of_stage = |stage: usize| {
@@ -249,7 +250,7 @@ fn inverse(joint: &Joint, decay: f64, dt: f64) -> [[f64; 2]; 2] {
             let time = stage * dt;
             let held = response.of_held_flux(time);
             let falling = held - 2.0 / dt * response.of_growing_flux(time);
-            // The mean is ¾ and ¼ of the fluxes at the stages, what falls ¾ of their difference.
+            // The mean is ¾ and ¼ of the fluxes at the stages; the falling part is ¾ of their difference.
             row[0] += joint.conductance * 0.75 * (held + falling);
             row[1] += joint.conductance * (0.25 * held - 0.75 * falling);
         }

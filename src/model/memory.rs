@@ -1,15 +1,15 @@
-//! Whether a scene fits into the memory that there is, before anything large is built.
+//! Checks that a scene fits into the available memory before anything large is built.
 
 use super::{Forecast, Model, ModelError, State, forecast};
 use crate::runtime::address_space::{self, ARENA, PRODUCTS, SPARE, TooLittle};
 use crate::runtime::thread::{SPACE, STACK};
 use crate::scene::Scene;
 
-/// Of each unknown, what a step or a look at temperatures takes beside the state itself [B].
+/// Memory per unknown of a step or a reading of temperatures, beyond the state itself [B].
 const WORK: usize = 100;
-/// What any call takes that does not look at bodies [B].
+/// Memory of any call that reads no bodies [B].
 const LITTLE: usize = 1 << 20;
-/// Data that what the C library sets aside for a thread has room for, whatever else does not [B].
+/// Data that fit into the space that the C library reserves for a thread [B].
 const WITHIN_ARENA: f64 = 0.6 * ARENA as f64;
 
 impl Forecast {
@@ -38,7 +38,7 @@ impl Forecast {
     }
 }
 
-/// What a body asks for.
+/// Memory need of a body.
 struct Need<'a> {
     name: &'a str,
     /// [B]
@@ -47,8 +47,8 @@ struct Need<'a> {
     remedy: &'static str,
 }
 
-/// Refuses a scene that is forecast to need more memory than is `available` [B] or than it says that it may take, or
-/// more address space than the limit of the process leaves.
+/// Refuses a scene whose forecast memory exceeds the `available` one [B] or the scene's own limit, or whose address
+/// space exceeds the limit of the process.
 pub fn check_memory(scene: &Scene, available: f64) -> Result<(), ModelError> {
     let own = scene.solver.memory.map_or(f64::INFINITY, |limit| limit as f64);
     let is_own = own < available;
@@ -59,7 +59,7 @@ pub fn check_memory(scene: &Scene, available: f64) -> Result<(), ModelError> {
         let needs = forecast.needs().into_iter();
         needs.max_by(|a, b| a.memory.total_cmp(&b.memory)).expect("a body needs it")
     };
-    // Numbers that are none are too many, too.
+    // NaN counts as too much, too.
     if needed.is_nan() || needed > available {
         let Need { name, size, remedy, .. } = needs();
         let body = name.to_owned();
@@ -71,13 +71,13 @@ pub fn check_memory(scene: &Scene, available: f64) -> Result<(), ModelError> {
     })
 }
 
-/// Address space that it takes to build a model with so much data, on so many threads [B].
+/// Address space to build a model with this amount of data, on this number of threads [B].
 fn space(data: f64, threads: usize) -> usize {
     let arena = if data > WITHIN_ARENA { ARENA } else { 0 };
     data as usize + arena + STACK + PRODUCTS + SPARE + (threads - 1) * SPACE
 }
 
-/// How many threads there is address space for, beside the data of a scene.
+/// Number of threads for which there is address space beyond the data of a scene.
 pub(super) fn threads_that_fit(scene: &Scene) -> usize {
     let Some(left) = address_space::left() else { return usize::MAX };
     1 + left.saturating_sub(space(forecast(scene).memory(), 1)) / SPACE
@@ -91,11 +91,11 @@ impl Model {
         address_space::expect(droplets + self.room(state))
     }
 
-    /// What is taken to look at a state, or to copy it [B].
+    /// Memory to read or copy a state [B].
     pub fn room(&self, state: &State) -> usize {
         let unknowns: usize = state.bodies.iter().map(Vec::len).sum();
         let room = WORK * (unknowns + state.inputs.len());
-        // So little is always had.
+        // So little memory is always available.
         if room < LITTLE / 8 { room } else { room + LITTLE }
     }
 }

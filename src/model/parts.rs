@@ -1,24 +1,23 @@
-//! Steps that are taken in parts, so that a host can be told how far they have come.
+//! Steps that are taken in parts, so that a host can follow their progress.
 
 use super::{Cache, Model, ModelError, State};
 use crate::runtime::allowance::{Allowance, PART_UPDATES};
 
 impl Model {
-    /// Into how many parts a step of `dt` [s] is cut for a host that wants to be told of it on its way. Bodies that
-    /// take any step in one do not count.
+    /// Number of parts into which a step of `dt` [s] is cut for a host that follows its progress. Bodies that take any
+    /// step at the same cost do not count.
     pub fn parts(&self, dt: f64) -> f64 {
         let updates: f64 = self.bodies.iter().map(|body| body.updates(dt)).sum();
         (updates / PART_UPDATES).ceil().max(1.0)
     }
 
-    /// Ends a step of `dt` [s] that is known to take the bodies too long.
+    /// Refuses a step of `dt` [s] that would exceed the allowed work.
     pub fn foresee(&self, state: &State, dt: f64, allowance: &Allowance) -> Result<(), ModelError> {
         let mut bodies = self.bodies.iter().zip(&state.bodies);
         Ok(bodies.try_for_each(|(body, unknowns)| body.foresee(unknowns, dt, allowance))?)
     }
 
-    /// Advances by `dt` [s] as a further part of the step before: means over the last step are those over
-    /// all its parts.
+    /// Advances by `dt` [s] as a further part of the last step: means over the last step then cover all its parts.
     pub fn step_on(
         &self,
         allowance: &Allowance,

@@ -1,12 +1,12 @@
 //! Running maxima of bodies, each with its time and place.
 //!
-//! They are noted at communication points alone: as a step begins, under the inputs that it begins with, and as it ends.
-//! Parts of a step that a host is told of are steps, too.
+//! They are noted only at communication points: when a step begins, under its first inputs, and when it ends. Parts of
+//! a step that are reported to a host count as steps.
 
 use super::{Cache, Model, ModelError, State};
 use crate::body::{BodyError, Extreme, PeakPart};
 
-/// The highest value that a body had so far.
+/// Highest value of a body so far.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
     /// [s]
@@ -36,8 +36,8 @@ impl Peak {
 }
 
 impl State {
-    /// Sets the time that a step came to where who steps knows it free of accumulated rounding; what was noted at the
-    /// end of that step was at that time.
+    /// Sets the time of the state to the caller's value without accumulated rounding. Maxima noted at the end of that
+    /// step receive the same time.
     pub fn set_time(&mut self, time: f64) {
         for peak in self.peaks.iter_mut().filter(|peak| peak.time == self.time) {
             peak.time = time;
@@ -47,8 +47,8 @@ impl State {
 }
 
 impl Model {
-    /// Notes the present values in the running maxima of a state, whose inputs must make sense. What is as high as before
-    /// keeps its time and place. An error changes nothing.
+    /// Updates the running maxima of a state with its present values; its inputs must be valid. A value equal to the
+    /// earlier maximum leaves its time and place. An error changes nothing.
     pub fn note_peaks(&self, state: &mut State, cache: &mut Cache) -> Result<(), ModelError> {
         if !self.peaks.is_empty() {
             self.expect_room_to_step(state)?;
@@ -57,7 +57,7 @@ impl Model {
         Ok(noted.map_err(|(_, error)| error)?)
     }
 
-    /// The same without a look at the stack that is left; an error with the place of its body.
+    /// Updates the maxima without a check of the remaining stack; errors are returned with the place of the body.
     pub(super) fn note_peaks_here(
         &self,
         state: &mut State,
@@ -77,7 +77,7 @@ impl Model {
         Ok(())
     }
 
-    /// A part of a running maximum; before anything is noted, of the present value.
+    /// Returns a part of a running maximum; before a maximum is noted, of the present value.
     pub(super) fn read_peak(
         &self,
         state: &State,
@@ -101,7 +101,7 @@ impl Model {
         Ok(Peak { time: state.time, highest })
     }
 
-    /// Refuses running maxima that no run leads to the state with.
+    /// Refuses running maxima that no run ending in the state produces.
     pub(super) fn check_peaks(&self, state: &State) -> Result<(), ModelError> {
         let refuse = |message: String| Err(ModelError::State(message));
         let (found, wanted) = (state.peaks.len(), self.peaks.len());

@@ -2,7 +2,7 @@ use super::{BodyError, Cache, Model, ModelError, State};
 use crate::body::Reading;
 use crate::variables::Output;
 
-/// Outputs of one state whose inputs have been found in order; see [`Model::reader`].
+/// Outputs of one state whose inputs have been checked; see [`Model::reader`].
 pub struct Reader<'a> {
     pub(super) model: &'a Model,
     pub(super) state: &'a State,
@@ -10,7 +10,7 @@ pub struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// The value of an output; an error where it is no finite number.
+    /// Returns the value of an output, or an error if it is not finite.
     pub fn value(&mut self, output: &Output) -> Result<f64, ModelError> {
         let place = output.body;
         if let Reading::Peak { which, part } = output.reading {
@@ -26,8 +26,8 @@ impl Reader<'_> {
 }
 
 impl Model {
-    /// Whether an output of a state takes a solution of mechanics that the cache, which is up to date with it, does not
-    /// have: more stack than a host's thread need have.
+    /// Returns true if an output needs a mechanical solution that is missing from the cache, which belongs to this
+    /// state. Then it needs more stack than a host's thread has to provide.
     pub fn is_deep(&self, state: &State, cache: &Cache, output: &Output) -> bool {
         if output.reading == Reading::Error {
             return self.errors[output.body].get().is_none();

@@ -1,4 +1,4 @@
-//! In which order bodies advance, and how often those that are linked meet.
+//! Order in which bodies advance, and exchanges between linked bodies.
 
 use super::{Cache, Model, ModelError, State};
 use crate::body::{Acts, BodyError, Given, Link, MOST_PARTS, Received};
@@ -7,7 +7,7 @@ use crate::port::Surface;
 use crate::runtime::allowance::Allowance;
 use crate::scene::FaceName;
 
-/// Bodies that advance together because links join them, or one alone.
+/// Bodies that advance together because of links or joints, or a single body.
 pub struct Group {
     /// Places of the bodies.
     pub(super) bodies: Vec<usize>,
@@ -18,7 +18,7 @@ pub struct Group {
 }
 
 impl Group {
-    /// Joins so many bodies by links and by pairs of bodies.
+    /// Groups bodies by links and by pairs of bodies.
     pub fn all(bodies: usize, links: &[Link], joints: &[[usize; 2]]) -> Vec<Self> {
         let mut of: Vec<usize> = (0..bodies).collect();
         for [from, to] in links.iter().map(|link| [link.from, link.to]).chain(joints.to_vec()) {
@@ -34,7 +34,7 @@ impl Group {
     }
 }
 
-/// What a body gets through one of its faces.
+/// Transfer to a body through one of its faces.
 pub(super) struct Exchange {
     pub body: usize,
     pub face: FaceName,
@@ -42,7 +42,7 @@ pub(super) struct Exchange {
 }
 
 impl Exchange {
-    /// What one body gets.
+    /// Returns the transfers to one body.
     pub fn with<'a>(
         exchanges: impl IntoIterator<Item = &'a Self>,
         body: usize,
@@ -55,15 +55,15 @@ impl Exchange {
 /// A part of a step for a group: the inputs from its beginning on, and its length [s].
 pub(super) type Part<'a> = (&'a InputPath, f64);
 
-/// Shortest part of a step that is cut where bodies ask for it, over the step.
+/// Shortest part, over the step, of a step that is cut at the moments bodies ask for.
 const SHORTEST: f64 = 1e-6;
 
 impl Model {
     /// Advances all bodies by `dt` [s] under inputs that follow a path.
     ///
-    /// Bodies that are linked take turns: over each part of the step the one above advances above the temperatures
-    /// that the face below has meanwhile, then the one below under the heat and force that it got. So all heat that
-    /// leaves the one enters the other, and the time error is of first order in the parts.
+    /// Linked bodies advance in turn over each part of the step: first the upper one, with the temperatures of the face
+    /// below during that part, then the lower one, with the heat and force that it receives. All heat that leaves one
+    /// body enters the other, and the time error is of first order in the parts.
     pub(super) fn advance(
         &self,
         states: &mut [Vec<f64>],
@@ -77,7 +77,7 @@ impl Model {
         Ok(advanced?)
     }
 
-    /// What passed through all links during the last step.
+    /// Returns the transfers through all links during the last step.
     pub(super) fn through_links(&self, state: &State) -> Vec<Exchange> {
         let given = self.links.iter().filter_map(|link| {
             let given = self.bodies[link.from].given(&state.bodies[link.from])?;
@@ -124,13 +124,13 @@ impl Model {
         Ok(())
     }
 
-    /// The parts of a step at whose ends bodies above are asked for what they give.
+    /// Parts of a step at whose ends the transfers of upper bodies are evaluated.
     fn cut(&self, group: &Group, states: &[Vec<f64>], (path, dt): Part) -> Vec<f64> {
         let above = group.links.iter().map(|&link| self.links[link].from);
         let moments = above.flat_map(|body| self.bodies[body].moments(&states[body], path, dt));
         let mut moments: Vec<f64> = moments.collect();
         moments.sort_by(f64::total_cmp);
-        // Of many, as under a printer in a long step, those that are farther apart.
+        // With many moments, as under a printer in a long step, only those that are further apart.
         let apart = if moments.len() < MOST_PARTS { SHORTEST } else { 1.0 / MOST_PARTS as f64 };
         let (mut parts, mut start) = (Vec::new(), 0.0);
         for moment in moments {
@@ -143,7 +143,7 @@ impl Model {
         parts
     }
 
-    /// The parts of a part of a step: one, or some that grow where solids that touch would go beyond their rest.
+    /// Sub-steps of a part of a step: one, or growing ones if solids in contact would overshoot equilibrium.
     fn lengths(&self, group: &Group, part: f64) -> Vec<f64> {
         let halvings = group.joints.iter().map(|&joint| self.joints[joint].halvings(part));
         let halvings = halvings.max().unwrap_or(0);
@@ -184,7 +184,7 @@ impl Model {
             let place = group.links.iter().position(|&link| self.links[link].from == body)?;
             Some(&surfaces[place])
         };
-        // Those that stand on others give first.
+        // Upper bodies advance first.
         let is_above = |&&body: &&usize| below(body).is_some();
         let mut given: Vec<(usize, Given)> = Vec::new();
         for &body in group.bodies.iter().filter(is_above) {
@@ -209,7 +209,7 @@ impl Model {
         Ok(())
     }
 
-    /// The faces below over a part of a step if nothing is given to them, one for each link of a group.
+    /// Returns the faces below over a part of a step without received heat, one for each link of a group.
     fn surfaces(
         &self,
         group: &Group,

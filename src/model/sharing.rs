@@ -13,9 +13,9 @@ use crate::scene::Scene;
 static MODELS: SharedValues<Scene, Model> = SharedValues::new();
 
 impl Model {
-    /// The model of `scene`, built unless another holder in this process already has it. Those who
-    /// ask for the same one meanwhile wait; those who ask for another do not. One that would take more
-    /// memory than is `available` [B] is not built.
+    /// Returns the model of `scene`, which is built unless another holder in this process already has it. Callers for
+    /// the same model wait meanwhile; callers for another do not. A model that needs more memory than is `available`
+    /// [B] is not built.
     pub fn shared(scene: &Scene, threads: usize, available: f64) -> Result<Arc<Model>, ModelError> {
         aside(|| {
             let Resolved { scene, choices } = tolerance::resolve(scene);
@@ -26,7 +26,7 @@ impl Model {
         })
     }
 
-    /// Forgets scenes whose models nobody holds any more.
+    /// Drops scenes whose models are no longer held.
     pub fn forget_unused() {
         MODELS.forget_unused();
         forget_unused_stiffness();
@@ -87,7 +87,7 @@ mod tests {
     }
 
     #[test]
-    fn those_who_ask_at_once_get_the_same_model() {
+    fn concurrent_callers_share_one_model() {
         let mut scene = parse(SCENE, "scene.toml").unwrap();
         scene.name = "AtOnce".into();
         let models: Vec<Arc<Model>> = std::thread::scope(|scope| {

@@ -1,4 +1,4 @@
-//! How outputs at time zero follow the constants of a scene.
+//! Derivatives of outputs at time zero with respect to the constants of a scene.
 
 use super::{Cache, Model, ModelError};
 use crate::laws::AtStart;
@@ -9,26 +9,27 @@ use crate::variables::{Output, Parameter, Quantity};
 /// doi 10.1090/S0025-5718-1988-0935077-0).
 const WEIGHTS: [f64; 3] = [0.75, -0.15, 1.0 / 60.0];
 
-/// Step as a part of the distance to the nearest value at which the solution has a pole: the error
-/// of the difference is then about 1e-11 of the rate, which is what rounding leaves of it too.
+/// Step as a fraction of the distance to the nearest pole of the solution. The error of the difference is then about
+/// 1e-11 of the rate, which is also the effect of rounding.
 const STEP: f64 = 0.01;
 
-/// Distance to the nearest pole of what outputs at time zero are of a constant; nothing where they do not follow it.
+/// Distance from the value of a constant to the nearest pole of the outputs at time zero; `None` if they do not depend
+/// on it.
 fn reach_of(start: AtStart, quantity: Quantity, value: f64) -> Option<f64> {
     match start {
         AtStart::Never => None,
         AtStart::PoleAtZero => Some(value),
         AtStart::PolesAt([low, high]) => Some((value - low).min(high - value)),
-        // Any step will do; the constant may be zero.
+        // Any step is suitable; the constant may be zero.
         AtStart::Polynomial => Some(quantity.nominal()),
     }
 }
 
 /// Rates of outputs at time zero, under these inputs, when a parameter of the scene changes.
 ///
-/// Nothing depends on density, specific heat, conductivity, heat transfer coefficients and contacts before
-/// heat has moved. For the others, which the outputs follow smoothly, the model is built at six
-/// values about the present one.
+/// Density, specific heat, conductivity, heat transfer coefficients and contacts have no effect before heat has moved.
+/// The outputs depend smoothly on the other constants: for these the model is built at six values about the present
+/// one.
 pub fn start_rates(
     scene: &Scene,
     inputs: &[f64],

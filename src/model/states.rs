@@ -1,12 +1,12 @@
-//! Whether a state that comes from elsewhere belongs to a model.
+//! Checks that a state from outside belongs to a model.
 
 use super::{HIGHEST_INPUT_DERIVATIVE, Model, ModelError, State};
 use crate::limits::LARGEST;
 
 impl Model {
-    /// Refuses a state that this model cannot go on from: a wrong number of inputs or bodies,
-    /// unknowns of a length that a body does not take, numbers that are not finite or beyond all constants of
-    /// scenes, or heat, particles and running maxima that no run leads to.
+    /// Refuses a state from which this model cannot continue. It may have a wrong number of inputs or bodies, or a
+    /// length that a body does not accept. Its numbers may not be finite, or exceed all constants of scenes. No run may
+    /// produce its heat, particles or running maxima.
     pub fn check_state(&self, state: &State) -> Result<(), ModelError> {
         let refuse = |message: String| Err(ModelError::State(message));
         let orders = state.derivatives.len();

@@ -3,7 +3,7 @@
 use super::ModelError;
 use crate::limits;
 
-/// Refuses a step of `step` [s] that is longer or shorter than arithmetic bears.
+/// Refuses a step of `step` [s] that is outside the limits of the arithmetic.
 pub fn check_step_length(step: f64) -> Result<(), ModelError> {
     let bounds = limits::step().bounds();
     match bounds.side(step) {

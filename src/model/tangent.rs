@@ -1,4 +1,4 @@
-//! How outputs change: with the inputs at one moment, and in time.
+//! Derivatives of outputs, with respect to the inputs at one moment and to time.
 
 use super::schedule::Exchange;
 use super::{BodyError, Cache, Model, ModelError, State};
@@ -6,17 +6,17 @@ use crate::body::{Body, Reading};
 use crate::inputs::InputPath;
 use crate::variables::Output;
 
-/// A change of unknowns and of what acts, with what follows from it.
+/// A change of unknowns and loads, with its effects.
 #[derive(Debug, Default)]
 pub struct Tangent {
     bodies: Vec<Vec<f64>>,
     cache: Cache,
-    /// Whether unknowns change, too.
+    /// True if the unknowns change, too.
     in_time: bool,
 }
 
 impl Model {
-    /// The change when the inputs change at `rates` while the unknowns stay.
+    /// Returns the change when the inputs change at `rates` and the unknowns are constant.
     pub fn input_tangent(&self, state: &State, rates: &[f64]) -> Result<Tangent, ModelError> {
         self.check_inputs(&state.inputs)?;
         let change = |body: &dyn Body| match body.linear() {
@@ -28,7 +28,7 @@ impl Model {
         Ok(Tangent { bodies, cache, in_time: false })
     }
 
-    /// The time derivative under the present inputs and their first derivatives.
+    /// Returns the time derivative under the present inputs and their first derivatives.
     pub fn time_tangent(&self, state: &State, cache: &mut Cache) -> Result<Tangent, ModelError> {
         let held = vec![0.0; state.inputs.len()];
         let mut tangent = self.input_tangent(state, state.derivatives.first().unwrap_or(&held))?;
@@ -53,8 +53,8 @@ impl Model {
         Ok(tangent)
     }
 
-    /// The change of an output, see [`Linear::read_rate`](crate::body::Linear::read_rate). Between steps a body that
-    /// is not linear follows no input; in time its outputs have no rate, nor have running maxima.
+    /// Returns the change of an output, see [`Linear::read_rate`](crate::body::Linear::read_rate). Between steps a body
+    /// that is not linear follows no input. Its outputs and running maxima have no time derivative.
     pub fn output_rate(
         &self,
         state: &State,
@@ -70,7 +70,7 @@ impl Model {
         if matches!(output.reading, Reading::Peak { .. }) {
             match (*in_time, state.peaks.is_empty()) {
                 (true, _) => return Err(BodyError::NoRate.into()),
-                // What was noted follows no input.
+                // A noted maximum follows no input.
                 (false, false) => return Ok(0.0),
                 (false, true) => {}
             }

@@ -25,8 +25,8 @@ impl Timeline {
         if i < self.count { i as f64 * self.step } else { self.stop }
     }
 
-    /// Length of the step that begins after `i` steps [s]: bit for bit the same for all but a
-    /// shortened last one, so that a model can reuse what it has factorised for it.
+    /// Length of the step that begins after `i` steps [s]. It is bitwise equal for all steps but a shortened last one,
+    /// so that a model can reuse its factorisations.
     pub fn length(&self, i: usize) -> f64 {
         let rest = self.stop - self.time(i);
         let is_shortened = rest < self.step - Self::ROUNDING * self.stop;
@@ -48,7 +48,7 @@ mod tests {
     }
 
     #[test]
-    fn the_last_step_is_shortened_to_the_end() {
+    fn last_step_is_shortened_to_the_end() {
         let timeline = Timeline::new(1.0, 2.5);
         assert_eq!(timeline.count, 3);
         assert_eq!([0, 1, 2].map(|i| timeline.length(i)), [1.0, 1.0, 0.5]);
@@ -56,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn a_step_past_the_end_becomes_one_short_step() {
+    fn step_past_the_end_is_shortened() {
         let timeline = Timeline::new(2.0, 0.5);
         assert_eq!((timeline.count, timeline.length(0), timeline.time(1)), (1, 0.5, 0.5));
     }

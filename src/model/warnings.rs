@@ -6,9 +6,9 @@ use crate::scene::FidelityLevel;
 use crate::variables::{Output, Registry, Slot};
 use crate::warning::{self, Warning};
 
-/// Part of the time that a mesh resolves, and of the step that it was chosen for, below which a step is too short.
+/// Fraction of the resolved time of a mesh, and of the scene's step, below which a step is too short.
 const SHORT: f64 = 0.5;
-/// Part of the scene's step that rounding leaves over.
+/// Fraction of the scene's step that rounding may leave.
 const ROUNDING: f64 = 1e-9;
 
 impl Model {
@@ -54,10 +54,10 @@ impl Model {
         bodies.flat_map(|(body, unknowns)| body.warnings(unknowns, occasion)).collect()
     }
 
-    /// Warns of a step of `dt` [s] that is much shorter than those that the meshes were chosen for.
+    /// Warns of a step of `dt` [s] that is much shorter than the step for which the meshes were chosen.
     pub fn warning_on_step(&self, dt: f64) -> Option<Warning> {
         let asked = self.scene.step;
-        // What is left over of a run is as short as rounding.
+        // The remainder of a run may be as short as rounding.
         if dt >= SHORT * asked || dt < ROUNDING * asked {
             return None;
         }
@@ -91,7 +91,8 @@ impl Model {
         Ok(found)
     }
 
-    /// Warns of fluids in a state beyond the points at which they freeze or boil, but for subjects that have been said.
+    /// Warns of fluids in a state beyond their freezing and boiling points, except on subjects that were already
+    /// reported.
     pub fn phase_warnings(&self, state: &State, is_said: impl Fn(&str) -> bool) -> Vec<Warning> {
         let mut found = Vec::new();
         for (body, unknowns) in self.bodies.iter().zip(&state.bodies) {
@@ -108,7 +109,7 @@ impl Model {
         found
     }
 
-    /// Returns true if a fluid has points to be watched.
+    /// Returns true if a fluid has points to watch.
     pub fn watches_phases(&self) -> bool {
         self.bodies.iter().any(|body| body.watch().is_some_and(|watch| watch.changes().count() > 0))
     }

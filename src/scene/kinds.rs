@@ -5,7 +5,7 @@ use super::lookup::BodyInput;
 use super::sampling::Sampling;
 use super::types::*;
 
-/// What fields of a body are given at.
+/// Places at which a body's fields are given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Drawn {
     /// Nodes of a mesh.
@@ -54,7 +54,7 @@ impl Body {
         matches!(self, Body::Solid(_))
     }
 
-    /// What pictures of the body's fields consist of; nothing if it has no extent.
+    /// Elements of pictures of the body's fields; `None` for a body without extent.
     pub fn drawn_as(&self) -> Option<Drawn> {
         match self {
             Body::Solid(_) => Some(Drawn::Grid),

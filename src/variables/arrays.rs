@@ -6,9 +6,9 @@ use super::registry::flat;
 use super::{Causality, CellFamily, Quantity, Registry, Slot, Variable};
 use crate::scene::{Grid, Naming, Sampling, Scene};
 
-/// All variables of a scene's unit where arrays are variables: time first, then those of the
-/// [`Registry`] in their order, each family `name[i]` or `name[i,j]` of structured names as one, then
-/// where the points and cells of families are. The value reference of a variable is its place in the list.
+/// All variables of a scene's unit, with arrays as variables. Time comes first, then those of the [`Registry`] in their
+/// order, with each family `name[i]` or `name[i,j]` of structured names as one variable, then the positions of the
+/// points and cells of families. The value reference of a variable is its place in the list.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ArrayRegistry {
     pub variables: Vec<ArrayVariable>,
@@ -24,7 +24,7 @@ pub struct ArrayVariable {
     pub content: Content,
 }
 
-/// Where the values are.
+/// Source of the values.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Content {
     /// The time of the unit [s].
@@ -68,8 +68,8 @@ impl ArrayRegistry {
         Self { variables }
     }
 
-    /// Value references of the inputs that an output follows without delay: every element of the one
-    /// follows every element of the others.
+    /// Value references of the inputs that an output follows without delay: every element of the output follows every
+    /// element of these inputs.
     pub fn dependencies(
         &self,
         scene: &Scene,
@@ -136,7 +136,7 @@ impl ArrayVariable {
         }
     }
 
-    /// What the values are measured in; none of texts and counts.
+    /// Quantity of the values; `None` for texts and counts.
     pub fn quantity(&self, registry: &Registry) -> Option<Quantity> {
         match self.content {
             Content::Time => Some(Quantity::Time),
@@ -145,13 +145,13 @@ impl ArrayVariable {
         }
     }
 
-    /// Causality of all elements; none of time and constants.
+    /// Causality of all elements; `None` for time and constants.
     pub fn causality(&self, registry: &Registry) -> Option<Causality> {
         self.elements(registry).first().map(Variable::causality)
     }
 }
 
-/// The places of the variable at `first` and of those behind it with the same name but for indices.
+/// Places of the variable at `first` and of those after it whose names differ only in indices.
 fn family(registry: &Registry, first: usize) -> Range<usize> {
     let variables = &registry.variables[first..];
     let Some((stem, _)) = indexed(&variables[0].name) else { return first..first + 1 };
@@ -180,7 +180,7 @@ fn counts(indices: &str) -> Vec<usize> {
     numbers.map(|number| number.parse().expect("indices of variables are numbers")).collect()
 }
 
-/// The words of first and last element, with letters for the indices in which they differ.
+/// Common words of first and last element, with letters for the indices in which they differ.
 fn common_words(first: &str, last: &str, dimensions: &[usize]) -> String {
     let longer_than_one = INDICES.iter().zip(dimensions).filter(|(_, count)| **count > 1);
     let mut letters = longer_than_one.map(|(letter, _)| *letter);
@@ -194,8 +194,8 @@ fn common_words(first: &str, last: &str, dimensions: &[usize]) -> String {
     first.split(' ').zip(last.split(' ')).map(word).collect::<Vec<_>>().join(" ")
 }
 
-/// Coordinates of the points of fields on grids, one list for each index and the constant one, and areas and places of
-/// cells.
+/// Coordinates of the points of fields on grids, one list for each index and the constant one, and areas and positions
+/// of cells.
 fn constants(scene: &Scene, list: &mut Vec<ArrayVariable>) {
     for field in &scene.field {
         if let Some(Sampling::Points(grid)) = scene.sampling(field) {
@@ -326,7 +326,7 @@ mod tests {
     }
 
     #[test]
-    fn an_array_of_one_row_keeps_its_letters_in_place() {
+    fn one_row_arrays_keep_the_order_of_index_letters() {
         assert_eq!(common_words("at 1, 1 of", "at 1, 9 of", &[1, 9]), "at 1, j of");
         assert_eq!(common_words("on ring 1, spot", "on ring 24, spot", &[24]), "on ring i, spot");
     }

@@ -1,4 +1,4 @@
-//! Where the cells lie that variables belong to, for who couples them with others.
+//! Positions of the cells that variables belong to, for coupling with other tools.
 
 use serde::Serialize;
 
@@ -23,7 +23,7 @@ pub struct CellFamily {
     pub outputs: Vec<String>,
     /// Place of the centre at the start [m].
     pub at: [f64; 2],
-    /// What the value 1 brings on each cell [m²]; of plane droplets for each metre of depth [m].
+    /// Area of each cell, weighted with the profile of a spot [m²]; of plane droplets per metre of depth [m].
     pub area: Vec<f64>,
     /// Radii of rings [m].
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -43,7 +43,7 @@ pub struct CellFamily {
 }
 
 impl CellFamily {
-    /// All of a checked scene: of loads, walls and fields, in this order.
+    /// Returns all families of a checked scene: of loads, walls and fields, in this order.
     pub fn all(scene: &Scene) -> Vec<Self> {
         let mut families = Self::places(scene);
         let registry = Registry::structured(scene);
@@ -51,7 +51,7 @@ impl CellFamily {
         families
     }
 
-    /// The same without the names of variables.
+    /// Returns the families without the names of variables.
     pub fn places(scene: &Scene) -> Vec<Self> {
         let loads = scene.load.iter().map(|load| {
             let at = [load.start.x, load.start.y].map(Option::unwrap_or_default);
@@ -148,7 +148,7 @@ impl CellFamily {
         family
     }
 
-    /// Of a plane model, whose cells are strips.
+    /// Converts to a plane model, whose cells are strips.
     fn of_plane(mut self) -> Self {
         if let Some([width, _]) = self.size {
             self.area = vec![width; self.area.len()];

@@ -1,4 +1,4 @@
-//! Which inputs an output follows without delay.
+//! Inputs that an output follows without delay.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -11,7 +11,7 @@ use crate::scene::Scene;
 impl Registry {
     /// Value references of the inputs that an output follows without delay.
     ///
-    /// Heat takes time to move; prescribed temperatures and tractions act at once.
+    /// Heat takes time to move; prescribed temperatures and tractions act immediately.
     pub fn dependencies(&self, scene: &Scene, output: &Output) -> Vec<usize> {
         let reach = Reach::of(scene, output);
         self.inputs_within(scene, &InputLayout::of(scene), reach)
@@ -41,7 +41,7 @@ impl Registry {
     }
 }
 
-/// All that decides which inputs an output follows without delay.
+/// All data that determine which inputs an output follows without delay.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Reach<'a> {
     body: &'a str,

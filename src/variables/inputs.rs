@@ -6,7 +6,7 @@ use crate::limits::{self, Bounds};
 use crate::quantity::Quantity;
 use crate::scene::{Body, BodyInput, CellShape, CellValues, Face, Load, LoadRange, Role, Scene};
 
-/// What comes from outside.
+/// Lists the inputs of a scene.
 pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
     let layout = InputLayout::of(scene);
     for (load, places) in scene.load.iter().zip(&layout.loads) {
@@ -81,7 +81,7 @@ fn placement(load: &Load, places: &LoadInputs, list: &mut Vec<Variable>) {
     }
 }
 
-/// Index text of each cell in a variable's name, and the words for it.
+/// Index text of each cell in a variable's name, and its description.
 pub(super) fn cell_labels(cells: Option<CellShape>) -> Vec<(String, String)> {
     match cells {
         None => vec![(String::new(), String::new())],
@@ -96,7 +96,7 @@ pub(super) fn cell_labels(cells: Option<CellShape>) -> Vec<(String, String)> {
     }
 }
 
-/// The start value of one cell; zero where none is given.
+/// Returns the start value of one cell; zero if none is set.
 pub(super) fn cell_start(start: Option<&CellValues>, cells: Option<CellShape>, cell: usize) -> f64 {
     match (start, cells) {
         (Some(CellValues::Uniform(value)), _) => *value,

@@ -1,6 +1,6 @@
-//! The registry: every variable of a unit once, with name, unit, causality, start value and what it
-//! stands for. XML, get and set, CSV headers and documentation are all made from it.
-//! [`ArrayRegistry`] lists the same variables with each family `name[i,j]` as one array.
+//! The registry: every variable of a unit once, with name, unit, causality, start value and meaning. XML, get and set,
+//! CSV headers and documentation are all generated from it. [`ArrayRegistry`] lists the same variables with each family
+//! `name[i,j]` as one array.
 
 mod arrays;
 mod cells;

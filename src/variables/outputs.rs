@@ -1,4 +1,4 @@
-//! Variables that are outputs: one for each quantity that a body offers, wherever the scene wants it.
+//! Variables that are outputs: one for each quantity that a body offers and the scene requests.
 
 use super::inputs::cell_labels;
 use super::registry::{Output, Slot, Variable};
@@ -9,7 +9,7 @@ use crate::limits::Bounds;
 use crate::quantity::Quantity;
 use crate::scene::{Field, Gives, Probe, Sampling, Scene, Side, Wall};
 
-/// What is computed.
+/// Lists the outputs of a scene.
 pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
     for probe in &scene.probe {
         of_probe(scene, probe, list);
@@ -25,7 +25,7 @@ pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
     }
 }
 
-/// The bodies: first those that have points.
+/// Bodies in order: first those that have points.
 fn in_order(scene: &Scene) -> impl Iterator<Item = &str> {
     let of = |resolves: bool| {
         let own = scene.body.iter().filter(move |(_, body)| body.resolves_fields() == resolves);
@@ -76,7 +76,7 @@ fn of_probe(scene: &Scene, probe: &Probe, list: &mut Vec<Variable>) {
     }
 }
 
-/// The field at a place among the scene's.
+/// Lists the outputs of a field, by its place among the scene's.
 fn of_field(scene: &Scene, field: usize, list: &mut Vec<Variable>) {
     let Field { name, gives, .. } = &scene.field[field];
     let (body_name, _) = scene.field[field].body_and_place();
@@ -99,7 +99,7 @@ fn of_field(scene: &Scene, field: usize, list: &mut Vec<Variable>) {
     }
 }
 
-/// Index text of each place of a field in names of variables, and words for the place.
+/// Index text of each place of a field in names of variables, and its description.
 fn places(scene: &Scene, field: usize) -> Vec<(String, String)> {
     let Field { name, on, body, grid, footprint, .. } = &scene.field[field];
     let whole = on.as_deref().or(body.as_deref()).unwrap_or_default();
@@ -118,7 +118,7 @@ fn places(scene: &Scene, field: usize) -> Vec<(String, String)> {
     }
 }
 
-/// The quantities that a list of wishes stands for, each once, with its place among all.
+/// Returns the quantities for a list of output names, each once, with its place among all.
 fn wanted(gives: &[Gives]) -> impl Iterator<Item = (usize, &'static PointQuantity)> {
     let is_wanted =
         |quantity: &PointQuantity| quantity.given_by.iter().any(|wish| gives.contains(wish));
@@ -143,11 +143,11 @@ fn of_body(scene: &Scene, name: &str, list: &mut Vec<Variable>) {
     }
 }
 
-/// What is told of the error of a solid's outputs.
+/// Description of the error estimate of a solid's outputs.
 const ERROR: &str = "estimate of the largest error of an output by the mesh, of its range over the default experiment, \
                      -1 without one";
 
-/// A running maximum, then when and where it was.
+/// Lists a running maximum with its time and place.
 fn of_peak(
     (body, name): (usize, &str),
     which: usize,
@@ -196,7 +196,7 @@ fn of_wall(scene: &Scene, wall: &Wall, list: &mut Vec<Variable>) {
     }
 }
 
-/// Words for what a plane model gives of a quantity.
+/// Suffix of a quantity's description in a plane model.
 fn depth(quantity: Quantity) -> &'static str {
     if quantity.is_per_depth() { ", per metre of depth" } else { "" }
 }

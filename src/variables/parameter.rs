@@ -10,13 +10,13 @@ pub struct Parameter {
 impl Parameter {
     /// The value that `scene` holds.
     pub fn get(&self, scene: &Scene) -> f64 {
-        // Reading goes through the same place as writing, on a copy that is small.
+        // Reading uses the same place as writing, on a small copy.
         let mut copy = scene.body[&self.body].clone();
         let places = copy.places_of(&self.constant);
         places.first().map_or(f64::NAN, |place| **place)
     }
 
-    /// Puts a value into `scene`; whether it makes sense is for the scene's check to say.
+    /// Sets a value in `scene`; the scene's check decides whether it is valid.
     pub fn set(&self, scene: &mut Scene, value: f64) {
         if let Some(body) = scene.body.get_mut(&self.body) {
             body.places_of(&self.constant).into_iter().for_each(|place| *place = value);

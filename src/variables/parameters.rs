@@ -32,7 +32,7 @@ pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
 }
 
 fn of_body(name: &str, body: &Body, list: &mut Vec<Variable>) {
-    // Reading goes through the same place as writing.
+    // Reading uses the same place as writing.
     let mut copy = body.clone();
     for offered in body.constants(name) {
         let constant = offered.constant;

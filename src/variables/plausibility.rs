@@ -6,7 +6,7 @@ use crate::scene::Scene;
 use crate::warning::Warning;
 
 impl Variable {
-    /// The warning of a value that is implausible for an input, in the words that a scene's constants get.
+    /// Returns a warning about an implausible value of an input, worded like those about a scene's constants.
     pub fn implausible(&self, scene: &Scene, value: f64) -> Option<Warning> {
         let Slot::Input(_) = self.slot else { return None };
         let measure = match self.quantity? {
@@ -21,7 +21,7 @@ impl Variable {
         implausible_input(scene, &self.name, measure, value)
     }
 
-    /// The name without the indices of an element, in either way of naming.
+    /// Returns the name without the indices of an element, in either naming.
     pub fn family(&self) -> &str {
         let is_index = |letter: char| letter.is_ascii_digit() || "[],_".contains(letter);
         self.name.trim_end_matches(is_index)

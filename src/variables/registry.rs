@@ -23,9 +23,9 @@ pub struct Variable {
     pub quantity: Option<Quantity>,
     /// Start value; none for outputs.
     pub start: Option<Value>,
-    /// Values that it may have.
+    /// Allowed values.
     pub bounds: Bounds,
-    /// Whether it is an input that nothing may be connected to: a parameter that may be set between steps.
+    /// True for an input that cannot be connected: a parameter that may be set between steps.
     pub is_tunable: bool,
 }
 
@@ -37,7 +37,7 @@ pub enum Value {
     Text(String),
 }
 
-/// What a variable stands for, and so where its value lives.
+/// Meaning of a variable, and so the location of its value.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Slot {
     /// Constant of the scene.
@@ -59,7 +59,7 @@ pub enum Causality {
     Output,
 }
 
-/// A computed value: what is read of which body, by its place among the scene's.
+/// A computed value: a reading of a body, given by the body's place among the scene's.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Output {
     pub body: usize,
@@ -76,23 +76,23 @@ impl Variable {
         }
     }
 
-    /// Least value, itself allowed or not.
+    /// Smallest value, which may itself be excluded.
     pub fn min(&self) -> Option<f64> {
         self.bounds.low.map(|end| end.value)
     }
 
-    /// Largest value, itself allowed or not.
+    /// Largest value, which may itself be excluded.
     pub fn max(&self) -> Option<f64> {
         self.bounds.high.map(|end| end.value)
     }
 
-    /// Why the variable cannot have a value, with its name and what is allowed.
+    /// Returns why the variable cannot have a value, with its name and the allowed values.
     pub fn refusal(&self, value: f64) -> Option<String> {
         let why = self.objection(value)?;
         Some(format!("{} = {value:?}: {why}", self.name))
     }
 
-    /// Why the variable cannot have a value, and what is allowed.
+    /// Returns why the variable cannot have a value, with the allowed values.
     pub fn objection(&self, value: f64) -> Option<String> {
         if !value.is_finite() {
             return Some("must be finite".to_owned());
@@ -101,8 +101,8 @@ impl Variable {
         Some(format!("{required} (allowed: {}{})", self.bounds, self.unit_after()))
     }
 
-    /// Why a time derivative of the variable cannot have a value: it would go through all of its values within the
-    /// shortest step.
+    /// Returns why a time derivative of the variable cannot have a value: the variable would cross its whole range
+    /// within the shortest step.
     pub fn refusal_of_derivative(&self, order: i32, value: f64) -> Option<String> {
         let shortest = limits::step().bounds().low.map_or(0.0, |end| end.value);
         let steepest = self.bounds.span() / shortest.powi(order);
@@ -122,7 +122,7 @@ impl Variable {
         self.unit().map_or(String::new(), |unit| format!(" {unit}"))
     }
 
-    /// Unit of a value that is measured in one.
+    /// Unit of a value that has one.
     pub fn unit(&self) -> Option<&'static str> {
         self.quantity.map(Quantity::unit).filter(|unit| *unit != "1")
     }
@@ -146,12 +146,12 @@ impl Registry {
         Self::new(list)
     }
 
-    /// The same variables under their structured names, from which one sees what belongs together.
+    /// Lists the variables under their structured names, which show what belongs together.
     pub fn structured(scene: &Scene) -> Self {
         Self::new(list(scene))
     }
 
-    /// The inputs alone under their structured names, tunable parameters among them: outputs may be many.
+    /// Lists only the inputs, including tunable parameters, under their structured names: outputs may be many.
     pub fn inputs(scene: &Scene) -> Vec<Variable> {
         let mut list = Vec::new();
         inputs::list(scene, &mut list);

@@ -1,4 +1,4 @@
-//! Warnings: one table of rules with the texts that users see. The test that applies a rule is beside what it examines:
+//! Warnings: one table of rules with the texts that users see. The test of a rule is next to the code that it examines:
 //! in `advice` for scenes, in `body` for running bodies, in `model` for meshes and steps.
 //!
 //! Every warning reads `place: what is wrong, with the number; remedy`.

@@ -1,4 +1,4 @@
-//! A rule, what it finds, and how that reads.
+//! A rule, its finding, and the text of that.
 
 use std::fmt;
 
@@ -35,12 +35,12 @@ pub struct Rule {
     /// Stable name.
     pub id: &'static str,
     pub when: When,
-    /// What is wrong, and what to do: formats, whose values stand in braces.
+    /// Message and remedy: formats, with values in braces.
     pub message: &'static str,
     pub remedy: &'static str,
 }
 
-/// What a rule found, at a place that is still to be named.
+/// Finding of a rule, before its place is named.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Finding {
     pub id: &'static str,
@@ -50,7 +50,7 @@ pub struct Finding {
 }
 
 impl Finding {
-    /// The warning of a body, a variable or a file.
+    /// Returns the warning of a body, a variable or a file.
     pub fn at(self, place: impl Into<String>) -> Warning {
         let place = place.into();
         Warning { subject: format!("{place}: {self}"), place, finding: self }
@@ -65,7 +65,7 @@ impl fmt::Display for Finding {
     }
 }
 
-/// What may be wrong, and where.
+/// A finding at a place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Warning {
     subject: String,
@@ -74,17 +74,17 @@ pub struct Warning {
 }
 
 impl Warning {
-    /// The same of a subject of its own: of each, hosts are warned once.
+    /// Replaces the subject of the warning: hosts are warned once of each subject.
     pub fn of_subject(self, subject: impl Into<String>) -> Self {
         Self { subject: subject.into(), ..self }
     }
 
-    /// Key by which hosts know whether they were warned: the text, or something that no number of it changes.
+    /// Key by which hosts recognise repeated warnings: the text, or a key that no number of it changes.
     pub fn subject(&self) -> &str {
         &self.subject
     }
 
-    /// What is wrong, and what to do, without the place.
+    /// Returns message and remedy, without the place.
     pub fn finding(&self) -> &Finding {
         &self.finding
     }
@@ -97,7 +97,7 @@ impl fmt::Display for Warning {
     }
 }
 
-/// Makes a table of rules, and of each row a function that takes its values and returns the finding.
+/// Generates a table of rules, and for each row a function that takes its values and returns the finding.
 macro_rules! rules {
     ($($when:ident $id:ident($($value:ident),*) $message:literal; $remedy:literal)*) => {
         /// The rules of this file.

@@ -1,4 +1,4 @@
-//! Rules on meshes, steps and states: what only a built or running model shows.
+//! Rules on meshes, steps and states, which only a built or running model can test.
 
 use super::rule::rules;
 

@@ -5,7 +5,7 @@ use crate::body::droplet::Watch;
 use crate::method::sph::WarmPlace;
 use crate::warning::Warning;
 
-/// Occasion on which a body in a state is asked for warnings.
+/// Occasion on which the warnings of a body are collected.
 #[derive(Debug, Clone, Copy)]
 pub enum Occasion<'a> {
     /// A step was taken; the tests are quick.
@@ -16,39 +16,39 @@ pub enum Occasion<'a> {
     End,
 }
 
-/// Words for users, and what they follow from; a body that has none says nothing.
+/// Messages to users and the data behind them; by default there are none.
 pub trait Advice {
-    /// What was chosen or left out, and why: a sentence each.
+    /// Returns notes on choices and simplifications, with reasons: one sentence each.
     fn notes(&self) -> Vec<String> {
         Vec::new()
     }
 
-    /// What may be wrong with a state.
+    /// Returns warnings about a state.
     fn warnings(&self, _state: &[f64], _occasion: Occasion) -> Vec<Warning> {
         Vec::new()
     }
 
-    /// What may be wrong with a value that is read.
+    /// Returns a warning about a value that is read.
     fn warning_on_value(&self, _reading: &Reading, _value: f64) -> Option<Warning> {
         None
     }
 
-    /// Warns of a bound of errors by the body itself that exceeds the scene's tolerance, with a remedy.
+    /// Warns, with a remedy, if the body's own error bound exceeds the scene's tolerance.
     fn beyond_tolerance(&self, _remedy: &str) -> Option<Warning> {
         None
     }
 
-    /// Time after a jump of what acts from which on the mesh resolves the temperatures of heated faces [s].
+    /// Time after a jump in the loads from which on the mesh resolves the temperatures of heated faces [s].
     fn resolved_from(&self) -> f64 {
         0.0
     }
 
-    /// Points at which a fluid of the body would freeze or boil.
+    /// Returns the points at which a fluid of the body would freeze or boil.
     fn watch(&self) -> Option<&Watch> {
         None
     }
 
-    /// The coldest and the hottest place of a fluid in a state; nothing where there is none.
+    /// Returns the coldest and the hottest place of a fluid in a state, if the body has fluid.
     fn warm_places(&self, _state: &[f64]) -> Option<[WarmPlace; 2]> {
         None
     }

@@ -1,4 +1,4 @@
-//! Faces that answer to what others give.
+//! Faces that respond to heat from other bodies.
 
 use crate::body::BodyError;
 use crate::body::contract::{Acts, Memo};
@@ -6,22 +6,22 @@ use crate::port::{Surface, SurfaceResponse, WallCells};
 use crate::runtime::allowance::Allowance;
 use crate::scene::FaceName;
 
-/// A body whose faces answer to heat and force that others give.
+/// A body whose faces respond to heat and force from other bodies.
 pub trait Conductor {
-    /// How a face answers to heat that is uniform along an area of it [m²].
+    /// Returns the response of a face to heat that is uniform over an area of it [m²].
     fn response(&self, face: FaceName, area: f64) -> SurfaceResponse;
 
-    /// Thermal diffusivity beside a face [m²/s].
+    /// Returns the thermal diffusivity at a face [m²/s].
     fn diffusivity(&self, face: FaceName) -> f64;
 
-    /// What temperatures may err by from step to step [K]; nothing where they are exact.
+    /// Returns the error of temperatures from step to step [K]; zero where they are exact.
     fn tolerance(&self) -> f64;
 
-    /// The cells through which others exchange with a face; nothing of a body that is the same all over, which takes
-    /// those of what it touches.
+    /// Returns the cells through which other bodies exchange with a face. A body of uniform temperature has none and
+    /// adopts those of its partner.
     fn cells(&self, face: FaceName) -> Option<WallCells>;
 
-    /// Each face over a step if nothing is received, and how it answers to heat.
+    /// Returns each face over a step without received heat, and its response to heat.
     fn surfaces(
         &self,
         state: &[f64],
@@ -31,7 +31,7 @@ pub trait Conductor {
         allowance: &Allowance,
     ) -> Result<Vec<Surface>, BodyError>;
 
-    /// Temperatures of the cells of faces at the end of what acts [K].
+    /// Returns the temperatures of the cells of faces at the end of a step [K].
     fn temperatures_after(
         &self,
         state: &[f64],

@@ -1,36 +1,36 @@
-//! What a body gives to another below it.
+//! Transfer of heat and impulse from a body to the one below.
 
 use crate::inputs::InputPath;
 
-/// A body that may stand on another; by default it gives nothing.
+/// A body that may stand on another; by default it transfers nothing.
 pub trait Giver {
-    /// Moments within a step of this length [s] at which a body below should be asked anew, as what this one gives
-    /// changes fast there.
+    /// Returns moments within a step of this length [s] at which the body below should be evaluated anew, because the
+    /// transfer changes fast there.
     fn moments(&self, _state: &[f64], _path: &InputPath, _duration: f64) -> Vec<f64> {
         Vec::new()
     }
 
-    /// Counts what is told as of the last step over that from the state `before`, too.
+    /// Adds the transfer of the step from the state `before` to that of the last step.
     fn join_steps(&self, _before: &[f64], _state: &mut Vec<f64>) {}
 
-    /// What was given through the port below during the last step.
+    /// Returns the amounts transferred through the port below during the last step.
     fn given(&self, _state: &[f64]) -> Option<Given> {
         None
     }
 }
 
-/// What a body gave to another through the cells of a port.
+/// Amounts that a body transferred to another through the cells of a port.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Given {
-    /// Of the advance [s].
+    /// Duration of the transfer [s].
     pub duration: f64,
-    /// Of each cell [J].
+    /// Heat of each cell [J].
     pub heat: Vec<f64>,
-    /// Flow of heat above its mean at the beginning of the advance, from where it falls evenly to its opposite, of
-    /// each cell [W]; empty if it is even.
+    /// Excess heat flow of each cell over its mean at the beginning of the transfer [W], from which it falls linearly
+    /// to the opposite value; empty if the flow is constant.
     pub falling: Vec<f64>,
-    /// Of each cell along x, y, z (r, –, z in axisymmetry) [N s]; empty where forces do not pass.
+    /// Impulse of each cell along x, y, z (r, –, z in axisymmetry) [N s]; empty where forces are not transferred.
     pub impulse: Vec<[f64; 3]>,
-    /// Planes x = 0 and y = 0 about which all this is symmetric.
+    /// Planes x = 0 and y = 0 about which the transfer is symmetric.
     pub symmetric: [bool; 2],
 }

@@ -4,14 +4,14 @@ use crate::body::BodyError;
 use crate::body::contract::Memo;
 use crate::method::fem::Extreme;
 
-/// Maxima that are noted as steps begin and end; most bodies keep none.
+/// Maxima that are updated as steps begin and end; by default there are none.
 pub trait Maxima {
-    /// How many running maxima are kept of the body.
+    /// Returns the number of running maxima of the body.
     fn peaks(&self) -> usize {
         0
     }
 
-    /// What the running maximum of a number is of, as it is now, where the memo is that of what acts and of the state.
+    /// Returns the present value of the quantity behind a running maximum. The memo belongs to the state and its loads.
     fn observe(
         &self,
         _state: &[f64],
@@ -21,7 +21,7 @@ pub trait Maxima {
         Err(BodyError::NoSuchReading)
     }
 
-    /// Refuses a running maximum that no run of this body leads to, with what is wrong with it.
+    /// Refuses a running maximum that no run of this body produces, with the reason.
     fn check_peak(&self, _which: usize, _peak: &Extreme) -> Result<(), String> {
         Ok(())
     }

@@ -1,5 +1,5 @@
-//! What every kind of body answers to. Its life and its readings are in [`Body`]; what few bodies have stands beside it
-//! in traits of their own, with defaults.
+//! Interface of all kinds of bodies. [`Body`] has the life cycle and the readings. Traits with defaults hold
+//! capabilities that few bodies have.
 
 mod advice;
 mod conductor;
@@ -26,35 +26,35 @@ use crate::runtime::allowance::Allowance;
 use crate::scene::FaceName;
 use crate::state::Layout;
 
-/// A body of a scene: everything known of it before time starts. What changes is a flat vector, its state.
+/// A body of a scene: everything that is known before time starts. Its state is a flat vector.
 pub trait Body: Giver + Maxima + Advice + Resources + Send + Sync {
     fn name(&self) -> &str;
 
-    /// The state at time zero.
+    /// Returns the state at time zero.
     fn initial_state(&self) -> Vec<f64>;
 
-    /// The fields of a state; nothing if it has a length that no state of this body has.
+    /// Returns the fields of a state, unless no state of this body has its length.
     fn layout(&self, state: &[f64]) -> Option<Layout>;
 
-    /// Refuses a vector that no run of this body leads to, with what is wrong with it; `inputs` are those of
-    /// the moment.
+    /// Refuses a vector that no run of this body produces, with the reason; `inputs` are those of the moment.
     fn check_state(&self, state: &[f64], inputs: &[f64]) -> Result<(), String>;
 
     /// Refuses inputs that make no sense for this body.
     fn check_inputs(&self, inputs: &[f64]) -> Result<(), BodyError>;
 
-    /// What follows from inputs, held, and from what was received through ports during the last step; filled further
-    /// as the body is read.
+    /// Creates the memo of inputs held constant and of the transfers received during the last step. Readings of the
+    /// body extend it.
     fn memo(&self, inputs: &[f64], received: &[Received]) -> Memo;
 
-    /// Takes over from the memo of other inputs what is the same under these, of the same state.
+    /// Keeps those parts of the memo of other inputs that remain valid under the new inputs and the same state.
     fn carry_over(&self, _from: Memo, _to: &mut Memo) {}
 
-    /// Forgets what follows from the state; what acts stays.
+    /// Discards the parts that follow from the state; those of the loads remain.
     fn forget_state(&self, _memo: &mut Memo) {}
 
-    /// Advances a state; what was given through the port below, if there is one. `memo` is that of the inputs at the
-    /// beginning, unless these change. A failure leaves the state as it was, or of no use: the caller has a copy.
+    /// Advances a state and returns the transfer through the port below, if there is one. `memo` is that of the inputs
+    /// at the beginning, unless these change. After a failure the state is unchanged or unusable: the caller keeps a
+    /// copy.
     fn advance(
         &self,
         state: &mut Vec<f64>,
@@ -63,44 +63,44 @@ pub trait Body: Giver + Maxima + Advice + Resources + Send + Sync {
         allowance: &Allowance,
     ) -> Result<Option<Given>, BodyError>;
 
-    /// A value, where the memo is that of what acts and of the state.
+    /// Reads a value; the memo belongs to the state and its loads.
     fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError>;
 
-    /// Whether a value follows inputs without delay.
+    /// Returns true if a value follows inputs without delay.
     fn follows_at_once(&self, _reading: &Reading) -> bool {
         false
     }
 
-    /// Values at all nodes or particles.
+    /// Returns the values at all nodes or particles.
     fn fields(&self, state: &[f64], memo: &mut Memo) -> Result<Fields, BodyError>;
 
-    /// The body as one that is linear between steps, if it is.
+    /// Returns the body as a linear one, if it is linear between steps.
     fn linear(&self) -> Option<&dyn Linear> {
         None
     }
 
-    /// The body as one whose faces answer to heat, if they do.
+    /// Returns the body as a conductor, if its faces respond to heat.
     fn conductor(&self) -> Option<&dyn Conductor> {
         None
     }
 }
 
-/// What a body remembers of a state, in a form of its own.
+/// Cached results of a state, in a form of the body's own.
 pub type Memo = Box<dyn Any + Send + Sync>;
 
-/// What acts on a body while it advances.
+/// Loads on a body while it advances.
 pub struct Acts<'a> {
     /// The inputs, from the beginning of the advance on.
     pub path: &'a InputPath,
     /// [s]
     pub duration: f64,
-    /// Through the ports of the body's faces.
+    /// Transfers through the ports of the body's faces.
     pub received: &'a [Received<'a>],
-    /// What the body stands on, if that answers to it.
+    /// The face on which the body stands, if that responds to heat.
     pub below: Option<&'a Surface>,
 }
 
-/// What comes through a face.
+/// A transfer through a face.
 #[derive(Debug, Clone, Copy)]
 pub struct Received<'a> {
     pub face: FaceName,

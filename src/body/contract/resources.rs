@@ -1,4 +1,4 @@
-//! What a body takes from its host, and what bodies share.
+//! Resources that a body takes from its host, and data shared between bodies.
 
 use std::sync::Arc;
 
@@ -7,44 +7,45 @@ use crate::body::{BodyError, KeptReduction, Reading};
 use crate::method::fem::ElasticProblem;
 use crate::runtime::allowance::Allowance;
 
-/// Work, stack, threads and memory; the defaults are those of a body that takes little.
+/// Work, stack, threads and memory; the defaults are those of a small body.
 pub trait Resources {
-    /// Ends a step of `dt` [s] that is known to take too long.
+    /// Refuses a step of `dt` [s] that would exceed the allowed work.
     fn foresee(&self, _state: &[f64], _dt: f64, _: &Allowance) -> Result<(), BodyError> {
         Ok(())
     }
 
-    /// Updates of unknowns that `dt` [s] take, about; nothing where any step takes the same.
+    /// Approximate number of updates of unknowns in `dt` [s]; zero if all steps take the same work.
     fn updates(&self, _dt: f64) -> f64 {
         0.0
     }
 
-    /// Whether a reading takes more stack than a host's thread need have; nothing is remembered yet without a memo.
+    /// Returns true if a reading needs more stack than a host's thread has to provide. Without a memo nothing is
+    /// cached.
     fn is_deep(&self, _memo: Option<&Memo>, _reading: &Reading) -> bool {
         false
     }
 
-    /// What a reduced body follows from, for those that are equal.
+    /// Returns the data from which a reduced body is made, shared by equal bodies.
     fn reduction(&self) -> Option<KeptReduction> {
         None
     }
 
-    /// What bodies that differ in what concerns heat alone share.
+    /// Returns the elastic problem, shared by bodies that differ only in thermal data.
     fn stiffness(&self) -> Option<Arc<ElasticProblem>> {
         None
     }
 
-    /// Stored entries of all factorisations made so far.
+    /// Number of stored entries of all factorisations so far.
     fn factor_entries(&self) -> usize {
         0
     }
 
-    /// Threads that the body may use.
+    /// Number of threads that the body may use.
     fn threads(&self) -> usize {
         1
     }
 
-    /// Whether steps take more stack than a host's thread need have.
+    /// Returns true if steps need more stack than a host's thread has to provide.
     fn steps_are_deep(&self) -> bool {
         false
     }

@@ -1,4 +1,4 @@
-//! Inputs that ask for drops.
+//! Inputs that release drops on demand.
 
 use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
@@ -9,7 +9,7 @@ use crate::method::record::{Course, Falling};
 use crate::method::sph::Release;
 use crate::scene::{Droplet, Footprint, Scene, Shape, lateral_extents, velocity};
 
-/// Where the inputs stand, and what they may be.
+/// Places and limits of these inputs.
 pub struct DropInputs {
     /// Places of the inputs, in the order of [`Droplet::inputs`]; y and a direction only in three dimensions.
     places: Range<usize>,
@@ -17,17 +17,17 @@ pub struct DropInputs {
     most: usize,
     /// Largest speed [m/s].
     fastest: f64,
-    /// How far from the origin drops may come down along x and y [m], and why; nowhere but straight down there where
-    /// that is no distance at all.
+    /// Largest distance from the origin at which drops may land along x and y [m], with the reason. At zero they must
+    /// land at the origin, straight down.
     reach: [f64; 2],
     why: String,
-    /// As in the scene.
+    /// The scene's droplet.
     droplet: Droplet,
     /// A drop at the origin.
     at_origin: Release,
 }
 
-/// The inputs as they are.
+/// Present values of the inputs.
 struct Values {
     count: f64,
     centre: [f64; 2],
@@ -44,8 +44,8 @@ impl Values {
 }
 
 impl DropInputs {
-    /// Nothing where the scene itself releases the drops. `farthest` is how far from the origin drops may start at all
-    /// [m].
+    /// Returns `None` if the scene itself releases the drops. `farthest` is the largest allowed start distance from the
+    /// origin [m].
     pub fn of(
         scene: &Scene,
         layout: &InputLayout,
@@ -85,7 +85,7 @@ impl DropInputs {
         }
     }
 
-    /// Refuses what no drop can be like, and more drops than there may be.
+    /// Refuses impossible values of a drop, and more drops than allowed.
     pub fn check(&self, inputs: &[f64]) -> Result<(), BodyError> {
         let values = self.values(inputs);
         let Values { count, centre, speed, temperature, angle, .. } = values;
@@ -145,10 +145,10 @@ impl DropInputs {
         Ok(())
     }
 
-    /// Refuses a speed and a way at which no drop is known.
+    /// Refuses a speed or direction for which no drop is known.
     pub fn check_speed(&self, inputs: &[f64], course: &Course) -> Result<(), BodyError> {
         let values = self.values(inputs);
-        // Behind the places.
+        // The speed follows the places.
         let index = self.places.start + 3;
         if values.angle != 0.0 {
             let message = format!(
@@ -169,7 +169,7 @@ impl DropInputs {
         Ok(())
     }
 
-    /// A drop that is asked for at a time [s].
+    /// The requested drop at a time [s].
     pub fn falling(&self, inputs: &[f64], time: f64) -> Falling {
         let values = self.values(inputs);
         let (speed, fall) = self.droplet.contact(values.speed);
@@ -182,7 +182,7 @@ impl DropInputs {
         }
     }
 
-    /// Drops that are asked for beyond those that were before, at the beginning of a path.
+    /// Number of drops requested beyond the earlier ones, at the beginning of a path.
     pub fn further(&self, path: &InputPath, asked: f64) -> Result<usize, BodyError> {
         let index = self.places.start;
         let (inputs, rates) = path.derivatives().split_first().expect("inputs stand first");
@@ -203,11 +203,11 @@ impl DropInputs {
         Ok((count - asked) as usize)
     }
 
-    /// The drop that is asked for.
+    /// The requested drop.
     pub fn release(&self, inputs: &[f64]) -> Release {
         let values = self.values(inputs);
         let Values { centre, temperature, .. } = values;
-        // A centre that rounding moved off the middle is there.
+        // A centre moved off the middle by rounding is set back to it.
         let [x, y] = [0, 1].map(|axis| if self.reach[axis] == 0.0 { 0.0 } else { centre[axis] });
         let [_, _, z] = self.at_origin.centre;
         Release { centre: [x, y, z], velocity: values.velocity(), temperature, ..self.at_origin }
@@ -217,7 +217,7 @@ impl DropInputs {
 /// Relative rounding of a place.
 const ROUNDING: f64 = 1e-9;
 
-/// A number as it is, with an exponent where it would have many zeros.
+/// A number in plain notation, or with an exponent if that would need many zeros.
 fn plain(value: f64) -> String {
     match value.abs() {
         size if size == 0.0 || (1e-6..1e9).contains(&size) => value.to_string(),
@@ -225,12 +225,12 @@ fn plain(value: f64) -> String {
     }
 }
 
-/// A number with the digits that people read.
+/// A number rounded for display.
 fn short(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
-/// How far from the origin drops may start along x and y [m], and why no farther.
+/// Largest start distance of drops from the origin along x and y [m], with the reason for that limit.
 fn reach(scene: &Scene, (name, droplet): (&str, &Droplet), farthest: f64) -> ([f64; 2], String) {
     let rings = scene
         .wall_under(name)

@@ -1,4 +1,4 @@
-//! What droplets will cost.
+//! Cost of droplets.
 
 use super::{is_large, notes, plan_of, replay};
 use crate::body::solid::{PRODUCT_RATE, plan};
@@ -11,28 +11,28 @@ use crate::scene::{Droplet, Scene};
 #[derive(Debug, Clone, PartialEq)]
 pub struct DropletForecast {
     pub name: String,
-    /// Number of particles once all drops are released, images at mirrors left out.
+    /// Number of particles once all drops are released, without mirror images.
     pub particles: usize,
-    /// At rest [s].
+    /// Time step at rest [s].
     pub time_step: f64,
     /// Time steps of the default experiment.
     pub steps: f64,
     /// Memory [B].
     pub memory: f64,
-    /// Time to run the default experiment, what a solid below does in exchanges included [s].
+    /// Time to run the default experiment, including the exchanges of a solid below [s].
     pub run_time: f64,
-    /// What was chosen or left out, and why.
+    /// Notes on choices and simplifications.
     pub notes: Vec<String>,
 }
 
-/// Memory of a particle with its neighbours [B].
+/// Memory of a particle and its neighbours [B].
 pub const PARTICLE_MEMORY: f64 = 1.5e3;
-/// Time per node that the solid takes in an exchange beyond its own step [s]: measured on boxes of 10 000 to 110 000
-/// nodes, as the difference to the same droplet above a wall.
+/// Time per node of the solid in an exchange, in addition to its own step [s]. It was measured on boxes of 10 000 to
+/// 110 000 nodes, as the difference from the same droplet above a wall.
 const EXCHANGE: f64 = 2.2e-7;
 
 impl DropletForecast {
-    /// Estimates without building the droplet.
+    /// Estimates the cost without building the droplet.
     pub fn of(scene: &Scene, name: &str, droplet: &Droplet) -> Self {
         if droplet.is_replayed() {
             return replay::forecast(scene, name, droplet);
@@ -74,12 +74,12 @@ impl DropletForecast {
     }
 }
 
-/// What a solid does for an exchange of some length [s].
+/// Time of a solid for an exchange of some length [s].
 pub fn exchange_time(plan: &Plan, length: f64) -> f64 {
     let nodes = plan.mesh.nodes() as f64;
     let of_particles = particle_cost(plan).map_or(0.0, |cost| {
         let (sub_steps, products) = products(cost.bound, length);
-        // It goes through the exchange twice: without the droplet's heat, and with it.
+        // The solid advances twice over the exchange: without the droplet's heat, and with it.
         2.0 * (sub_steps * products * cost.neighbours) as f64 * nodes / PRODUCT_RATE
     });
     EXCHANGE * nodes + of_particles

@@ -4,7 +4,7 @@ use crate::body::Memo;
 use crate::method::sph::DropletTotals;
 use crate::port::WallExchange;
 
-/// What is read from a droplet's state, computed when first asked for.
+/// Lazily computed readings of a droplet's state.
 #[derive(Debug, Default)]
 pub struct DropletMemo {
     pub totals: Option<DropletTotals>,

@@ -43,9 +43,9 @@ pub struct DropletBody {
     name: String,
     droplet: DropletSph,
     below: Below,
-    /// Of drops on demand.
+    /// Set for drops on demand.
     demand: Option<DropInputs>,
-    /// Images at mirrors for each particle.
+    /// Number of mirror images of each particle.
     copies: f64,
     rest: Rest,
     watch: Watch,
@@ -53,7 +53,7 @@ pub struct DropletBody {
     threads: usize,
 }
 
-/// The fluid before anything happens to it.
+/// Initial state of the fluid.
 struct Rest {
     /// [kg/m³]
     density: f64,
@@ -63,21 +63,21 @@ struct Rest {
     effusivity: f64,
 }
 
-/// What a droplet exchanges heat and momentum with.
+/// Partner with which a droplet exchanges heat and momentum.
 enum Below {
     Nothing,
     Wall(Wall),
-    /// Another body; whether forces pass.
+    /// Another body; `traction` is true if forces are transferred.
     Body {
         traction: bool,
     },
 }
 
-/// A wall whose cells have their temperatures from inputs.
+/// A wall whose cell temperatures are inputs.
 struct Wall {
     /// Places of the temperatures among the inputs.
     inputs: Range<usize>,
-    /// Of each cell [m²].
+    /// Area of each cell [m²].
     areas: Vec<f64>,
 }
 
@@ -101,16 +101,16 @@ pub fn offered_totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
     }
 }
 
-/// Droplets with fewer particles than these are quicker on one thread.
+/// Droplets with fewer particles run faster on one thread.
 const PARTICLES_WORTH_THREADS: usize = 2_000;
 
-/// Whether more threads than one are worth it.
+/// Returns true if more than one thread is worthwhile.
 pub fn is_large(particles: usize) -> bool {
     particles >= PARTICLES_WORTH_THREADS
 }
 
 impl DropletBody {
-    /// `on` are the cells of a body below and how the droplet is linked with it.
+    /// `on` holds the cells of a body below and the link with it.
     pub fn new(
         scene: &Scene,
         layout: &InputLayout,
@@ -155,7 +155,8 @@ impl DropletBody {
         }
     }
 
-    /// Advances above what lies below, or nothing; the rises of its cells by the heat given [K m²].
+    /// Advances above a surface or in free space; returns the temperature rises of its cells from the transferred heat
+    /// [K m²].
     fn advance_here(
         &self,
         state: &mut Vec<f64>,
@@ -173,7 +174,7 @@ impl DropletBody {
         droplet.advance_within(state, &temperatures, dt, allowance).map(|()| Vec::new())
     }
 
-    /// Releases drops that the inputs have asked for.
+    /// Releases the drops that the inputs request.
     fn ask(
         &self,
         state: &mut Vec<f64>,
@@ -192,14 +193,14 @@ impl DropletBody {
         }
     }
 
-    /// Time steps that `dt` [s] take at least, and the particles that there are at last.
+    /// Smallest number of time steps in `dt` [s], and number of particles at the end.
     fn expected_steps(&self, dt: f64) -> (f64, usize) {
         let (particles, time_step) = DropletSph::forecast(self.droplet.plan());
-        // Fluid at rest takes longer steps than one that arrives.
+        // Fluid at rest allows longer steps than an arriving drop.
         (0.5 * dt / time_step, particles)
     }
 
-    /// All particles, images at mirrors included; rings by their radius as x.
+    /// All particles including mirror images; rings have their radius as x.
     fn particles(&self, state: &[f64]) -> ParticleFields {
         let mut fields = self.droplet.particles(state);
         let mirrors = self.droplet.plan().mirrors;
@@ -224,7 +225,7 @@ impl DropletBody {
         fields
     }
 
-    /// Whether fluid touched what lies beyond the edge of the body below in the last exchange.
+    /// Returns true if fluid touched the region beyond the edge of the body below in the last exchange.
     fn overflows(&self, state: &[f64]) -> bool {
         let WallExchange { heat_outside, impulse_outside, .. } = self.droplet.exchange(state);
         matches!(self.below, Below::Body { .. })
@@ -313,7 +314,7 @@ impl Body for DropletBody {
 }
 
 impl Giver for DropletBody {
-    /// What another body got is told of the last exchange, however long the step.
+    /// Transfers to another body refer to the last exchange, however long the step.
     fn join_steps(&self, before: &[f64], state: &mut Vec<f64>) {
         if !matches!(self.below, Below::Body { .. }) {
             self.droplet.add_exchange(state, &self.droplet.exchange(before));

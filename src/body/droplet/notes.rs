@@ -1,11 +1,11 @@
-//! Notes on a droplet before it runs: what was chosen or left out.
+//! Notes on a droplet before it runs: choices and simplifications.
 
 use super::plan::fine_radius;
 use super::watch;
 use crate::advice::{HeatError, Resolution};
 use crate::scene::{Droplet, Governing, Scene, Wall};
 
-/// What was chosen or left out, and why: a sentence each.
+/// Returns notes on choices and simplifications, with reasons: one sentence each.
 pub fn notes(scene: &Scene, name: &str, droplet: &Droplet) -> Vec<String> {
     let wall = scene.wall_under(name).map(|wall| &scene.wall[wall]);
     let stands = wall.is_some() || scene.coupling_from(name).is_some();
@@ -52,7 +52,7 @@ pub fn notes(scene: &Scene, name: &str, droplet: &Droplet) -> Vec<String> {
     notes
 }
 
-/// What axisymmetric drops see of a box.
+/// Notes how axisymmetric drops interact with a box.
 fn note_on_box(scene: &Scene, name: &str, droplet: &Droplet) -> Option<String> {
     let solid = scene.coupling_from(name).and_then(|coupling| scene.coupling[coupling].solid())?;
     (droplet.is_axisymmetric() && scene.meets_rings(solid)).then(|| {
@@ -63,7 +63,7 @@ fn note_on_box(scene: &Scene, name: &str, droplet: &Droplet) -> Option<String> {
     })
 }
 
-/// What is to be known of a scene's walls by who couples them: a sentence each.
+/// Returns notes on a scene's walls for users who couple them: one sentence each.
 pub fn notes_on_walls(scene: &Scene) -> Vec<String> {
     let note = |wall: &Wall| {
         let droplet = scene.droplet(&wall.under)?;
@@ -72,7 +72,7 @@ pub fn notes_on_walls(scene: &Scene) -> Vec<String> {
     scene.wall.iter().filter_map(note).collect()
 }
 
-/// What drops that inputs release wait for, and what is said of them ahead.
+/// Notes when inputs release drops, and the assumptions of the forecast about them.
 fn note_on_demand(scene: &Scene, name: &str, droplet: &Droplet) -> String {
     let fine = match scene.coupling_from(name).map(|index| &scene.coupling[index]) {
         Some(coupling) => format!(
@@ -92,10 +92,11 @@ fn note_on_demand(scene: &Scene, name: &str, droplet: &Droplet) -> String {
     )
 }
 
-/// Time over D/U over which forces and pressures are means that hardly depend on sound and resolution.
+/// Time over D/U over which mean forces and pressures hardly depend on sound and resolution.
 const WINDOW: f64 = 0.1;
 
-/// What the model's speed of sound does to the first blow, and what does not depend on it.
+/// Notes the effect of the model's speed of sound on the first impact force, and the quantities that do not depend on
+/// it.
 fn note_on_first_blow(droplet: &Droplet) -> String {
     let speed = droplet.normal_speed();
     let hammer = droplet.fluid.density * droplet.sound_speed() * speed;
@@ -111,7 +112,7 @@ fn note_on_first_blow(droplet: &Droplet) -> String {
     )
 }
 
-/// Measured errors of so many particles over the diameter.
+/// Notes the measured errors for this number of particles over the diameter.
 fn note_on_resolution(resolution: &Resolution, tolerance: f64) -> String {
     let across = resolution.across();
     let [low, high] = resolution.spread().map(|error| 100.0 * error);
@@ -170,11 +171,12 @@ fn note_on_first_contact(scene: &Scene, name: &str, droplet: &Droplet) -> Option
     })
 }
 
-/// What a wall does whose temperature is held, though a master may couple it.
+/// Notes the effect of constant wall temperature during a step on a wall that a master may couple.
 ///
-/// Two half spaces of effusivities e (below) and e_f have `e_f/(e + e_f)` of their difference at the contact. A wall that
-/// is held over a step Δt gives `2 e_f √(Δt/π)` to a surface that a flux held as long warms by `2 √(Δt/π)/e` for each
-/// W/m²: `4/π · e_f/e` of the difference at the end, however short the step.
+/// Two half spaces of effusivities e (below) and e_f have a contact temperature of `e_f/(e + e_f)` of their difference.
+/// A wall at constant temperature over a step Δt transfers `2 e_f √(Δt/π)` to a surface. A constant flux of this
+/// duration warms that surface by `2 √(Δt/π)/e` for each W/m². The result is `4/π · e_f/e` of the difference at the
+/// end, however short the step.
 fn note_on_held_wall(wall: &Wall, droplet: &Droplet) -> Option<String> {
     wall.effusivity.is_none().then(|| {
         format!(
@@ -188,7 +190,7 @@ fn note_on_held_wall(wall: &Wall, droplet: &Droplet) -> Option<String> {
     })
 }
 
-/// The speed of sound that was chosen, or what one that the scene asks for costs.
+/// Notes the chosen speed of sound, or the cost of the scene's own.
 fn note_on_sound(droplet: &Droplet) -> Option<String> {
     let (sound, (governing, speed)) = (droplet.sound_speed(), droplet.governing_speed());
     let ratio = sound / speed;

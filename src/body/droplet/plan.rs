@@ -1,11 +1,11 @@
-//! From a droplet of a scene to what the engine builds.
+//! Converts a droplet of a scene to the plan from which the engine builds it.
 
 use crate::method::fem::Refinement;
 use crate::method::sph::{self, Demand, DropletPlan, Extent, Release};
 use crate::port::WallCells;
 use crate::scene::{Arrival, Coupling, Droplet, Footprint};
 
-/// What the engine builds a droplet from, above the cells of a wall or none.
+/// Returns the plan of a droplet, above the cells of a wall or in free space.
 pub fn plan_of(
     droplet: &Droplet,
     cells: Option<WallCells>,
@@ -46,7 +46,7 @@ pub fn plan_of(
     }
 }
 
-/// A drop as the scene releases it.
+/// A drop as released by the scene.
 pub fn release_at(droplet: &Droplet, arrival: &Arrival) -> Release {
     Release {
         time: arrival.time,
@@ -57,7 +57,7 @@ pub fn release_at(droplet: &Droplet, arrival: &Arrival) -> Release {
     }
 }
 
-/// The cells of a wall's footprint; scenes with other footprints are refused.
+/// Returns the cells of a wall's footprint; scenes with other footprints are refused.
 pub fn cells_of(footprint: &Footprint) -> Option<WallCells> {
     match *footprint {
         Footprint::Rings { count, radius } => Some(WallCells::Rings { count, radius }),
@@ -66,14 +66,14 @@ pub fn cells_of(footprint: &Footprint) -> Option<WallCells> {
     }
 }
 
-/// Out to which distance from where a drop lands the mesh below is fine [m], where so much time is left [s]: as far as
-/// the drop is expected to spread, but no faster than it arrives.
+/// Radius around a landing point within which the mesh below is fine [m], with this much time remaining [s]: the
+/// expected spread radius, but no more than the flow can reach at its arrival speed.
 pub fn fine_radius(coupling: &Coupling, droplet: &Droplet, time: f64) -> f64 {
     let soonest = 0.5 * droplet.diameter + droplet.fastest_flow() * time;
     coupling.radius.unwrap_or((0.5 * droplet.spread_diameter()).min(soonest))
 }
 
-/// Where droplets spread on a solid.
+/// Refinements where droplets spread on a solid.
 pub fn refinements(coupling: &Coupling, droplet: &Droplet, stop_time: f64) -> Vec<Refinement> {
     let at = |arrival: &Arrival| {
         let radius = fine_radius(coupling, droplet, (stop_time - arrival.time).max(0.0));
@@ -82,7 +82,7 @@ pub fn refinements(coupling: &Coupling, droplet: &Droplet, stop_time: f64) -> Ve
         let [x, y] = droplet.landing([arrival.x, arrival.y], droplet.velocity()).map(stretch);
         Refinement { x, y, top: true, feature, heats: true, edges: [None; 2] }
     };
-    // Nobody knows where inputs will have drops fall.
+    // The landing places of drops on demand are unknown.
     let at_origin = droplet.is_on_demand().then(Arrival::default);
     droplet.arrivals().iter().chain(&at_origin).map(at).collect()
 }

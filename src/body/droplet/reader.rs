@@ -29,7 +29,7 @@ impl DropletReader<'_> {
         })
     }
 
-    /// What the wall got during the last step.
+    /// Amounts transferred to the wall during the last step.
     pub fn exchange(&mut self) -> &WallExchange {
         let Self { body, state, memo } = self;
         memo.exchange.get_or_insert_with(|| body.droplet.exchange(state))
@@ -41,7 +41,7 @@ impl DropletReader<'_> {
         density
     }
 
-    /// Images at mirrors for each particle.
+    /// Number of mirror images of each particle.
     pub fn copies(&self) -> f64 {
         self.body.copies
     }

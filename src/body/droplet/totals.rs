@@ -1,4 +1,4 @@
-//! What is read of a whole droplet.
+//! Readings of a whole droplet.
 
 use super::reader::DropletReader;
 use crate::body::{Descriptor, Direct};
@@ -7,7 +7,7 @@ use crate::port::WallExchange;
 use crate::quantity::Quantity;
 use crate::scene::{Droplet, Scene};
 
-/// A scalar of a whole droplet, and how it is read.
+/// A scalar of a whole droplet, and its reader.
 struct Total {
     key: &'static str,
     words: &'static str,
@@ -16,7 +16,7 @@ struct Total {
     read: Read,
 }
 
-/// Which droplets offer a total.
+/// Droplets that offer a total.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Offered {
     All,
@@ -214,8 +214,8 @@ const fn on_demand(
     Total { key, words, quantity: Quantity::Count, of: Offered::OnDemand, read: Read::Totals(read) }
 }
 
-/// The totals that a droplet of a scene offers, each with its place in the table; those of a plane model are amounts
-/// per metre of depth. No input acts at once on what moves.
+/// Returns the totals that a droplet of a scene offers, each with its place in the table. In a plane model they are
+/// amounts per metre of depth. No total of a moving fluid follows an input without delay.
 pub fn offered_totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
     let coupled = scene.coupling_from(name).is_some();
     let stands = coupled || scene.wall_under(name).is_some();
@@ -235,7 +235,7 @@ pub fn offered_totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
     described.collect()
 }
 
-/// Whether a total is the height of the fluid.
+/// Returns true if a total is the height of the fluid.
 pub fn is_height(place: usize) -> bool {
     TOTALS[place].key == "height"
 }
@@ -248,7 +248,7 @@ pub fn read(reader: &mut DropletReader, place: usize) -> f64 {
     }
 }
 
-/// An amount of the last step as a mean rate; nothing before the first step.
+/// An amount of the last step as a mean rate; zero before the first step.
 pub fn rate(amount: f64, exchange: &WallExchange) -> f64 {
     if exchange.duration > 0.0 { amount / exchange.duration } else { 0.0 }
 }

@@ -1,4 +1,4 @@
-//! What is read of the wall below a droplet.
+//! Readings of the wall below a droplet.
 
 use super::totals::rate;
 use crate::body::{Descriptor, Direct};
@@ -7,17 +7,17 @@ use crate::port::WallExchange;
 use crate::quantity::Quantity;
 use crate::scene::{Footprint, Scene, Wall};
 
-/// A scalar of each cell of a wall, or of what lies beyond its cells.
+/// A scalar of each cell of a wall, or of the region beyond its cells.
 pub struct WallQuantity {
     pub descriptor: Descriptor,
-    /// Whether each cell has a value of its own.
+    /// True if each cell has a value of its own.
     pub of_cells: bool,
     of: Offered,
-    /// The amount in the last step, of a cell.
+    /// The amount of a cell in the last step.
     amount: fn(&WallExchange, usize) -> f64,
 }
 
-/// Which walls offer it.
+/// Walls that offer a quantity.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Offered {
     All,
@@ -27,7 +27,7 @@ enum Offered {
     TilesInSpace,
 }
 
-/// All of them, in the order in which a unit lists them.
+/// All quantities, in the order in which a unit lists them.
 pub fn wall_quantities() -> &'static [WallQuantity] {
     &QUANTITIES
 }
@@ -75,7 +75,7 @@ const fn beyond(
 }
 
 impl WallQuantity {
-    /// Whether a wall of a scene offers it.
+    /// Returns true if a wall of a scene offers the quantity.
     pub fn is_offered(&self, scene: &Scene, wall: &Wall) -> bool {
         let is_round = matches!(wall.footprint, Footprint::Rings { .. });
         let in_space = scene.droplet(&wall.under).is_some_and(|droplet| droplet.dimension == 3);

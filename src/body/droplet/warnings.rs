@@ -1,4 +1,4 @@
-//! What may be wrong with drops: where they land, their film, and walls that respond to them.
+//! Warnings about drops: landing positions, films, and walls that respond to them.
 
 use std::f64::consts::PI;
 
@@ -10,23 +10,23 @@ use crate::method::sph::WarmPlace;
 use crate::scene::{Coupling, Scene};
 use crate::warning::{self, Finding, Warning};
 
-/// Temperature that was set for a cell of a wall after a step that held it.
-struct Answer {
-    /// Above what it was held at [K].
+/// Temperature that was set for a cell of a wall after a step with constant wall temperature.
+struct WallResponse {
+    /// Rise above the temperature during the step [K].
     rise: f64,
-    /// Of the fluid before contact above that [K].
+    /// Temperature of the fluid before contact above that of the wall [K].
     range: f64,
-    /// √(kρc) of a half space that the heat of the step, as a flux that is held, warms by that rise [W √s/(m² K)].
+    /// √(kρc) of a half space that the step's heat, as a constant flux, warms by that rise [W √s/(m² K)].
     effusivity: f64,
 }
 
-impl Answer {
+impl WallResponse {
     fn share(&self) -> f64 {
         self.rise / self.range
     }
 
-    /// By how much of the range it is beyond the contact of two half spaces, of which the fluid's effusivity is given;
-    /// NaN where the rise is not by heat of the fluid.
+    /// Excess of the share over the contact temperature of two half spaces, given the fluid's effusivity; NaN if the
+    /// fluid's heat did not cause the rise.
     fn beyond(&self, fluid: f64) -> f64 {
         let Self { effusivity, .. } = *self;
         let is_warmed = effusivity.is_finite() && effusivity > 0.0;
@@ -34,35 +34,34 @@ impl Answer {
     }
 }
 
-/// Part of the difference of temperatures by which a wall may be set beyond the temperature of contact: later steps
-/// correct less, as on alumina under water (0.12 beyond; highest rise right to 4 %, that of marble, 0.4
-/// beyond, 38 % too high).
+/// Largest share by which a wall may be set beyond the contact temperature. Beyond it, later steps correct less: on
+/// alumina under water (0.12 beyond) the highest rise is accurate to 4 %, on marble (0.4 beyond) it is 38 % too high.
 const BEYOND_CONTACT: f64 = 0.2;
-/// Distances of particles below which the height of a film depends on how they happen to stand.
+/// Number of particle spacings below which the height of a film depends on the arrangement of particles.
 const FEW_LAYERS: f64 = 3.0;
 
-/// Share of the fluid that may come off before a warning.
+/// Share of the fluid that may detach before a warning.
 pub(super) const STRAY_SHARE: f64 = 0.05;
 
 impl DropletBody {
-    /// A wall whose temperature follows from the heat of a step that held it.
+    /// Warns of a wall whose temperature was set from the heat of a step during which it was constant.
     fn held_wall(&self, state: &[f64], before: &[f64], now: &[f64]) -> Option<Finding> {
         let Below::Wall(wall) = &self.below else { return None };
         if self.droplet.plan().wall.as_ref().is_none_or(|wall| wall.effusivity.is_some()) {
             return None;
         }
         let exchange = self.droplet.exchange(state);
-        let answer = |(cell, input): (usize, usize)| {
+        let response = |(cell, input): (usize, usize)| {
             let heat = exchange.heat.get(cell)? / wall.areas.get(cell)?;
             let rise = now[input] - before[input];
-            let answer = Answer {
+            let response = WallResponse {
                 rise,
                 range: self.rest.temperature - before[input],
                 effusivity: 2.0 * heat / (rise * (PI * exchange.duration).sqrt()),
             };
-            (answer.beyond(self.rest.effusivity) > BEYOND_CONTACT).then_some(answer)
+            (response.beyond(self.rest.effusivity) > BEYOND_CONTACT).then_some(response)
         };
-        let worst = wall.inputs.clone().enumerate().filter_map(answer);
+        let worst = wall.inputs.clone().enumerate().filter_map(response);
         let worst = worst.max_by(|a, b| a.share().total_cmp(&b.share()))?;
         let [rise, range] = [worst.rise, worst.range].map(|difference| format!("{difference:.3e}"));
         Some(warning::held_wall_answers(rise, range, format!("{:.2e}", worst.effusivity)))
@@ -105,7 +104,7 @@ impl Advice for DropletBody {
     }
 }
 
-/// Warns of drops on solids of a scene that may miss the fine mesh.
+/// Warns of drops that may land outside the fine mesh of a solid.
 pub fn warnings_on_landing(scene: &Scene) -> Vec<Warning> {
     let warning = |coupling: &Coupling| {
         let droplet = scene.droplet(&coupling.from)?;
@@ -118,8 +117,8 @@ pub fn warnings_on_landing(scene: &Scene) -> Vec<Warning> {
     scene.coupling.iter().filter_map(warning).collect()
 }
 
-/// The height of a film of so many distances of particles: medians and ninth deciles of errors compared with 56
-/// particles over the diameter, of liquids from mercury to glycerol.
+/// Warns of the height of a film of this many particle spacings. The errors are medians and ninth deciles relative to
+/// 56 particles over the diameter, for liquids from mercury to glycerol.
 fn on_height(layers: f64) -> Finding {
     let [usual, large] = if layers < 2.0 { [20, 50] } else { [15, 40] };
     let finer = format!("{:.1}", 6.0 / layers);

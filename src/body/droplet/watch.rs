@@ -1,11 +1,11 @@
-//! Points at which a fluid would freeze or boil, which no droplet does.
+//! Temperatures at which a fluid would freeze or boil; the model has no phase change of droplets.
 
 use crate::laws::Fluid;
 use crate::method::sph::WarmPlace;
 use crate::scene::Scene;
 use crate::warning::{self, Warning};
 
-/// A change of phase that the model leaves out.
+/// A phase change that the model omits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PhaseChange {
     Freezing,
@@ -28,12 +28,12 @@ impl Watch {
         Self { name: name.to_owned(), points: set.collect() }
     }
 
-    /// The changes of phase that the scene sets a point for.
+    /// The phase changes for which the scene sets a temperature.
     pub fn changes(&self) -> impl Iterator<Item = PhaseChange> + '_ {
         self.points.iter().map(|(change, _)| *change)
     }
 
-    /// The subject of warnings of a change of phase.
+    /// The subject of warnings about a phase change.
     pub fn subject(&self, change: PhaseChange) -> String {
         format!("{} {change:?}", self.name)
     }
@@ -63,9 +63,9 @@ impl Watch {
     }
 }
 
-/// Temperature of the contact between a droplet and what the scene has below it [K], the name of that and its
-/// temperature: `(e₁T₁ + e₂T₂)/(e₁ + e₂)` of two half spaces of effusivities e (Carslaw & Jaeger 1959, §2.15), that of a
-/// wall whose scene names no effusivity.
+/// Contact temperature between a droplet and the surface below it [K], with the name of that surface and its
+/// temperature. For two half spaces of effusivities e it is `(e₁T₁ + e₂T₂)/(e₁ + e₂)` (Carslaw & Jaeger 1959, §2.15);
+/// for a wall without effusivity it is the wall's temperature.
 fn contact<'a>(scene: &'a Scene, name: &str) -> Option<(&'a str, f64, f64)> {
     let droplet = scene.droplet(name)?;
     let (below, temperature) = match scene.coupling_from(name) {
@@ -83,7 +83,8 @@ fn contact<'a>(scene: &'a Scene, name: &str) -> Option<(&'a str, f64, f64)> {
     Some((below, temperature, temperature + contact_share(scene, name, &droplet.fluid) * above))
 }
 
-/// Part of the difference of drop and wall by which their contact is above the wall: `e₁/(e₁ + e₂)` of effusivities e.
+/// Contact temperature above the wall, as a share of the difference between drop and wall: `e₁/(e₁ + e₂)` of
+/// effusivities e.
 pub fn contact_share(scene: &Scene, name: &str, fluid: &Fluid) -> f64 {
     let own = fluid.effusivity();
     scene.effusivity_below(name).map_or(0.0, |below| own / (own + below))

@@ -1,4 +1,4 @@
-//! From a solid to its reduced model.
+//! Reduces a solid.
 
 use super::Reduction;
 use super::drives::{Drive, DriveKind, Drives};
@@ -14,21 +14,21 @@ use crate::method::fem::{
 use crate::method::reduced::{Clumped, Ranges, ReducedSystem, Request, Residues, integral};
 use crate::scene::{Scene, Solid};
 
-/// Of the largest range of all outputs of a kind, the least that an output's own range counts as.
+/// Smallest range that counts for an output, as a share of the largest range of all outputs of its kind.
 const LEAST_RANGE: f64 = 0.01;
 
-/// A solid in full, and what is asked of it.
+/// A full solid, with the drives of the model to be made.
 pub struct Full<'a> {
     scene: &'a Scene,
     initial_temperature: f64,
     fem: SolidFem,
     meshes: [Mesh; 2],
-    /// What each drive is measured in, and what a unit of it does.
+    /// Kind of each drive, and the loads of a unit of it.
     drive_kinds: Vec<DriveKind>,
     columns: Vec<SolidLoads>,
-    /// What single units of loads do between the footprints that stand for them, and what drives then.
+    /// Loads of unit amounts on footprints between the supporting ones, and the drives that represent them.
     trials: Vec<(SolidLoads, Vec<f64>)>,
-    /// Which symmetry classes any of these drives.
+    /// For each symmetry class, whether any of these loads drives it.
     take: Vec<bool>,
     means: Vec<(usize, FaceMeans)>,
 }
@@ -91,7 +91,7 @@ impl<'a> Full<'a> {
         })
     }
 
-    /// The reduced model; `sizes` are those that drives start with.
+    /// Computes the reduced model; `sizes` are the initial sizes of the drives.
     pub fn reduce(&self, values: &Values, sizes: &[f64]) -> Result<Reduction, BodyError> {
         let modes = modes_of(&self.fem)?;
         let sources = |loads: &SolidLoads| modes.sources(&self.take, loads);
@@ -132,8 +132,8 @@ impl<'a> Full<'a> {
         Ok(Reduction { system, offsets, errors, brought, modes: clumped.modes() })
     }
 
-    /// For each drive what footprints that move miss at most between those that stand for them: heat over all time, and
-    /// what acts at once.
+    /// Largest interpolation error of each drive for footprints between the supporting ones: in heat over all time, and
+    /// in instantaneous effects.
     fn missed(&self, between: &Clumped, row: &Row, own: &Residues) -> Vec<f64> {
         let found = between.residues(&row.modes);
         let mut missed = vec![0.0_f64; self.columns.len()];
@@ -183,8 +183,8 @@ impl<'a> Full<'a> {
         })
     }
 
-    /// A component of stress or displacement at a point: its influence on modes, face values and forces. Classes that
-    /// nothing drives are not solved.
+    /// A component of stress or displacement at a point, by its influence on modes, face values and forces. Classes
+    /// without drives are not solved.
     fn mechanical(&self, component: Component, point: [f64; 3]) -> Result<Row, BodyError> {
         let functional = self.fem.functional(component, &[(point, 1.0)]);
         let mut out = Row {
@@ -215,7 +215,7 @@ impl<'a> Full<'a> {
     }
 }
 
-/// The modes of a solid, which all that is reduced has.
+/// Returns the modes of a solid; every solid that is reduced has them.
 fn modes_of(fem: &SolidFem) -> Result<SolidModes<'_>, BodyError> {
     let message = || "its heat has no modes".to_owned();
     fem.modes().ok_or_else(|| BodyError::Reduction { message: message() })
@@ -225,12 +225,12 @@ fn modes_of(fem: &SolidFem) -> Result<SolidModes<'_>, BodyError> {
 struct Row {
     modes: Vec<f64>,
     direct: Vec<f64>,
-    /// The same as `direct`, of trials.
+    /// Direct terms of the trials.
     trials: Vec<f64>,
     offset: f64,
 }
 
-/// What outputs and drives are measured in, and how large drives are as they start.
+/// Kinds of outputs and drives, and initial sizes of drives.
 struct Experiment<'a> {
     kinds: &'a [Kind],
     drives: &'a [DriveKind],
@@ -238,14 +238,14 @@ struct Experiment<'a> {
 }
 
 impl Experiment<'_> {
-    /// The range of an output that counts: its own, or a part of the largest of its kind; infinite where none has any.
+    /// Range that counts for an output: its own, or a share of the largest of its kind; infinite if all are zero.
     fn range(&self, ranges: &[f64], k: usize) -> f64 {
         let range = ranges[k].max(LEAST_RANGE * self.largest(ranges, k));
         if range > 0.0 { range } else { f64::INFINITY }
     }
 
-    /// The same under a unit of one drive, where the largest is that under any drive of its kind: what one cell of many
-    /// hardly reaches another may.
+    /// The same under a unit of one drive. The largest range is that under any drive of its kind, because one cell of
+    /// many may reach an output that another hardly reaches.
     fn range_under(&self, single: &[Vec<f64>], [k, j]: [usize; 2]) -> f64 {
         let like = (0..self.drives.len()).filter(|&other| self.drives[other] == self.drives[j]);
         let under = |j: usize| single.iter().map(|ranges| ranges[j]).collect::<Vec<f64>>();
@@ -254,14 +254,14 @@ impl Experiment<'_> {
         if range > 0.0 { range } else { f64::INFINITY }
     }
 
-    /// The largest range of any output of the kind of one.
+    /// Largest range of any output of the same kind.
     fn largest(&self, ranges: &[f64], k: usize) -> f64 {
         let of_kind = self.kinds.iter().zip(ranges).filter(|(kind, _)| **kind == self.kinds[k]);
         of_kind.map(|(_, range)| *range).fold(0.0, f64::max)
     }
 
-    /// For each output and drive the error that is allowed: together a part of the output's range over the default
-    /// experiment; where a drive starts from nothing, of the range under a unit of it.
+    /// Allowed error of each output for each drive. The errors of an output sum to a share of its range over the
+    /// default experiment. For a drive that starts from zero, the range under a unit of it counts.
     fn allowed(&self, tolerance: f64, ranges: &Ranges) -> Vec<Vec<f64>> {
         let Self { kinds, sizes, .. } = *self;
         let active = sizes.iter().filter(|&&size| size != 0.0).count() as f64;
@@ -272,8 +272,8 @@ impl Experiment<'_> {
         (0..kinds.len()).map(|k| (0..sizes.len()).map(|j| of_pair(k, j)).collect()).collect()
     }
 
-    /// Of each output its bound over its range: over the default experiment, or under a drive alone that starts from
-    /// nothing, whichever is larger.
+    /// Error bound of each output over its range: over the default experiment, or under a single drive that starts from
+    /// zero, whichever is larger.
     fn errors(&self, system: &ReducedSystem, ranges: &Ranges) -> Vec<f64> {
         let Self { kinds, sizes, .. } = *self;
         let start: Vec<f64> = sizes.iter().map(|size| size.abs()).collect();

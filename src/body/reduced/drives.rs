@@ -1,23 +1,23 @@
-//! From inputs to what drives a reduced model: amounts of loads, values of faces, and footprints that move.
+//! Converts inputs to the drives of a reduced model: amounts of loads, values of faces, and moving footprints.
 //!
-//! A footprint that moves within its range is a product of polynomials in place and radius through footprints at
-//! Chebyshev points; the amount times the weight of each of these drives the model.
+//! A footprint that moves within its range is interpolated by a product of polynomials in place and radius, through
+//! footprints at Chebyshev points. The drives are the amount times the weight of each of these.
 
 use std::f64::consts::PI;
 
 use crate::inputs::{FaceInputKind, InputLayout, LoadInputs};
 use crate::scene::{Load, Scene};
 
-/// All that drives a body.
+/// All drives of a body.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Drives {
     pub list: Vec<Drive>,
     pub families: Vec<Family>,
-    /// Inputs that stay where they start: the place in the list, the value [m] and the load's name.
+    /// Inputs that are constant at their start values: the place in the list, the value [m] and the load's name.
     pub fixed: Vec<(usize, f64, String)>,
 }
 
-/// What a drive is measured in: those of one kind compare.
+/// Kind of a drive, with its unit; drives of one kind are comparable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DriveKind {
     /// [W/m²]
@@ -28,22 +28,22 @@ pub enum DriveKind {
     Temperature,
 }
 
-/// A number that drives.
+/// A scalar drive of the model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drive {
     pub kind: DriveKind,
-    /// Of the input.
+    /// Place of its input.
     pub index: usize,
-    /// What the input is where nothing is driven.
+    /// Value of the input at which the drive is zero.
     pub base: f64,
-    /// The family of footprints, and which of them.
+    /// The family of footprints, and the member of it.
     pub member: Option<(usize, usize)>,
 }
 
 /// Footprints of a load at points of its range.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Family {
-    /// The inputs x, y and radius, as far as there are any.
+    /// Places of the inputs x, y and radius, if they exist.
     pub places: [Option<usize>; 3],
     pub points: [Points; 3],
 }
@@ -61,7 +61,7 @@ impl Points {
         0.5 * (low + high) - 0.5 * (high - low) * angle(point, self.count).cos()
     }
 
-    /// A place between two points, or an end of the range.
+    /// A place between two points, or at an end of the range.
     fn between(&self, number: usize) -> f64 {
         let [low, high] = self.range;
         0.5 * (low + high) - 0.5 * (high - low) * (PI * number as f64 / self.count as f64).cos()
@@ -92,7 +92,7 @@ impl Family {
         self.points.iter().map(|points| points.count).product()
     }
 
-    /// x, y and radius of a member; nothing for what is no input.
+    /// Returns x, y and radius of a member; `None` where there is no input.
     pub fn place(&self, member: usize) -> [Option<f64>; 3] {
         let numbers = self.numbers(member);
         [0, 1, 2].map(|a| self.places[a].map(|_| self.points[a].at(numbers[a])))
@@ -103,7 +103,7 @@ impl Family {
         [member % x.count, member / x.count % y.count, member / (x.count * y.count)]
     }
 
-    /// Weights of all members under inputs, and how these change at rates of the inputs.
+    /// Weights of all members under inputs, with their rates of change for rates of the inputs.
     fn weights(&self, inputs: &[f64], rates: Option<&[f64]>) -> Vec<[f64; 2]> {
         let along = [0, 1, 2].map(|a| match self.places[a] {
             Some(index) => self.points[a].weights(inputs[index]),
@@ -127,8 +127,8 @@ impl Family {
 }
 
 impl Drives {
-    /// Of a body's loads and faces; `points` tells how many footprints stand along the range of a load along x, y and
-    /// the radius.
+    /// Drives of a body's loads and faces; `points` returns the number of footprints over a load's range of x, y and
+    /// radius.
     pub fn of(
         scene: &Scene,
         layout: &InputLayout,
@@ -185,8 +185,8 @@ impl Drives {
         }
     }
 
-    /// Inputs with a footprint between those that stand for it and a unit of one amount, and the place of that: where
-    /// polynomials through the others miss most. Of places, those along one axis at a time are enough.
+    /// Returns inputs with a unit of one amount on a footprint between the supporting ones, and the place of that
+    /// amount. At these places the interpolation error is largest; places along one axis at a time are sufficient.
     pub fn trials(&self, start: &[f64]) -> Vec<(usize, Vec<f64>)> {
         let mut still = start.to_vec();
         self.list.iter().for_each(|drive| still[drive.index] = drive.base);
@@ -208,7 +208,7 @@ impl Drives {
                         inputs[*place] = if other == axis {
                             own.between(between)
                         } else {
-                            // Off the middle, which is a point where these are odd in number.
+                            // Off the middle, which is a supporting point if their number is odd.
                             0.35 * own.range[0] + 0.65 * own.range[1]
                         };
                     }
@@ -219,7 +219,7 @@ impl Drives {
         trials
     }
 
-    /// What drives under inputs.
+    /// Values of the drives under inputs.
     pub fn values(&self, inputs: &[f64]) -> Vec<f64> {
         let weights = self.weights(inputs, None);
         let value = |drive: &Drive| {
@@ -229,7 +229,7 @@ impl Drives {
         self.list.iter().map(value).collect()
     }
 
-    /// How that changes when the inputs change at `rates`.
+    /// Rates of the drives when the inputs change at `rates`.
     pub fn changes(&self, inputs: &[f64], rates: &[f64]) -> Vec<f64> {
         let weights = self.weights(inputs, Some(rates));
         let change = |drive: &Drive| match drive.member {

@@ -1,4 +1,4 @@
-//! What a reduced solid will cost.
+//! Cost of a reduced solid.
 
 use super::drives::Drives;
 use super::store;
@@ -7,18 +7,19 @@ use crate::body::BodyForecast;
 use crate::inputs::InputLayout;
 use crate::scene::{Scene, footprints_along};
 
-/// Time of a step and of reading what is offered beside the unknowns [s], and for each number that goes into them.
+/// Time of a step with the readings other than unknowns [s], and time for each number involved.
 const STEP: f64 = 5e-7;
 const NUMBER: f64 = 1e-9;
-/// Time to clump a mode for an input and an output, and to balance and bound what is between these [s].
+/// Time to clump a mode for an input and an output, and to balance and bound a pair of these [s].
 const CLUMPING: f64 = 1e-7;
 const BALANCING: f64 = 8e-3;
-/// Columns of the factor of a Gramian, about.
+/// Approximate number of columns of a Gramian's factor.
 const RANK: f64 = 45.0;
-/// Unknowns at the tolerance 1, and for each decimal that it is smaller, times the root of inputs.
+/// Number of unknowns at the tolerance 1, and for each decimal of a smaller one, both times the root of the number of
+/// inputs.
 const UNKNOWNS: [f64; 2] = [6.0, 4.0];
 
-/// From what the full solid costs.
+/// Estimates the cost from that of the full solid.
 pub fn forecast(scene: &Scene, name: &str, full: BodyForecast) -> BodyForecast {
     let drives = Drives::of(scene, &InputLayout::of(scene), name, footprints_along);
     let values = Values::of(scene, name);
@@ -36,12 +37,12 @@ pub fn forecast(scene: &Scene, name: &str, full: BodyForecast) -> BodyForecast {
     let numbers = order * (inputs + outputs) + outputs * inputs;
     let step_time = STEP + NUMBER * numbers;
     let reduced = Some(known.as_ref().map(|known| known.system.order()));
-    // Each component of stress and displacement takes about what a reading of all stresses does.
+    // Each component of stress and displacement takes about as long as a reading of all stresses.
     let modes = full.unknowns[0] as f64;
     let build_time = full.build_time
         + mechanical * full.step_time
         + (CLUMPING * modes + BALANCING) * inputs * outputs;
-    // Where the reduction is held nothing of the full solid is built in this process.
+    // If the reduction is held, nothing of the full solid is built in this process.
     let memory = match known {
         Some(_) => 8.0 * (numbers + 2.0 * inputs * outputs),
         None => full.memory + 8.0 * (modes * inputs + 4.0 * RANK * RANK * inputs * outputs),

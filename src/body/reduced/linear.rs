@@ -1,4 +1,4 @@
-//! How what is read of a reduced solid changes: a system of scalar equations tells it exactly.
+//! Derivatives of the readings of a reduced solid, exact as its equations are scalar.
 
 use super::totals::{Total, total};
 use super::{Measured, ReducedBody, ReducedMemo, STORED, drives_of, reduced};
@@ -15,7 +15,7 @@ impl Linear for ReducedBody {
         let mut rates = self.system().rates_of(self.unknowns(state), drives);
         rates.push(self.system().at_once(changes, STORED));
         rates.push(self.reduction.brought.iter().zip(drives).map(|(b, u)| b * u).sum());
-        // The largest sizes so far stay, as long as no step is made.
+        // The largest sizes so far stay constant until a step is made.
         rates.resize(self.len(), 0.0);
         rates
     }
@@ -49,7 +49,7 @@ impl Linear for ReducedBody {
                 _ => self.total(rates, place),
             },
             Reading::Peak { .. } | Reading::Cell { .. } | Reading::Error => {
-                // It has neither running maxima nor a wall, and its error is told by its bound.
+                // It has neither running maxima nor a wall, and its bounds report its error.
                 return Err(BodyError::NoSuchReading);
             }
         })

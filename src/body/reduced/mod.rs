@@ -1,8 +1,8 @@
-//! Solids reduced to some tens of unknowns, with a bound of the error.
+//! Solids reduced to some tens of unknowns, with an error bound.
 //!
-//! The full solid is built once, to be reduced (`build`), unless what it comes to is known (`store`); what is left are
-//! scalar equations, which advance exactly. The state holds their unknowns, the heat brought in, and how large each drive has been: the bound that is told belongs to
-//! the inputs that there were.
+//! The full solid is built once to be reduced (`build`), unless its reduction is stored (`store`). The reduced
+//! equations are scalar and advance exactly. The state holds their unknowns, the supplied heat, and the largest size of
+//! each drive so far: the reported bound applies to the inputs that occurred.
 
 mod build;
 mod drives;
@@ -37,21 +37,21 @@ use drives::Drives;
 use totals::{Total, total};
 use values::{Kind, Values};
 
-/// What a full solid comes to.
+/// Reduction of a full solid.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Reduction {
     pub system: ReducedSystem,
-    /// Of each output, what it is where nothing drives and nothing was stored.
+    /// Value of each output without drives and stored heat.
     pub offsets: Vec<f64>,
-    /// Of each output, its bound over its range in the default experiment.
+    /// Error bound of each output over its range in the default experiment.
     pub errors: Vec<f64>,
-    /// Heat that a unit of each drive brings in [W].
+    /// Heat flow supplied by a unit of each drive [W].
     pub brought: Vec<f64>,
     /// Modes of the full solid.
     pub modes: usize,
 }
 
-/// A reduced solid and what of the scene concerns it.
+/// A reduced solid, with the scene's data that concern it.
 pub struct ReducedBody {
     name: String,
     loads: BodyLoads,
@@ -59,25 +59,25 @@ pub struct ReducedBody {
     values: Values,
     kinds: Vec<Kind>,
     reduction: Arc<Reduction>,
-    /// Of drives as they start.
+    /// Initial sizes of the drives.
     start: Vec<f64>,
-    /// That the scene wants.
+    /// Tolerance of the scene.
     tolerance: f64,
-    /// Of the full solid [s].
+    /// Resolved time of the full solid [s].
     resolved_from: f64,
 }
 
 /// The row of heat stored.
 const STORED: usize = 0;
-/// What unknowns may exceed their bound by, for rounding.
+/// Share by which unknowns may exceed their bound due to rounding.
 const SLACK: f64 = 1e-6;
-/// Part of a length by which a place may miss another.
+/// Share of a length by which a place may deviate from another.
 const ROUNDING: f64 = 1e-9;
 
-/// What drives a model, or how that changes.
+/// Values of the drives, or their rates of change.
 struct ReducedMemo {
     drives: Vec<f64>,
-    /// Whether a place changes that the model holds.
+    /// True if an input changes that the model holds constant.
     moves_what_is_held: bool,
 }
 
@@ -116,7 +116,7 @@ impl ReducedBody {
         &self.reduction.system
     }
 
-    /// Places in a state of what the drives gave heat stored at once, of heat brought in, and of the first size.
+    /// Places in a state of the heat stored directly by the drives, of the supplied heat, and of the first size.
     fn places(&self) -> [usize; 3] {
         let order = self.system().order();
         [order, order + 1, order + 2]
@@ -130,19 +130,19 @@ impl ReducedBody {
         &state[..self.system().order()]
     }
 
-    /// An output that follows what drives at once.
+    /// An output, including the direct effect of the drives.
     fn output(&self, state: &[f64], drives: &[f64], place: usize) -> f64 {
         let value = self.system().output(self.unknowns(state), drives, place);
         self.reduction.offsets[place] + value
     }
 
-    /// Heat stored, as of the end of the last step.
+    /// Heat stored at the end of the last step.
     fn stored(&self, state: &[f64]) -> f64 {
         let order = self.system().order();
         self.system().from_unknowns(&state[..order], STORED) + state[order]
     }
 
-    /// The largest bound of the values of a kind.
+    /// Largest error bound of the values of a kind.
     fn bound(&self, sizes: &[f64], kind: Kind) -> f64 {
         let places = self.kinds.iter().enumerate().filter(|(_, own)| **own == kind);
         places.map(|(place, _)| self.system().bound(sizes, place)).fold(0.0, f64::max)
@@ -158,7 +158,7 @@ impl ReducedBody {
         }
     }
 
-    /// The value of a measure, where `value` gives that of each row.
+    /// Value of a measure; `value` returns that of each row.
     fn measure(&self, (quantity, at): (usize, [f64; 3]), value: impl Fn(usize) -> f64) -> Measured {
         let rows = self.values.rows_at(at);
         let known = "rows are made for all that is registered";
@@ -177,7 +177,7 @@ impl ReducedBody {
         }
     }
 
-    /// Advances under drives that are polynomials in time: values at the beginning, then derivatives.
+    /// Advances under drives that are polynomials in time, as values at the beginning followed by derivatives.
     fn advance_part(&self, state: &mut [f64], drives: &[&[f64]], dt: f64) {
         let [held, brought, sizes] = self.places();
         self.system().advance(&mut state[..held], drives, dt);
@@ -232,7 +232,8 @@ impl ReducedBody {
         Ok(())
     }
 
-    /// Refuses unknowns that are no numbers, and temperatures that are not above absolute zero where heat is drawn.
+    /// Refuses unknowns that are not numbers, and temperatures that are not above absolute zero while heat is
+    /// extracted.
     fn check_end(&self, state: &[f64], start: &[f64], end: &[f64]) -> Result<(), BodyError> {
         if !state.iter().all(|value| value.is_finite()) {
             return Err(BodyError::Overflow { body: self.name.clone() });
@@ -253,13 +254,13 @@ impl ReducedBody {
     }
 }
 
-/// A value of a point: as it is, or a measure of stress with its rate.
+/// A value at a point: a plain component, or a measure of stress with its rate.
 enum Measured {
     Plain(f64),
     Stress(fn([f64; 6]) -> f64, fn([f64; 6], [f64; 6]) -> f64, [f64; 6]),
 }
 
-/// Keeps the larger of sizes so far and those of now.
+/// Keeps the larger of earlier and present sizes.
 fn note_sizes(sizes: &mut [f64], drives: &[f64]) {
     sizes.iter_mut().zip(drives).for_each(|(size, drive)| *size = size.max(drive.abs()));
 }
@@ -367,7 +368,7 @@ impl Body for ReducedBody {
             Reading::Mean { field, cell, .. } => value(self.values.mean(field, cell)),
             Reading::Total(place) => self.total(state, place),
             Reading::Peak { .. } | Reading::Cell { .. } | Reading::Error => {
-                // It has neither running maxima nor a wall, and its error is told by its bound.
+                // It has neither running maxima nor a wall, and its bounds report its error.
                 return Err(BodyError::NoSuchReading);
             }
         })

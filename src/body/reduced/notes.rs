@@ -4,7 +4,7 @@ use super::ReducedBody;
 use super::values::Kind;
 use crate::warning::{self, Finding};
 
-/// Kinds of values in words, and what they are measured in.
+/// Kinds of values in words, with their units.
 const KINDS: [(Kind, &str, &str); 4] = [
     (Kind::Temperature, "temperatures", "K"),
     (Kind::Stress, "stress components", "Pa"),
@@ -41,11 +41,11 @@ impl ReducedBody {
         notes
     }
 
-    /// Warns of the kind of values whose bound is furthest beyond the tolerance, with a remedy.
+    /// Warns of the kind of values whose bound exceeds the tolerance most, with a remedy.
     pub(super) fn finding_beyond_tolerance(&self, remedy: &str) -> Option<Finding> {
         let errors = self.kinds.iter().zip(&self.reduction.errors);
         let (kind, error) = errors.max_by(|a, b| a.1.total_cmp(b.1))?;
-        // What is within is so by no less than rounding.
+        // A rounding margin counts as within the tolerance.
         if *error <= self.tolerance * (1.0 + super::ROUNDING) {
             return None;
         }
@@ -54,8 +54,8 @@ impl ReducedBody {
         Some(warning::reduction_beyond_tolerance(words, error, tolerance, remedy))
     }
 
-    /// The largest bound of values of a kind over the largest of their answers to the same drive up to the end of the
-    /// experiment.
+    /// Largest bound of the values of a kind, over the largest of their responses to the same drive until the end of
+    /// the experiment.
     fn relative_bound(&self, kind: Kind) -> f64 {
         let system = self.system();
         let own = || (0..self.kinds.len()).filter(|&place| self.kinds[place] == kind);

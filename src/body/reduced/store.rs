@@ -1,4 +1,4 @@
-//! Reductions that are known: made once for all that they follow from, shared in one process, and stored by units.
+//! Known reductions: made once for equal keys, shared within a process, and stored in units.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -10,19 +10,19 @@ use crate::runtime::sealed::{Content, Format, Reader};
 use crate::runtime::shared_values::SharedValues;
 use crate::scene::{FidelityLevel, MeshFactors, Naming, Scene, Solver};
 
-/// Changes with what a reduction is made of.
+/// Version of the reductions; to be raised when their contents change.
 const VERSION: u32 = 2;
 
 const REDUCTION: Format = Format { magic: b"IMPRED01", noun: "reduction", of: "a solid" };
 
 static REDUCTIONS: SharedValues<String, Reduction> = SharedValues::new();
 
-/// A reduction that models of this process find as long as it is held.
+/// Keeps a reduction available to the models of this process while it is held.
 #[derive(Clone)]
 pub struct KeptReduction(Arc<Reduction>);
 
 impl PartialEq for KeptReduction {
-    /// Whether both are one.
+    /// Returns true if both are the same object.
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }
@@ -33,13 +33,13 @@ impl ReducedBody {
         KeptReduction(Arc::clone(&self.reduction))
     }
 
-    /// The reduction as bytes, with all that it follows from; the scene is that of the body.
+    /// Returns the reduction as bytes, with its key; the scene is that of the body.
     pub fn to_bytes(&self, scene: &Scene) -> Vec<u8> {
         self.reduction.to_bytes(&key(scene, &self.name))
     }
 }
 
-/// The reduction of a solid, made unless this process knows it.
+/// Returns the reduction of a solid, which is made unless this process holds it.
 pub fn known(
     scene: &Scene,
     name: &str,
@@ -48,25 +48,25 @@ pub fn known(
     REDUCTIONS.get_or_make(&key(scene, name), make)
 }
 
-/// The reduction of a solid if this process holds it.
+/// Returns the reduction of a solid if this process holds it.
 pub fn held(scene: &Scene, name: &str) -> Option<Arc<Reduction>> {
     REDUCTIONS.get(&key(scene, name))
 }
 
-/// Makes a reduction known to this process; refuses bytes that are damaged or hold what no reduction leads to. Units whose
-/// solids it does not fit make their own.
+/// Makes a reduction available to this process and refuses bytes that are damaged or describe no possible reduction.
+/// Units with other solids make their own.
 pub fn keep_reduction(bytes: &[u8]) -> Result<KeptReduction, String> {
     let (key, reduction) = Reduction::from_bytes(bytes)?;
     let reduction = REDUCTIONS.get_or_make(&key, || Ok::<_, String>(reduction))?;
     Ok(KeptReduction(reduction))
 }
 
-/// Forgets what nobody holds any more.
+/// Drops all reductions that are no longer held.
 pub fn forget_unused_reductions() {
     REDUCTIONS.forget_unused();
 }
 
-/// All that a reduction follows from: the scene without what other bodies and names in it say.
+/// All data that determine a reduction: the scene without data of other bodies, and without names.
 fn key(scene: &Scene, name: &str) -> String {
     let [along, through] = scene.refinement.get(name).map_or([1.0; 2], MeshFactors::factors);
     let mesh = MeshFactors::of([along, through]);
@@ -74,7 +74,7 @@ fn key(scene: &Scene, name: &str) -> String {
         name: String::new(),
         description: String::new(),
         naming: Naming::default(),
-        // Solids hold copies of what they are made of.
+        // Solids hold copies of their materials.
         material: BTreeMap::new(),
         refinement: [(name.to_owned(), mesh)].into(),
         solver: Solver { method: scene.solver.method, ..Solver::default() },
@@ -123,7 +123,7 @@ impl Reduction {
         }
     }
 
-    /// Refuses a reduction of other numbers of drives and values than a body has.
+    /// Refuses a reduction whose numbers of drives and values differ from the body's.
     pub(super) fn fits(&self, name: &str, [inputs, outputs]: [usize; 2]) -> Result<(), BodyError> {
         let own = [self.system.inputs, self.system.outputs];
         if own == [inputs, outputs] {
@@ -163,13 +163,13 @@ mod tests {
     }
 
     #[test]
-    fn what_is_stored_is_read_again_and_what_is_forged_is_refused() {
+    fn reductions_round_trip_and_forged_ones_are_refused() {
         let bytes = reduction().to_bytes("a plate");
         assert_eq!(Reduction::from_bytes(&bytes), Ok(("a plate".to_owned(), reduction())));
         let forged = [
             Reduction { errors: vec![-0.5, 0.0], ..reduction() },
             Reduction { brought: vec![f64::NAN], ..reduction() },
-            // A number too few, so that all that follow stand elsewhere.
+            // One number is missing, so all following numbers are misplaced.
             Reduction { errors: vec![0.0], ..reduction() },
             Reduction { offsets: vec![0.0; 3], ..reduction() },
         ];

@@ -1,4 +1,4 @@
-//! What is read of a whole reduced model.
+//! Readings of a whole reduced model.
 
 use super::values::{Kind, Values};
 use crate::body::{Descriptor, Direct};
@@ -11,7 +11,7 @@ pub enum Total {
     HeatIn,
     HeatStored,
     HeatLost,
-    /// What values of a kind err by, at most.
+    /// Error bound of the values of a kind.
     Bound(Kind),
 }
 

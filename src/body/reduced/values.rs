@@ -1,4 +1,4 @@
-//! Which values a reduced model gives: those of the scene's probes and fields, each a row of its output matrix.
+//! Values that a reduced model provides: those of the scene's probes and fields, each a row of its output matrix.
 
 use std::collections::BTreeMap;
 
@@ -6,11 +6,11 @@ use crate::body::point_quantities;
 use crate::body::solid::Measure;
 use crate::scene::{Gives, Sampling, Scene};
 
-/// A value that is linear in what drives and in the state.
+/// A value that is linear in the drives and the state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Value {
     Temperature([f64; 3]),
-    /// Mean temperature over a cell of the field at a place among the scene's.
+    /// Mean temperature over a cell of a field, by its place among the scene's.
     Mean {
         field: usize,
         cell: usize,
@@ -21,7 +21,7 @@ pub enum Value {
     Stored,
 }
 
-/// What values are measured in.
+/// Kinds of values, each with its unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     Temperature,
@@ -41,13 +41,13 @@ impl Value {
     }
 }
 
-/// The values of a body in their order, and where they stand.
+/// The values of a body in their order, with their places.
 #[derive(Debug, Clone, Default)]
 pub struct Values {
     pub list: Vec<Value>,
     /// By the bits of the point.
     points: BTreeMap<[u64; 3], Rows>,
-    /// Of the first cell of fields, by their places.
+    /// Places of the first cells of fields, by the places of the fields.
     means: BTreeMap<usize, usize>,
 }
 
@@ -60,7 +60,7 @@ pub struct Rows {
 }
 
 impl Values {
-    /// What probes and fields give of a body; heat stored comes first.
+    /// Returns the values of a body that probes and fields request; the stored heat comes first.
     pub fn of(scene: &Scene, body: &str) -> Self {
         let mut values = Self { list: vec![Value::Stored], ..Self::default() };
         for probe in scene.probe.iter().filter(|probe| probe.body == body) {

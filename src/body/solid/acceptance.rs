@@ -1,30 +1,29 @@
-//! Checks of unknowns that come from elsewhere: they have to be those of some run of the body.
+//! Checks that states from outside belong to a run of the body.
 
 use super::SolidBody;
 use crate::body::BodyError;
 use crate::method::fem::ThermalFace;
 
-/// Part of the heat that warmed a body and of the heat that passed which a balance may miss: runs keep it to 1e-9.
+/// Share of the stored and transferred heat that a balance may miss; runs keep it to 1e-9.
 const BALANCE: f64 = 1e-6;
-/// The same of one step, from which on the step is refused: beyond it rounding is no small error any more.
+/// Share that a single step may miss before it is refused; beyond it rounding is no longer negligible.
 const BALANCE_OF_STEP: f64 = 1e-3;
-/// Part of the heat that was there at time zero which it may miss: enthalpies round to 1e-16 of it.
+/// Share of the heat at time zero that a balance may miss; enthalpies are rounded to 1e-16 of it.
 const ROUNDING: f64 = 1e-9;
-/// Part of the range of nodal temperatures by which the lowest may lie below absolute zero. Consistent
-/// capacities place a node beside one that was just heated below its surroundings, by 2 − √3 of the jump
-/// along one axis.
+/// Share of the range of nodal temperatures by which the lowest may lie below absolute zero. With consistent
+/// capacities, a node next to a suddenly heated one falls below its surroundings, by 2 − √3 of the jump along one axis.
 const UNDERSHOOT: f64 = 0.4;
-/// The same at corners between faces of prescribed temperature, where jumps along three axes meet.
+/// The same share at corners between faces of prescribed temperature, where jumps along three axes meet.
 const UNDERSHOOT_AT_CORNERS: f64 = 0.55;
 /// Highest temperature [K].
 const HOTTEST: f64 = 1e100;
 
-/// What a step is to keep of the heat of a body [J].
+/// Heat balance of a body before or after a step [J].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Balance {
-    /// Stored, but not brought in and kept.
+    /// Heat stored but never supplied.
     missing: f64,
-    /// Stored or passed since time zero.
+    /// Heat stored or transferred since time zero.
     passed: f64,
 }
 
@@ -36,9 +35,9 @@ impl SolidBody {
         Balance { missing: self.solid.heat_drift(heat), passed: passed.map(f64::abs).iter().sum() }
     }
 
-    /// Refuses a step from a balance to a state in which heat appeared or vanished.
+    /// Refuses a step in which heat appeared or vanished.
     pub(super) fn check_step(&self, before: Balance, state: &[f64]) -> Result<(), BodyError> {
-        // Particles at unequal distances keep no balance.
+        // Particles at unequal distances do not conserve heat.
         if self.solid.fallback_particles().is_some() {
             return Ok(());
         }
@@ -53,7 +52,7 @@ impl SolidBody {
         Err(BodyError::Unbalanced { body: self.name.clone(), missing, passed })
     }
 
-    /// Refuses heat that no run leads to: temperatures that no matter has, or heat that did not come in.
+    /// Refuses thermal states that no run produces: impossible temperatures, or heat that was never supplied.
     pub(super) fn check_heat(&self, state: &[f64], inputs: &[f64]) -> Result<(), String> {
         let heat = self.heat_of(state);
         let loads = self.loads.of_faces(inputs, self.solid.mesh());
@@ -68,7 +67,7 @@ impl SolidBody {
                 "temperatures of {name} from {lowest:e} to {highest:e} K, which no run leads to"
             ));
         }
-        // Particles at unequal distances keep no balance.
+        // Particles at unequal distances do not conserve heat.
         if self.solid.fallback_particles().is_some() {
             return Ok(());
         }
@@ -93,7 +92,7 @@ impl SolidBody {
         if faces > 1 { UNDERSHOOT_AT_CORNERS } else { UNDERSHOOT }
     }
 
-    /// Heat capacity of the whole body, if it were all of its most capacious layer [J/K].
+    /// Heat capacity of the whole body if it consisted of its layer of highest capacity [J/K].
     fn heat_capacity(&self) -> f64 {
         let mesh = self.solid.mesh();
         let volume: f64 =

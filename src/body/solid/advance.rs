@@ -7,7 +7,7 @@ use crate::inputs::InputPath;
 use crate::method::fem::SolidLoads;
 use crate::runtime::allowance::Allowance;
 
-/// Parts of a footprint's size that it may move or grow by in one part of a step.
+/// Number of parts of a step while a footprint moves or grows by its own size.
 pub const PARTS_OF_A_FOOTPRINT: f64 = 8.0;
 
 impl SolidBody {
@@ -31,12 +31,11 @@ impl SolidBody {
 
     /// Advances under inputs that follow a path.
     ///
-    /// Over each part of the step, loads are the quadratics in time that equal them at its beginning,
-    /// middle and end, and heat is solved exactly under these. So amounts and face values make no
-    /// time error, the step is then one part. Footprints that move or grow make one of the fourth
-    /// order; they go by at most an eighth of their radius (a ring's width, a tile's smaller side) in
-    /// a part. For alumina under footprints of 50 µm at 1 m/s that is 3e-5 of the rise for a
-    /// Gaussian, and for a disc or tiles 2e-5 below them and 5e-4 at the edge that goes ahead.
+    /// Over each part of the step, loads are the quadratics in time that match them at its beginning, middle and end.
+    /// Heat is solved exactly under these. Amounts and face values have no time error, so such a step is one part.
+    /// Footprints that move or grow have a fourth-order error; they move by at most an eighth of their radius (a ring's
+    /// width, a tile's smaller side) in a part. For alumina under footprints of 50 µm at 1 m/s the error is 3e-5 of the
+    /// rise for a Gaussian. For a disc or tiles it is 2e-5 below them and 5e-4 at the leading edge.
     fn advance_along(
         &self,
         state: &mut [f64],
@@ -45,7 +44,7 @@ impl SolidBody {
     ) -> Result<(), BodyError> {
         let Acts { path, duration, .. } = acts;
         let travel = self.loads.travel(path.derivatives(), *duration);
-        // What is received changes evenly over the whole step: one that is cut would need it cut, too.
+        // Received heat changes linearly over the whole step; cutting the step would require cutting that too.
         let parts = match acts.received.is_empty() {
             true => (PARTS_OF_A_FOOTPRINT * travel).ceil().max(1.0),
             false => 1.0,
@@ -72,7 +71,7 @@ impl SolidBody {
         Ok(self.loads.assemble(&inputs, self.meshes()))
     }
 
-    /// Loads and their derivatives with what comes through ports; nothing if nothing does.
+    /// Returns the loads and their derivatives with the transfers through ports; `None` without transfers.
     fn with_received(&self, loads: &[SolidLoads], acts: &Acts) -> Option<Vec<SolidLoads>> {
         if acts.received.is_empty() {
             return None;

@@ -1,4 +1,4 @@
-//! What a solid will cost.
+//! Cost of a solid.
 
 use super::front::may_melt;
 use super::rows::Choice;
@@ -25,57 +25,57 @@ pub struct BodyForecast {
     pub spacing: [[f64; 2]; 3],
     /// Order of the shape functions.
     pub order: usize,
-    /// Set where particles conduct the heat.
+    /// Set if particles conduct the heat.
     pub particles: Option<ParticleForecast>,
     /// Memory of the model [B].
     pub memory: f64,
-    /// Time to build the model, and of a step whose stresses are read [s].
+    /// Time to build the model, and time of a step whose stresses are read [s].
     pub build_time: f64,
     pub step_time: f64,
-    /// Set where the solid is reduced; its number of unknowns where that is known.
+    /// Set if the solid is reduced; its number of unknowns if that is known.
     pub reduced: Option<Option<usize>>,
-    /// What was chosen or left out, and why.
+    /// Notes on choices and simplifications.
     pub notes: Vec<String>,
 }
 
-/// What particles will do in a communication step of the default experiment.
+/// Work of particles in a communication step of the default experiment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ParticleForecast {
     /// Neighbours of a particle, itself included.
     pub neighbours: usize,
-    /// Equal sub-steps, and products with the sparse matrix in each while inputs are held.
+    /// Equal sub-steps, and products with the sparse matrix in each while inputs are constant.
     pub sub_steps: usize,
     pub products: usize,
-    /// Sub-steps that the stability of the explicit Euler method would take.
+    /// Sub-steps that the stability limit of the explicit Euler method would require.
     pub euler_steps: f64,
 }
 
-/// Rates of this kind of machine: entries per second when solving, operations per second when
-/// factoring, the latter on each thread.
+/// Rates of a typical machine: entries per second when solving, operations per second when factoring, the latter on
+/// each thread.
 const SOLVE_RATE: f64 = 1.2e9;
 const FACTOR_RATE: f64 = 1.25e10;
-/// Unknowns of bricks per second that conjugate gradients solve for, on each thread.
+/// Unknowns of bricks that conjugate gradients solve for per second, on each thread.
 const BRICK_RATE: f64 = 7e5;
 /// Products of particles' matrices: entries per second on one thread, and rows built per second.
 pub const PRODUCT_RATE: f64 = 9e8;
 const ROW_RATE: f64 = 2.5e4;
-/// Time per node that nonlinear heat takes in a communication step [s], and beyond that for each pair of nodes in a run
-/// in which a front of melting goes through some of them: each that it passes costs inner steps of the whole body.
+/// Time per node for nonlinear heat in a communication step [s], and further time in a run for each pair of nodes if a
+/// melting front crosses some of them: each crossing costs inner steps of the whole body.
 const NONLINEAR_HEAT: f64 = 3e-6;
 const FRONT: f64 = 1.2e-8;
-/// Time per node that the equilibrium of a body takes part of which yields [s], and its memory per node [B].
+/// Time per node for the equilibrium of a body with yielding parts [s], and its memory per node [B].
 const YIELDING: f64 = 1.5e-4;
 const YIELDING_MEMORY: f64 = 8e3;
-/// Modes through layers: cubed numbers of nodes along z per second, on each thread.
+/// Modes through layers: cube of the number of nodes along z per second, on each thread.
 const COLUMN_RATE: f64 = 1e8;
 
-/// Estimates without building the solid.
+/// Estimates the cost without building the solid.
 pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast {
     let plan = plan(scene, name, solid);
     let unknowns = plan.unknowns();
     let n = unknowns[1] as f64;
     let geometry = plan.mesh.geometry;
-    // Bodies that yield have a factor of a section alone.
+    // Bodies that yield have a factor of one section alone.
     let is_yielding_box = plan.inelastic.is_some() && geometry == Geometry::Box;
     let suits = |law| suits_conjugate_gradients(&plan.mesh, law);
     let by_bricks = is_yielding_box || plan.law.as_deref().is_some_and(suits);
@@ -86,12 +86,12 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
         Geometry::Box => 10.0 * n * n,
     };
     let solver = plan.law.as_ref().map_or(0.0, |law| solver_memory(&plan.mesh, law));
-    // Of bricks nothing is assembled.
+    // Bricks need no assembly.
     let assembly = if by_bricks { 3e-7 } else { 2e-5 };
     let iterations = if by_bricks { n / BRICK_RATE } else { 0.0 };
     let at_start = |axis| is_odd_at_start(scene, name, axis);
     let classes = count_classes(plan.mesh.mirrored, at_start);
-    // Memory is taken when a class is first loaded; time is told as of a run that loads all that it may.
+    // Memory is taken when a class is first loaded; the time is that of a run that loads all possible classes.
     let later = expected_classes(scene, name, &plan);
     let spacing = plan.mesh.axes.each_ref().map(|axis| {
         let steps = axis.nodes.windows(2).map(|pair| pair[1] - pair[0]);
@@ -106,7 +106,7 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
     });
     let links = particles.map_or(0.0, |p| p.neighbours as f64 * unknowns[0] as f64);
     let passes = particles.map_or(0.0, |p| p.sub_steps as f64 * p.products as f64);
-    // Of each axis a full matrix, and what it is found from.
+    // Each axis has a full matrix and the data to compute it.
     let modes = plan.mesh.axes.iter().map(|axis| 3.0 * (axis.len() as f64).powi(2));
     let modes: f64 = if particles.is_none() { modes.sum() } else { 0.0 };
     let nodes = unknowns[0] as f64;
@@ -156,19 +156,19 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
     }
 }
 
-/// How many symmetry classes may come to be loaded.
+/// Number of symmetry classes that may be loaded during a run.
 fn expected_classes(scene: &Scene, name: &str, plan: &Plan) -> f64 {
     let is_odd = |axis| is_odd_at_start(scene, name, axis) || becomes_odd(scene, name, axis);
     count_classes(plan.mesh.mirrored, is_odd)
 }
 
-/// How many symmetry classes are loaded, each of which has a solver of its own.
+/// Number of loaded symmetry classes, each with a solver of its own.
 fn count_classes(mirrored: [bool; 2], is_odd: impl Fn(usize) -> bool) -> f64 {
     let axes = [0, 1].into_iter().filter(|&axis| mirrored[axis] && is_odd(axis));
     axes.fold(1.0, |count, _| 2.0 * count)
 }
 
-/// Whether loads have a part at the start that is odd about the plane across an axis.
+/// Returns true if loads have an antisymmetric part at the start about the plane across an axis.
 fn is_odd_at_start(scene: &Scene, name: &str, axis: usize) -> bool {
     scene.loads_on(name).any(|load| {
         let start = &load.start;
@@ -182,7 +182,7 @@ fn is_odd_at_start(scene: &Scene, name: &str, axis: usize) -> bool {
     })
 }
 
-/// Whether what acts may come to have such a part: tiles, footprints with room to move, drops that fall beside the
+/// Returns true if loads may acquire such a part: tiles, footprints with room to move, and drops that land off the
 /// plane.
 fn becomes_odd(scene: &Scene, name: &str, axis: usize) -> bool {
     let of_load = |load: &Load| {

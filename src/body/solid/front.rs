@@ -1,11 +1,11 @@
-//! Whether a solid is expected to melt, which decides what its heat costs.
+//! Predicts whether a solid may melt, which determines the cost of its heat.
 
 use crate::laws::{Conduction, Melting};
 use crate::scene::{Carries, Face, Load, Scene, Solid};
 
-/// Returns true unless everything that acts from the start is known to leave the solid below every solidus.
+/// Returns true unless all initial loads are known to keep the solid below every solidus.
 ///
-/// Loads of which the scene gives no heat flux may come to carry any.
+/// Loads without a heat flux in the scene may carry any flux later.
 pub fn may_melt(scene: &Scene, name: &str, solid: &Solid) -> bool {
     let heat = Heat::on(scene, name, solid);
     solid.materials_of_layers().into_iter().any(|material| {
@@ -15,7 +15,7 @@ pub fn may_melt(scene: &Scene, name: &str, solid: &Solid) -> bool {
     })
 }
 
-/// What heats a solid: the hottest that touches it [K], and its fluxes [W/m²] with their radii [m].
+/// Heating of a solid: the highest temperature in contact with it [K], and its fluxes [W/m²] with their radii [m].
 struct Heat {
     hottest: f64,
     fluxes: Vec<(f64, f64)>,
@@ -37,8 +37,8 @@ impl Heat {
         Self { hottest, fluxes: of_faces.chain(of_loads).collect() }
     }
 
-    /// Temperature in the middle of all fluxes at once after a time [K]: `q/k · min(2√(at/π), R)` each, of a half space
-    /// under an even flux, and under a disc that has come to rest.
+    /// Temperature at the centre of all fluxes together after a time [K]. Each contributes `q/k · min(2√(at/π), R)`: a
+    /// half space under a uniform flux, and the steady state under a disc.
     fn hottest(&self, conduction: &Conduction, time: f64) -> f64 {
         let least = |values: &[f64]| values.iter().copied().fold(f64::INFINITY, f64::min);
         let conductivity = least(conduction.conductivity.values());
@@ -49,14 +49,14 @@ impl Heat {
     }
 }
 
-/// Temperature of what a face meets, if it is known [K].
+/// Temperature of the surroundings of a face, if it is known [K].
 fn temperature_of(face: &Face) -> Option<f64> {
     let ambient = face.convection.as_ref().map(|convection| convection.ambient);
     let surroundings = face.radiation.as_ref().map(|radiation| radiation.ambient);
     [face.temperature, ambient, surroundings].into_iter().flatten().reduce(f64::max)
 }
 
-/// Heat flux of a load [W/m²] and its radius [m]; without end where the scene says nothing of it.
+/// Heat flux of a load [W/m²] and its radius [m]; the flux is infinite if the scene does not set it.
 fn flux_of(load: &Load) -> (f64, f64) {
     let values = load.start.heat_flux.iter().flat_map(|values| values.numbers());
     let most = values.fold(0.0, f64::max);

@@ -1,8 +1,8 @@
-//! How what is read of a solid changes: with the inputs at one moment, and in time.
+//! Derivatives of readings of a solid, with respect to the inputs at one moment and to time.
 //!
-//! Between steps a solid is linear in its unknowns and in what acts on it, so a change of these goes through the
-//! functions that give the outputs themselves; only von Mises and principal stresses and the extremes of a body take
-//! the chain rule. Nothing is differenced.
+//! Between steps a solid is linear in its unknowns and loads, so a change of these passes through the functions of the
+//! outputs themselves. Only von Mises and principal stresses and the extremes of a body need the chain rule. There are
+//! no finite differences.
 
 use super::memo::SolidMemo;
 use super::point::point_quantities;
@@ -10,14 +10,14 @@ use super::reader::SolidReader;
 use super::{SolidBody, totals};
 use crate::body::{BodyError, Linear, Memo, PeakPart, Reading};
 
-/// A solid and a change of it.
+/// A solid and its change.
 pub struct SolidChange<'a> {
     pub now: SolidReader<'a>,
     pub change: SolidReader<'a>,
 }
 
 impl SolidChange<'_> {
-    /// [K/s], or per unit of what changes.
+    /// [K/s], or per unit of the quantity that changes.
     pub fn max_temperature_rate(&mut self) -> f64 {
         let Self { now, change } = self;
         let body = now.body;
@@ -25,7 +25,7 @@ impl SolidChange<'_> {
         body.solid.max_temperature_rate(temperatures, change.memo.heat(body, change.state))
     }
 
-    /// Of the highest von Mises and the largest principal stress.
+    /// Rates of the highest von Mises and the largest principal stress.
     pub fn max_stress_rate(&mut self) -> Result<[f64; 2], BodyError> {
         let Self { now, change } = self;
         let body = now.body;
@@ -62,7 +62,7 @@ impl Linear for SolidBody {
                 point_quantities()[quantity].mean_rate(&mut both, (field, cell))
             }
             Reading::Total(place) => totals::rate(&mut both, place),
-            // Where and when it is stays, as long as nothing is noted.
+            // Place and time stay constant until a new maximum is noted.
             Reading::Peak { which, part: PeakPart::Value } => self.highest_rate(&mut both, which),
             Reading::Peak { .. } | Reading::Error => Ok(0.0),
             Reading::Cell { .. } => Err(BodyError::NoSuchReading),

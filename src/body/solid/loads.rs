@@ -1,4 +1,4 @@
-//! From inputs to what acts on a body.
+//! Converts inputs to the loads on a body.
 
 use std::ops::Range;
 
@@ -9,12 +9,11 @@ use crate::inputs::{FaceInputKind, InputLayout, LoadInputs};
 use crate::method::fem::{Geometry, Mesh, Parity, Plan, SolidLoads};
 use crate::scene::{FaceName, Load, Scene, Shape};
 
-/// Which inputs act on a body, and where.
+/// Inputs that act on a body, with their places.
 pub struct BodyLoads {
     /// Each load and the places of its inputs.
     loads: Vec<(Load, LoadInputs)>,
-    /// For each thermal face of the plan: its axis, and the inputs of the face there and of its
-    /// image.
+    /// For each thermal face of the plan: its axis, and the inputs of that face and of its mirror image.
     faces: Vec<(usize, FaceValue, Option<FaceValue>)>,
     initial_temperature: f64,
     shape: Shape,
@@ -72,7 +71,7 @@ impl BodyLoads {
         Ok(())
     }
 
-    /// Whether any heat flux points out of the body.
+    /// Returns true if any heat flux points out of the body.
     pub fn draws_heat(&self, inputs: &[f64]) -> bool {
         let amounts = self.loads.iter().flat_map(|(_, places)| places.amounts.iter().cloned());
         let mut fluxes = amounts.filter(|(channel, _)| channel.is_heat()).map(|(_, range)| range);
@@ -81,27 +80,27 @@ impl BodyLoads {
             || faces.flatten().any(|f| f.kind == FaceInputKind::Flux && inputs[f.index] < 0.0)
     }
 
-    /// The values of the thermal faces alone: all that temperatures follow at once.
+    /// Values of the thermal faces alone, which temperatures follow without delay.
     pub fn of_faces(&self, inputs: &[f64], mesh: &Mesh) -> SolidLoads {
         let faces = self.face_values(inputs, self.initial_temperature, mesh);
         SolidLoads { faces, ..SolidLoads::default() }
     }
 
-    /// What acts on the body under these inputs; heat and forces have meshes of their own.
+    /// Assembles the loads of these inputs; heat and forces have meshes of their own.
     pub fn assemble(&self, inputs: &[f64], meshes: [&Mesh; 2]) -> SolidLoads {
         let faces = self.face_values(inputs, self.initial_temperature, meshes[0]);
         self.sum(meshes, faces, Asked::Value(inputs))
     }
 
-    /// Rate of what [`assemble`](Self::assemble) gives when the inputs change at `rates`; exact, be
-    /// it amounts or places of footprints that change.
+    /// Rate of the result of [`assemble`](Self::assemble) when the inputs change at `rates`. It is exact for amounts
+    /// and for places of footprints.
     pub fn change(&self, inputs: &[f64], rates: &[f64], meshes: [&Mesh; 2]) -> SolidLoads {
         let faces = self.face_values(rates, 0.0, meshes[0]);
         self.sum(meshes, faces, Asked::Change { inputs, rates })
     }
 
-    /// Over how many of its own sizes any footprint moves or grows in a time `dt` [s]; `path` holds
-    /// the inputs and their time derivatives at the beginning.
+    /// Largest distance, in units of its own size, by which any footprint moves or grows in a time `dt` [s]; `path`
+    /// holds the inputs and their time derivatives at the beginning.
     pub fn travel(&self, path: &[Vec<f64>], dt: f64) -> f64 {
         let way = |at: usize| {
             let mut weight = 1.0;
@@ -169,7 +168,7 @@ impl BodyLoads {
         mesh.parities().iter().map(parts).collect()
     }
 
-    /// The loads' nodal vectors, each with where it goes.
+    /// Returns the nodal vectors of a load, each with its component and sign.
     fn parts(
         &self,
         load: &Load,
@@ -234,7 +233,7 @@ impl BodyLoads {
         ];
         for (at, range) in named {
             let Some([low, high]) = range else { continue };
-            // A path may come to its end with a rounding error.
+            // A path may end with a rounding error.
             let slack = ROUNDING * (high - low);
             if let Some(index) = at
                 && !(low - slack..=high + slack).contains(&inputs[index])
@@ -263,7 +262,7 @@ impl BodyLoads {
             let (centre, input) = centres[axis];
             let room = limits[axis] * (1.0 + ROUNDING);
             if centre.abs() + half[axis] > room {
-                // One that fits nowhere is too large, whatever its place.
+                // A footprint that fits nowhere is too large, whatever its place.
                 let at_fault = match half[axis] > room {
                     true => places.radius.or(input),
                     false => input.or(places.radius),
@@ -281,10 +280,10 @@ impl BodyLoads {
     }
 }
 
-/// Part of a length by which a place may miss its limits.
+/// Share of a length by which a place may exceed its limits.
 const ROUNDING: f64 = 1e-9;
 
-/// Nodal vectors of one quantity of a load, one a symmetry class.
+/// Nodal vectors of one quantity of a load, one for each symmetry class.
 struct Part {
     /// Displacement component that the force acts on; heat if none.
     component: Option<usize>,
@@ -292,17 +291,17 @@ struct Part {
     vectors: Vec<Vec<f64>>,
 }
 
-/// What is asked of a load: what acts under these inputs, or how that changes with them.
+/// Requested result of a load: its value under these inputs, or its rate of change.
 #[derive(Clone, Copy)]
 enum Asked<'a> {
     Value(&'a [f64]),
     Change { inputs: &'a [f64], rates: &'a [f64] },
 }
 
-/// How a quantity fills its footprint, and along which axes a mirror turns it round.
+/// Pattern of a quantity over its footprint, and axes along which a mirror reverses its sign.
 type Quantity = (Pattern, [bool; 2]);
 
-/// Nodal vectors, one a symmetry class, of values on a footprint at a place; none if all are zero.
+/// Nodal vectors, one for each symmetry class, of values on a footprint at rest; none if all are zero.
 fn still(
     mesh: &Mesh,
     load: &Load,
@@ -320,7 +319,7 @@ fn still(
     split_load(mesh, flips, |image| pattern.on_plane(plane, &load.footprint, place, values, image))
 }
 
-/// Rate of [`still`] when its place changes.
+/// Rate of [`still`] while its place changes.
 fn moving(
     mesh: &Mesh,
     load: &Load,
@@ -360,7 +359,7 @@ fn placement(load: &Load, places: &LoadInputs, inputs: &[f64]) -> Placement {
     }
 }
 
-/// How fast a place changes with the inputs.
+/// Rate of change of a place with the inputs.
 fn placement_rate(places: &LoadInputs, rates: &[f64]) -> Placement {
     let read = |at: Option<usize>| at.map_or(0.0, |index| rates[index]);
     Placement { x: read(places.x), y: read(places.y), radius: read(places.radius) }

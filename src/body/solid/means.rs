@@ -1,4 +1,4 @@
-//! Means over cells of a face, which fields on footprints give.
+//! Means over the cells of a face for fields on footprints.
 
 use super::linear::SolidChange;
 use super::point::PointQuantity;
@@ -8,7 +8,7 @@ use crate::coupling::FaceMeans;
 use crate::method::fem::Mesh;
 use crate::scene::{FaceName, FieldCells, Gives, Sampling, Scene, Solid};
 
-/// The means of a body's fields, each with the place of its field among the scene's.
+/// Returns the means of a body's fields, each with the place of its field among the scene's.
 pub fn means_of(
     scene: &Scene,
     (name, solid): (&str, &Solid),
@@ -27,7 +27,7 @@ pub fn means_of(
 }
 
 impl PointQuantity {
-    /// Mean over a cell: of temperatures the exact one, else of what is interpolated between nodes.
+    /// Mean over a cell: exact for temperatures, otherwise of values interpolated between nodes.
     pub(super) fn mean(
         &self,
         reader: &mut SolidReader,

@@ -5,29 +5,29 @@ use super::rows::ByClass;
 use crate::body::{BodyError, Extreme, Memo};
 use crate::method::fem::{Deformation, NodalFields, SolidFem, SolidLoads, Temperatures};
 
-/// What acts on a solid, and what follows from that and from a state, computed when first asked for.
+/// Loads on a solid, and lazily computed results of these and of a state.
 #[derive(Debug, Default)]
 pub struct SolidMemo {
-    /// By the inputs.
+    /// Loads from the inputs.
     outside: SolidLoads,
-    /// The same with what came through ports, if anything did.
+    /// Loads including the transfers through ports, if there are any.
     with_received: Option<SolidLoads>,
     temperatures: Option<Temperatures>,
-    /// Temperatures above the one without stress; those of a change are its temperatures.
+    /// Temperatures above the stress-free one; those of a change are its temperatures.
     thermal: Option<Temperatures>,
     is_change: bool,
     deformation: Option<Deformation>,
     hottest: Option<Extreme>,
     most_stressed: Option<[Extreme; 2]>,
-    /// The last point asked for: its components are read one after another.
+    /// The last point that was read: its components are read one after another.
     stress: Option<([f64; 3], [f64; 6])>,
-    /// Whether heat, and whether what acts at once drives each symmetry class.
+    /// For each symmetry class: whether heat drives it, and whether instantaneous loads do.
     driven: Option<Vec<[bool; 2]>>,
-    /// What rows gave, by their numbers.
+    /// Values from rows, by their numbers.
     by_rows: Vec<Option<ByClass>>,
 }
 
-/// Of a class that no force acts on.
+/// Forces on a class without any.
 static NO_FORCES: [Vec<Vec<f64>>; 2] = [Vec::new(), Vec::new()];
 
 const OWN: &str = "a memo is that of the body that made it";
@@ -37,7 +37,7 @@ impl SolidMemo {
         Self { outside, ..Self::default() }
     }
 
-    /// Of a change of what acts.
+    /// Creates the memo of a change of loads.
     pub fn of_change(outside: SolidLoads) -> Self {
         Self { outside, is_change: true, ..Self::default() }
     }
@@ -52,14 +52,14 @@ impl SolidMemo {
         memo.downcast_mut().expect(OWN)
     }
 
-    /// A memo, for what it remembers to be taken over.
+    /// Unwraps a memo whose results are to be carried over.
     pub fn taken(memo: Memo) -> Self {
         let memo: Box<dyn Any> = memo;
         *memo.downcast().expect(OWN)
     }
 
-    /// Takes over what follows from the same state, where what acts differs by no more than heat that flows, which takes
-    /// time: temperatures and stress follow prescribed temperatures and forces alone at once.
+    /// Keeps results of the same state if the loads differ only in heat flow. Heat flow takes time to act; only
+    /// prescribed temperatures and forces change temperatures and stress without delay.
     pub fn carry_over(&mut self, from: Self) {
         if !from.loads().acts_at_once_as(self.loads()) || self.is_change != from.is_change {
             return;
@@ -69,24 +69,24 @@ impl SolidMemo {
         *self = Self { outside, with_received, ..from };
     }
 
-    /// Forgets all that depends on the state.
+    /// Discards all results that depend on the state.
     pub fn forget_state(&mut self) {
         let outside = std::mem::take(&mut self.outside);
         let with_received = self.with_received.take();
         *self = Self { outside, with_received, is_change: self.is_change, ..Self::default() };
     }
 
-    /// What acts by the inputs alone.
+    /// Loads from the inputs alone.
     pub fn outside(&self) -> &SolidLoads {
         &self.outside
     }
 
-    /// All that acts.
+    /// All loads.
     pub fn loads(&self) -> &SolidLoads {
         self.with_received.as_ref().unwrap_or(&self.outside)
     }
 
-    /// All that acts, for what comes through ports to be added.
+    /// All loads, to which transfers through ports are added.
     pub fn received(&mut self) -> &mut SolidLoads {
         self.with_received.get_or_insert_with(|| self.outside.clone())
     }
@@ -100,7 +100,7 @@ impl SolidMemo {
         self.temperatures.as_ref().expect("just computed")
     }
 
-    /// Nodal temperatures above the one without stress, and the deformation.
+    /// Nodal temperatures above the stress-free one, and the deformation.
     pub fn solve(
         &mut self,
         body: &SolidBody,
@@ -135,12 +135,12 @@ impl SolidMemo {
         Ok(body.solid.fields(temperatures.expect(known), thermal.expect(known), deformation))
     }
 
-    /// Whether all is a change.
+    /// Returns true if all loads are changes.
     pub fn is_change(&self) -> bool {
         self.is_change
     }
 
-    /// Whether heat, and whether what acts at once drives each symmetry class.
+    /// Returns for each symmetry class whether heat drives it, and whether instantaneous loads do.
     pub fn driven(&mut self, body: &SolidBody, heat: &[f64]) -> Vec<[bool; 2]> {
         if self.driven.is_none() {
             let any = |values: &[f64]| values.iter().any(|&value| value != 0.0);
@@ -156,7 +156,7 @@ impl SolidMemo {
         self.driven.clone().expect("just computed")
     }
 
-    /// What rows of a class act on: its part of a state, or nodal temperatures where heat has no modes.
+    /// Operand of a class's rows: its part of a state, or nodal temperatures if heat has no modes.
     pub fn content<'s>(&'s self, body: &'s SolidBody, heat: &'s [f64], class: usize) -> &'s [f64] {
         match body.solid.contents_of(heat, class) {
             Some(content) => content,
@@ -174,7 +174,7 @@ impl SolidMemo {
         self.loads().force.get(class).unwrap_or(&NO_FORCES)
     }
 
-    /// What a row gave by classes.
+    /// Values of a row by classes.
     pub fn by_row(&self, number: usize) -> Option<ByClass> {
         self.by_rows.get(number).copied().flatten()
     }
@@ -185,7 +185,7 @@ impl SolidMemo {
         self.by_rows[number] = Some(values);
     }
 
-    /// Whether stresses need but be looked up.
+    /// Returns true if the deformation is already known.
     pub fn is_solved(&self) -> bool {
         self.deformation.is_some()
     }

@@ -1,4 +1,4 @@
-//! Solids: heat that is linear and exact in time, thermo-elasticity at every moment.
+//! Solids: linear heat conduction, exact in time, and thermo-elasticity at every moment.
 
 mod acceptance;
 mod advance;
@@ -48,35 +48,35 @@ use reader::SolidReader;
 use rows::{Choice, Rows};
 use yielding::Yielding;
 
-/// A solid and what of the scene concerns it.
+/// A solid, with the scene's data that concern it.
 pub struct SolidBody {
     name: String,
     plan: Plan,
     solid: SolidFem,
-    /// On which heat is brought in.
+    /// Mesh on which heat enters.
     heat_mesh: Mesh,
-    /// Length of the part of a state that is heat.
+    /// Length of the thermal part of a state.
     heat_len: usize,
-    /// Mechanics that remembers.
+    /// History-dependent mechanics.
     yielding: Option<Yielding>,
     loads: BodyLoads,
     ports: Vec<Port>,
-    /// Of fields, by their places among the scene's.
+    /// Means of fields, by their places among the scene's.
     means: Vec<(usize, FaceMeans)>,
-    /// What is read by rows.
+    /// Readings by influence rows.
     rows: Rows,
     shape: Shape,
-    /// Of what running maxima are kept.
+    /// Quantities with running maxima.
     peaks: Vec<PeakOf>,
-    /// Of outputs, relative.
+    /// Relative tolerance of outputs.
     tolerance: f64,
     threads: usize,
 }
 
-/// Solids with fewer nodes than these are quicker on one thread.
+/// Solids with fewer nodes run faster on one thread.
 const NODES_WORTH_THREADS: usize = 20_000;
 
-/// Whether more threads than one are worth it.
+/// Returns true if more than one thread is worthwhile.
 pub fn is_large(plan: &Plan) -> bool {
     plan.mesh.nodes() >= NODES_WORTH_THREADS
 }
@@ -118,7 +118,8 @@ impl SolidBody {
         })
     }
 
-    /// The same, read in so many states alone: where they are few for the rows, each takes a solution.
+    /// Prepares the body to be read in this number of states; if they are too few for rows, each reading uses a
+    /// solution.
     pub fn read_in_states(self, count: usize) -> Self {
         match self.rows.pay_in(count) {
             true => self,
@@ -134,7 +135,7 @@ impl SolidBody {
         }
     }
 
-    /// The means of the field at a place among the scene's.
+    /// Means of a field, by its place among the scene's.
     fn means(&self, field: usize) -> &FaceMeans {
         let found = self.means.iter().find(|(place, _)| *place == field);
         &found.expect("means are registered for fields of cells").1
@@ -145,13 +146,13 @@ impl SolidBody {
         self.solid.layout().then(mechanics.unwrap_or_default())
     }
 
-    /// Where heat and where forces act.
+    /// Meshes on which heat and forces act.
     fn meshes(&self) -> [&Mesh; 2] {
         [&self.heat_mesh, self.solid.mesh()]
     }
 
-    /// Refuses unknowns that are no numbers, and temperatures that are not above absolute zero. By the maximum
-    /// principle only a flux out of the body leads there, so nothing is computed where none acts.
+    /// Refuses unknowns that are not numbers, and temperatures that are not above absolute zero. By the maximum
+    /// principle only a flux out of the body can cause such temperatures, so nothing is computed without one.
     fn check_end(&self, state: &[f64], start: &[f64], end: &[f64]) -> Result<(), BodyError> {
         if !state.iter().all(|value| value.is_finite()) {
             return Err(BodyError::Overflow { body: self.name.clone() });
@@ -259,7 +260,7 @@ impl Body for SolidBody {
                 point_quantities()[quantity].descriptor.direct
             }
             Reading::Total(place) => totals::direct(place),
-            // Before anything is noted, of the present value.
+            // Before a maximum is noted, it equals the present value.
             Reading::Peak { .. } => return true,
             Reading::Cell { .. } | Reading::Error => Direct::Nothing,
         };
@@ -331,7 +332,7 @@ impl Resources for SolidBody {
         let memo = memo.map(SolidMemo::of);
         let solved = memo.is_some_and(SolidMemo::is_solved);
         match *reading {
-            // Rows are solved for aside.
+            // Rows are solved for on another stack.
             Reading::Point { quantity, at, .. } => {
                 let quantity = &point_quantities()[quantity];
                 !solved && quantity.is_mechanical() && !self.rows.give(quantity, at)

@@ -1,4 +1,4 @@
-//! Of what running maxima of a solid are kept.
+//! Quantities of a solid with running maxima.
 
 use super::SolidBody;
 use super::linear::SolidChange;
@@ -7,11 +7,11 @@ use crate::body::{BodyError, Descriptor, Direct, Extreme};
 use crate::quantity::Quantity;
 use crate::scene::{PeakOf, Shape, Solid};
 
-/// Slack of places, which rounding moves, over the body's extents.
+/// Tolerance of places for rounding, relative to the body's extents.
 const SLACK: f64 = 1e-9;
 
-/// The running maxima that are kept of a solid of a scene. They follow no input at once: what an input makes jump is
-/// noted when a step begins.
+/// Returns the running maxima kept for a solid of a scene. They follow no input without delay: jumps caused by an input
+/// are noted when a step begins.
 pub fn kept_peaks(solid: &Solid) -> Vec<Descriptor> {
     let descriptor = |of: &PeakOf| {
         let (key, words, quantity) = match of {
@@ -27,7 +27,7 @@ pub fn kept_peaks(solid: &Solid) -> Vec<Descriptor> {
 }
 
 impl SolidBody {
-    /// The highest value over the body now, and its place.
+    /// Present maximum over the body, with its place.
     pub(super) fn highest(
         &self,
         reader: &mut SolidReader,
@@ -40,7 +40,7 @@ impl SolidBody {
         })
     }
 
-    /// How fast that value changes.
+    /// Rate of change of that maximum.
     pub(super) fn highest_rate(
         &self,
         both: &mut SolidChange,
@@ -53,12 +53,12 @@ impl SolidBody {
         })
     }
 
-    /// Whether it follows from displacements.
+    /// Returns true if it follows from displacements.
     pub(super) fn is_stress_peak(&self, which: usize) -> bool {
         self.peaks[which].is_mechanical()
     }
 
-    /// Refuses what is no value of this body, or lies outside of it.
+    /// Refuses impossible values, and places outside the body.
     pub(super) fn check_highest(&self, which: usize, peak: &Extreme) -> Result<(), String> {
         let Extreme { value, at } = *peak;
         let is_value = match self.peaks[which] {

@@ -1,4 +1,4 @@
-//! From a solid of a scene to its plan: where its mesh is fine, and what of mechanics is asked for.
+//! Converts a solid of a scene to its plan: refinements of its mesh, and the mechanics it needs.
 
 use super::rows::Choice;
 use crate::body::droplet;
@@ -37,7 +37,7 @@ pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
     plan
 }
 
-/// How fine a mesh is for a tolerance, chosen or the scene's own.
+/// Note on the fineness of the mesh, chosen for a tolerance or set by the scene.
 fn note_on_mesh(mesh: &MeshFactors, is_own: bool, tolerance: f64) -> String {
     let error = match mesh.estimated_error {
         Some(error) => format!(
@@ -60,11 +60,11 @@ fn note_on_mesh(mesh: &MeshFactors, is_own: bool, tolerance: f64) -> String {
 const NOTE_ON_PEAKS: &str = "stress is solved at every communication point, for its running maxima; twice where a \
                              traction or a prescribed temperature jumps there";
 
-/// Differences of temperatures that a tolerance is a part of where heat advances in inner steps [K].
+/// Temperature differences to which a tolerance refers if heat advances in inner steps [K].
 const TEMPERATURES: f64 = 10.0;
 
-/// Where another body touches this one: heat enters over all that both have in common, most of it at once near the
-/// edge of the smaller one.
+/// Refinements where another body touches this one: heat enters over the common area, most of it at first near the edge
+/// of the smaller body.
 fn contacts(scene: &Scene, name: &str, solid: &Solid) -> Vec<Refinement> {
     let refinement = |coupling: &Coupling| {
         let (lower, upper) = (coupling.lower()?, coupling.upper()?);
@@ -90,10 +90,10 @@ fn contacts(scene: &Scene, name: &str, solid: &Solid) -> Vec<Refinement> {
     scene.coupling.iter().filter_map(refinement).collect()
 }
 
-/// Part of the size of a contact that the mesh is to see.
+/// Fraction of the contact size that the mesh resolves.
 const PART_OF_CONTACT: f64 = 0.5;
 
-/// Where a load may act, wherever its inputs may move it.
+/// Area where a load may act, for all positions that its inputs may set.
 fn refinement(load: &Load) -> Refinement {
     let start = [load.start.x.unwrap_or(0.0), load.start.y.unwrap_or(0.0)];
     let range = [load.range.x, load.range.y];

@@ -1,4 +1,4 @@
-//! What is read of a point of a solid.
+//! Readings at a point of a solid.
 
 use super::linear::SolidChange;
 use super::reader::SolidReader;
@@ -12,12 +12,12 @@ use crate::scene::Gives;
 /// A scalar at a point.
 pub struct PointQuantity {
     pub descriptor: Descriptor,
-    /// What a scene asks for that includes it.
+    /// Output names of a scene that include the quantity.
     pub given_by: &'static [Gives],
     pub(in crate::body) measure: Measure,
 }
 
-/// How it follows from the fields.
+/// Derivation of a quantity from the fields.
 pub enum Measure {
     Temperature,
     Displacement(usize),
@@ -27,7 +27,7 @@ pub enum Measure {
     PlasticStrain,
 }
 
-/// All of them, in the order in which a probe lists them.
+/// All quantities, in the order in which a probe lists them.
 pub fn point_quantities() -> &'static [PointQuantity] {
     &QUANTITIES
 }
@@ -101,17 +101,17 @@ const fn displacement(key: &'static str, words: &'static str, axis: usize) -> Po
 }
 
 impl PointQuantity {
-    /// Whether it follows from displacements.
+    /// Returns true if it follows from displacements.
     pub fn is_mechanical(&self) -> bool {
         !matches!(self.measure, Measure::Temperature)
     }
 
-    /// Whether it is what the body went through.
+    /// Returns true if it depends on the body's history.
     pub(super) fn is_of_history(&self) -> bool {
         matches!(self.measure, Measure::PlasticStrain)
     }
 
-    /// Place of the component that it is among those that rows give, if it is one.
+    /// Returns its place among the components that rows can read, if it is such a component.
     pub(super) fn component(&self) -> Option<usize> {
         match self.measure {
             Measure::Displacement(axis) => Some(rows::displacement(axis)),

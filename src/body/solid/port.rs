@@ -13,7 +13,7 @@ use crate::port::{Surface, SurfaceResponse, WallCells};
 use crate::runtime::allowance::Allowance;
 use crate::scene::FaceName;
 
-/// How a face takes what comes through its cells, and how it answers.
+/// Transfer through the cells of a face, and response of the face.
 pub struct Port {
     pub face: FaceName,
     transfer: Box<dyn Transfer>,
@@ -22,7 +22,7 @@ pub struct Port {
 }
 
 impl Port {
-    /// Of the top or the bottom; `meets_rings` of a box on which axisymmetric drops stand.
+    /// `face` is the top or the bottom; `meets_rings` is set for a box below axisymmetric drops.
     pub fn new(face: FaceName, plan: &Plan, solid: &SolidFem, meets_rings: bool) -> Self {
         let high = face == FaceName::Top;
         // Each node has a volume of its own.
@@ -39,22 +39,22 @@ impl Port {
         }
     }
 
-    /// The end of the axis z, as a place in lists.
+    /// End of the axis z, as a place in lists.
     fn side(&self) -> usize {
         usize::from(self.face == FaceName::Top)
     }
 
-    /// Temperature of each cell [K] in a state, where these loads act.
+    /// Temperature of each cell [K] in a state under these loads.
     fn temperatures(&self, solid: &SolidFem, state: &[f64], loads: &SolidLoads) -> Vec<f64> {
         let planes = solid.end_rise(state, loads, self.side() == 1);
         let rise = self.transfer.at_cells(&planes, 1);
         rise.into_iter().map(|rise| self.initial_temperature + rise).collect()
     }
 
-    /// The face over a step that begins in a state and ends in another if nothing is given; loads act at both.
+    /// Returns the face over a step between two states without received heat; loads act at both.
     ///
-    /// Every place answers as the whole face would that is heated as it is: during a step heat hardly passes
-    /// along the surface. How far the solid itself goes in the step is exact, as drift about these modes.
+    /// Every place responds as the whole face would under uniform heating, because heat hardly spreads along the
+    /// surface during a step. The solid's own change in the step is exact, as drift about these modes.
     fn surface(
         &self,
         solid: &SolidFem,
@@ -78,7 +78,7 @@ impl Port {
         surface
     }
 
-    /// Adds what was given during a step, as rates, to what acts.
+    /// Adds the amounts received during a step, as rates, to the loads.
     pub fn add(&self, loads: &mut SolidLoads, given: &Given) {
         if given.duration <= 0.0 {
             return;
@@ -98,7 +98,7 @@ impl Port {
         }
     }
 
-    /// Adds the heat of a step, as it was given over time, to what acts and its derivatives.
+    /// Adds the heat of a step, as it was transferred over time, to the loads and their derivatives.
     pub fn add_over_step(&self, derivatives: &mut [SolidLoads], given: &Given) {
         if given.duration <= 0.0 {
             return;
@@ -119,7 +119,7 @@ impl Port {
         }
     }
 
-    /// Nodal vectors of heat at each cell, one a symmetry class; nothing of no amounts.
+    /// Nodal vectors of heat at each cell, one for each symmetry class; empty if all amounts are zero.
     fn heat_of(
         &self,
         amounts: &[f64],
@@ -140,7 +140,7 @@ impl SolidBody {
         known.expect("a body has a port on every face that is linked")
     }
 
-    /// The loads on faces a time after the beginning of what acts.
+    /// Loads on faces at a time after the beginning of a step.
     fn face_loads<'m>(&self, memo: &'m Memo, path: &InputPath, s: f64) -> Cow<'m, SolidLoads> {
         match path.is_held() {
             true => Cow::Borrowed(SolidMemo::of(memo).outside()),

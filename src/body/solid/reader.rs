@@ -5,7 +5,7 @@ use crate::body::{BodyError, Extreme};
 use crate::coupling::FaceMeans;
 use crate::method::fem::HeatTotals;
 
-/// A solid in a state, or a change of one: what is linear is read of both alike.
+/// A solid in a state, or a change of one; linear readings are the same for both.
 pub struct SolidReader<'a> {
     pub body: &'a SolidBody,
     pub state: &'a [f64],
@@ -13,8 +13,8 @@ pub struct SolidReader<'a> {
 }
 
 impl SolidReader<'_> {
-    /// Temperature above the initial one [K]. Where the point is `alone` it comes from the modes, which is cheaper
-    /// than the whole field.
+    /// Temperature above the initial one [K]. At a point that is `alone` it is computed from the modes, which is
+    /// cheaper than the whole field.
     pub fn rise_at(&mut self, point: [f64; 3], alone: bool) -> f64 {
         let (body, solid) = (self.body, &self.body.solid);
         match alone {
@@ -33,7 +33,7 @@ impl SolidReader<'_> {
         self.body.solid.initial_temperature()
     }
 
-    /// What goes by rows.
+    /// Readings by influence rows.
     fn by_rows(&mut self) -> Acting<'_> {
         Acting { body: self.body, state: self.state, memo: self.memo }
     }
@@ -54,7 +54,7 @@ impl SolidReader<'_> {
         Ok(self.stress_at(point)?[slot])
     }
 
-    /// Mean of a component over a cell of the field at a place among the scene's; nothing where it takes a solution.
+    /// Mean of a component over a cell of a field, by its place among the scene's; `None` if it needs a solution.
     pub fn mean_by_rows(
         &mut self,
         cell: (usize, usize),
@@ -135,7 +135,7 @@ impl SolidReader<'_> {
         self.body.max_plastic_strain(self.state)
     }
 
-    /// Energy that yielding has dissipated [J].
+    /// Energy dissipated by yielding [J].
     pub fn plastic_work(&self) -> f64 {
         self.body.plastic_work(self.state)
     }

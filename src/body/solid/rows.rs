@@ -1,11 +1,11 @@
-//! Which readings of a solid go by rows rather than by a solution for each state, and these rows.
+//! Readings of a solid by influence rows instead of one solution per state.
 //!
-//! A row takes as long to solve for as one state. So the readings of a probe or a field go by rows where the scene's
-//! default experiment has four times as many communication points as rows, of all that stand before it in the scene
-//! too, and where memory suffices: who reads such points alone solves for no state, who reads all there is, extremes of
-//! the body too, solves for a quarter more than without rows. That follows from the scene alone: whoever reads what in which order gets the same bits. Rows are
-//! solved for when their reading is first asked for, of classes that are even at once, of others when something first
-//! drives them.
+//! A row takes as long to solve for as one state. Probes and fields are therefore read by rows if two conditions hold.
+//! The scene's default experiment must have four times as many communication points as rows, including those of earlier
+//! probes and fields in the scene; and the memory must suffice. Reading such points alone then needs no solution for
+//! any state. Reading everything, extremes of the body included, takes a quarter more solutions than without rows. The
+//! choice follows from the scene alone, so results are bitwise independent of the order of reading. Rows are solved for
+//! when first read: those of even classes at once, those of others when something first drives them.
 
 use std::collections::{HashMap, HashSet};
 
@@ -22,30 +22,30 @@ use crate::method::fem::{
 use crate::runtime::made_once::MadeOnce;
 use crate::scene::{CellShape, Gives, Sampling, Scene, Solid};
 
-/// What goes by rows.
+/// Readings by rows.
 #[derive(Default)]
 pub struct Choice {
     points: Vec<([f64; 3], Kinds)>,
-    /// Places of fields of cells among the scene's, and numbers of cells.
+    /// Place of a field of cells among the scene's, and number of the cell.
     cells: Vec<(usize, usize, Kinds)>,
     /// Rows of each symmetry class.
     pub rows: usize,
 }
 
-/// Whether stresses, and whether displacements are asked for.
+/// Flags: stresses are read, displacements are read.
 type Kinds = [bool; 2];
 
-/// Communication points that pay for a row.
+/// Number of communication points for which a row pays off.
 const READINGS_OF_A_ROW: f64 = 4.0;
 
-/// Symmetry classes are at most as many.
+/// Largest number of symmetry classes.
 const CLASSES: usize = 4;
 /// Parts of a reading by classes.
 pub type ByClass = [f64; CLASSES];
 
 /// A component along x, y, z as a sum of rows, each with its weights by classes.
 type Parts = Vec<(usize, ByClass)>;
-/// Of the stresses xx, yy, zz, xy, yz, xz and the displacements along x, y, z; nothing of what takes a solution.
+/// Stresses xx, yy, zz, xy, yz, xz and displacements along x, y, z; `None` where a solution is needed.
 type PartsOfAll = [Option<Parts>; 9];
 
 /// The rows of a body.
@@ -53,7 +53,7 @@ type PartsOfAll = [Option<Parts>; 9];
 pub struct Rows {
     rows: Vec<LazyRow>,
     of_points: HashMap<[u64; 3], PartsOfAll>,
-    /// By places of fields among the scene's and numbers of cells.
+    /// By places of fields among the scene's, and numbers of cells.
     of_cells: HashMap<(usize, usize), PartsOfAll>,
 }
 
@@ -82,7 +82,8 @@ fn bits(point: [f64; 3]) -> [u64; 3] {
     point.map(f64::to_bits)
 }
 
-/// What a list of outputs takes at points; over cells the mean of a measure is none of the components' means.
+/// Kinds of components that a list of outputs needs at points. Over cells, the mean of a measure does not follow from
+/// the means of components.
 fn kinds(gives: &[Gives], of_cells: bool) -> Kinds {
     let of_stress = |gives: &Gives| match gives {
         Gives::Stress => true,
@@ -93,10 +94,10 @@ fn kinds(gives: &[Gives], of_cells: bool) -> Kinds {
 }
 
 impl Choice {
-    /// What of a scene's solid goes by rows.
+    /// Chooses the readings of a scene's solid that use rows.
     pub fn of(scene: &Scene, (name, solid): (&str, &Solid), plan: &Plan) -> Self {
         let mut choice = Self::default();
-        // For running maxima of stress every communication point is solved anyway.
+        // Running maxima of stress need a solution at every communication point anyway.
         let Some(laws) = plan.law.as_ref().filter(|_| !solid.has_stress_peaks()) else {
             return choice;
         };
@@ -105,7 +106,7 @@ impl Choice {
             most_memory_of_rows(&plan.mesh, laws) / (memory_of_row(&plan.mesh) * classes);
         let readings = (scene.stop_time / scene.step).ceil();
         let most = (readings / READINGS_OF_A_ROW).min(by_memory);
-        // Of what stress and displacement are composed in the axes of the mesh.
+        // Number of components of stress and displacement in the axes of the mesh.
         let counts = match plan.mesh.geometry {
             Geometry::Box => [6, 3],
             Geometry::Axisymmetric => [4, 2],
@@ -156,7 +157,7 @@ impl Choice {
         choice
     }
 
-    /// What is told of it.
+    /// Returns a note for users.
     pub fn note(&self) -> Option<String> {
         (self.rows > 0).then(|| {
             format!(
@@ -169,7 +170,7 @@ impl Choice {
 }
 
 impl Rows {
-    /// Whether so many states cost less by rows than by a solution each.
+    /// Returns true if rows cost less than one solution for each of so many states.
     pub fn pay_in(&self, states: usize) -> bool {
         self.rows.len() as f64 * READINGS_OF_A_ROW <= states as f64
     }
@@ -185,7 +186,7 @@ impl Rows {
                         let number = *numbers
                             .entry((bits(term.place), term.component))
                             .or_insert_with(|| {
-                                // Of the place itself: images differ in signs alone.
+                                // Row of the place itself: mirror images differ only in signs.
                                 let own = Term { image: [false; 2], weight: 1.0, ..term };
                                 made.rows.push(LazyRow::of(Functional { terms: vec![own] }));
                                 made.rows.len() - 1
@@ -217,14 +218,14 @@ impl Rows {
         made
     }
 
-    /// Whether a quantity at a point takes no solution.
+    /// Returns true if a quantity at a point needs no solution.
     pub fn give(&self, quantity: &PointQuantity, point: [f64; 3]) -> bool {
-        // Measures of stress take all of its components.
+        // Measures of stress need all its components.
         let component = quantity.component().unwrap_or(stress(0));
         !quantity.is_of_history() && self.of_point(point, component).is_some()
     }
 
-    /// Whether the mean of a quantity over a cell takes no solution.
+    /// Returns true if the mean of a quantity over a cell needs no solution.
     pub fn give_mean(&self, quantity: &PointQuantity, cell: (usize, usize)) -> bool {
         quantity.component().is_some_and(|component| self.of_cell(cell, component).is_some())
     }
@@ -243,7 +244,7 @@ impl LazyRow {
         Self { functional, classes: Default::default() }
     }
 
-    /// Who finds it missing makes it: of several at once all do, which gives the same bits.
+    /// Creates a missing row. Threads that find it missing at the same time all create it, with the same bits.
     fn class(&self, solid: &SolidFem, class: usize) -> Result<&ClassRow, SolverError> {
         let lock = &self.classes[class];
         if let Some(row) = lock.get() {
@@ -255,7 +256,7 @@ impl LazyRow {
     }
 }
 
-/// A state and what acts, or a change of both.
+/// A state and its loads, or a change of both.
 pub struct Acting<'a> {
     pub body: &'a SolidBody,
     pub state: &'a [f64],
@@ -272,7 +273,7 @@ pub const fn displacement(axis: usize) -> usize {
 }
 
 impl Acting<'_> {
-    /// A component at a point; nothing where that takes a solution.
+    /// Component at a point; `None` if it needs a solution.
     pub fn at_point(
         &mut self,
         point: [f64; 3],
@@ -282,7 +283,7 @@ impl Acting<'_> {
         body.rows.of_point(point, component).map(|parts| self.sum(parts))
     }
 
-    /// The mean of a component over a cell of a field; nothing where that takes a solution.
+    /// Mean of a component over a cell of a field; `None` if it needs a solution.
     pub fn over_cell(
         &mut self,
         cell: (usize, usize),
@@ -310,7 +311,7 @@ impl Acting<'_> {
         let driven = self.memo.driven(body, heat);
         let row = &body.rows.rows[number];
         let mut values = [0.0; CLASSES];
-        // That of the even class is made at rest, too: hosts read initial values before the first step.
+        // The row of the even class is created even at rest: hosts read initial values before the first step.
         for class in (0..solid.classes()).filter(|&class| class == 0 || driven[class] != [false; 2])
         {
             let row = row.class(solid, class)?;

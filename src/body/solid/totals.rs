@@ -1,4 +1,4 @@
-//! What is read of a whole solid.
+//! Readings of a whole solid.
 
 use super::linear::SolidChange;
 use super::reader::SolidReader;
@@ -6,7 +6,7 @@ use crate::body::{BodyError, Descriptor, Direct};
 use crate::quantity::Quantity;
 use crate::scene::{Scene, Solid};
 
-/// A scalar of a whole solid, and how it and its change are read.
+/// A scalar of a whole solid, with the readers of its value and rate.
 struct Total {
     descriptor: Descriptor,
     of: Offered,
@@ -14,13 +14,13 @@ struct Total {
     rate: fn(&mut SolidChange) -> Result<f64, BodyError>,
 }
 
-/// Which solids offer a total.
+/// Solids that offer a total.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Offered {
     All,
     /// Those whose heat particles conduct.
     OfParticles,
-    /// Those of which something melts.
+    /// Those with a melting layer.
     Melting,
     /// Those that yield.
     Yielding,

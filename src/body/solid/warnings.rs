@@ -1,20 +1,20 @@
-//! What may be wrong with a state of a solid: the heat of particles, and fronts that melt.
+//! Warnings about a state of a solid: heat of particles, and melting fronts.
 
 use super::SolidBody;
 use crate::quantity::percent;
 use crate::warning::{self, Finding};
 
-/// Part of the heat that passed which particles may make or lose without a warning.
+/// Share of the transferred heat that particles may create or lose without a warning.
 const MOST_DRIFT: f64 = 0.05;
-/// Support radius from which on particles have neighbours enough on every mesh [distances of particles].
+/// Support radius from which on particles have enough neighbours on every mesh [particle spacings].
 const SAFE_SUPPORT: f64 = 2.0;
 
-/// Scatter of fronts over the tolerance up to which no warning follows: it bounds their error.
+/// Scatter of fronts over the tolerance below which there is no warning: the scatter bounds their error.
 const SAFE: f64 = 1.25;
-/// Numbers of elements over those of a mesh up to which a finer one is proposed.
+/// Largest ratio of element counts to those of the present mesh up to which a finer mesh is proposed.
 const FARTHEST: f64 = 8.0;
 
-/// Nothing where finite elements conduct the heat, or where particles keep it.
+/// Returns `None` if finite elements conduct the heat, or if particles conserve it.
 pub fn of_particles(body: &SolidBody, state: &[f64]) -> Option<Finding> {
     let fallback = body.solid.fallback_particles()?;
     if fallback > 0 {
@@ -29,7 +29,7 @@ pub fn of_particles(body: &SolidBody, state: &[f64]) -> Option<Finding> {
     (part > MOST_DRIFT).then(|| warning::particles_lose_heat(shown, most))
 }
 
-/// Nothing where nothing melts or the front keeps the tolerance.
+/// Returns `None` if nothing melts or the front keeps the tolerance.
 pub fn of_fronts(body: &SolidBody, state: &[f64]) -> Option<Finding> {
     let heat = body.heat_of(state);
     let off = body.solid.liquid_scatter(heat) / body.solid.liquid_volume(heat);

@@ -1,4 +1,4 @@
-//! Solids whose stress depends on what they went through: their mechanics advances with their heat.
+//! Solids with history-dependent stress: their mechanics advances with their heat.
 
 use std::sync::Arc;
 
@@ -17,34 +17,34 @@ use crate::state::{Field, Layout, Per};
 pub struct Yielding {
     problem: InelasticProblem,
     layout: StateLayout,
-    /// Of those that stand twice on every interface, one level along z for each of the mesh.
+    /// For each level of the mesh along z, one of the levels of the list with doubled interfaces.
     levels: Vec<usize>,
-    /// Whether stress has a bound.
+    /// True if the stress is bounded.
     yields: bool,
-    /// Of outputs, relative.
+    /// Relative tolerance of outputs.
     tolerance: f64,
 }
 
-/// How often a step is halved that finds no equilibrium, or in which temperatures turn.
+/// Largest number of halvings of a step without equilibrium, or within which temperatures have an extremum.
 const MOST_HALVES: u32 = 8;
-/// Part of the tolerance of outputs that an increment of creep may err by, of the largest elastic strain.
+/// Allowed error of a creep increment relative to the largest elastic strain, as a part of the tolerance of outputs.
 const PART_OF_STRAIN: f64 = 0.1;
-/// Where within a step temperatures are looked at: what a jump at its beginning causes is soon over.
+/// Sample times of temperatures within a step, as parts of it; the effect of a jump at its beginning is short.
 const LOOKS: [f64; 3] = [0.0625, 0.25, 0.5];
-/// Part of a change of temperature that counts as the rise to yield where that is less.
+/// Part of a temperature change that replaces the rise to yield if the latter is smaller.
 const LEAST: f64 = 0.1;
 
-/// How a part of a step goes.
+/// Data for advancing a part of a step.
 struct Advance<'a> {
     yielding: &'a Yielding,
     allowance: &'a Allowance,
     heat: &'a Heating<'a>,
 }
 
-/// Advances the part of a state that is heat.
+/// Advances the thermal part of a state.
 type Heating<'a> = dyn Fn(&mut [f64], &Acts) -> Result<(), BodyError> + 'a;
 
-/// Lowest and highest of what a place has had [K].
+/// Lowest and highest temperature of a place [K].
 #[derive(Clone, Copy)]
 struct Range([f64; 2]);
 
@@ -53,7 +53,7 @@ impl Range {
         Self([one.min(other), one.max(other)])
     }
 
-    /// By how much a value lies beyond it.
+    /// Distance of a value outside the range.
     fn beyond(self, value: f64) -> f64 {
         let Self([low, high]) = self;
         (low - value).max(value - high).max(0.0)
@@ -61,7 +61,7 @@ impl Range {
 }
 
 impl Yielding {
-    /// Nothing where stress follows linearly from deformation and temperature, or is not asked for.
+    /// Returns `None` if stress follows linearly from deformation and temperature, or is not requested.
     pub fn of(plan: &Plan, tolerance: f64, threads: usize) -> Result<Option<Self>, SolverError> {
         let Some(laws) = &plan.inelastic else { return Ok(None) };
         let start = plan.initial_temperature;
@@ -80,8 +80,8 @@ impl Yielding {
         Ok(Some(Self { layout: problem.layout(), problem, levels, yields, tolerance }))
     }
 
-    /// The state at time zero: in equilibrium at one temperature [K], without forces. Where there is none, as the first
-    /// step says, nothing has moved.
+    /// Returns the state at time zero: in equilibrium at one temperature [K], without forces. If there is no
+    /// equilibrium, displacements are zero and the first step reports the error.
     pub fn initial_state(&self, nodes: usize, temperature: f64) -> Vec<f64> {
         let mut state = self.problem.initial_state();
         let _ = self.problem.advance(&mut state, &vec![temperature; nodes], &[]);
@@ -109,15 +109,15 @@ impl Yielding {
 }
 
 impl SolidBody {
-    /// The part of a state that is heat.
+    /// Returns the thermal part of a state.
     pub(super) fn heat_of<'s>(&self, state: &'s [f64]) -> &'s [f64] {
         &state[..self.heat_len]
     }
 
-    /// Advances heat and mechanics to the equilibrium at the end, in parts: one is halved where temperatures turn on its
-    /// way, so that plastic strain sees the warmest moment, and where it finds no equilibrium.
+    /// Advances heat and mechanics to the equilibrium at the end, in parts. A part is halved if temperatures have an
+    /// extremum within it, so that plastic strain sees the warmest moment, or if it finds no equilibrium.
     ///
-    /// What is received changes evenly over the whole step, so that step is not cut.
+    /// Received heat changes linearly over the whole step, so such a step is not cut.
     pub(super) fn advance_yielding(
         &self,
         yielding: &Yielding,
@@ -131,7 +131,7 @@ impl SolidBody {
         self.advance_part(&advance, state, acts, halves)
     }
 
-    /// One part of a step, which may be halved so often.
+    /// Advances over one part of a step, with at most this many further halvings.
     fn advance_part(
         &self,
         advance: &Advance,
@@ -144,7 +144,7 @@ impl SolidBody {
         heat(&mut state[..self.heat_len], acts)?;
         if halves == 0 || !self.turns(advance, [&start, state], acts)? {
             match self.balance(yielding, (&start[..self.heat_len], state), acts, allowance) {
-                // What creeps has been cut.
+                // Increments of creep are already cut.
                 Err(BodyError::Equilibrium { .. }) if halves > 0 && !yielding.problem.creeps() => {}
                 result => return result,
             }
@@ -159,9 +159,9 @@ impl SolidBody {
         Ok(())
     }
 
-    /// Whether temperatures on the way between two states go beyond those at its ends, by more than the tolerance times the
-    /// rise that makes a held body yield, or a tenth of their own change if that is more. Each place goes straight from
-    /// one end to the other, and at its own pace the same way.
+    /// Returns true if temperatures between two states exceed those at its ends. The margin is the tolerance times the
+    /// rise that makes a held body yield, or a tenth of the temperatures' own change if that is larger. Monotonic
+    /// changes of a place, at any pace, do not count.
     fn turns(
         &self,
         advance: &Advance,
@@ -200,7 +200,7 @@ impl SolidBody {
         Ok(false)
     }
 
-    /// Equilibrium at the end of what acts.
+    /// Solves for the equilibrium at the end of a step.
     fn balance(
         &self,
         yielding: &Yielding,
@@ -220,7 +220,7 @@ impl SolidBody {
             Ok::<_, BodyError>((nodal, self.nodal_forces(&loads)?))
         };
         let end = at(acts.duration, heat)?;
-        // What flows at once knows no time but the end.
+        // Rate-independent flow depends on the end of the step alone.
         let start = yielding.problem.creeps().then(|| at(0.0, before)).transpose()?;
         let start = start.as_ref().unwrap_or(&end);
         let increment = Increment {
@@ -242,7 +242,7 @@ impl SolidBody {
         }
     }
 
-    /// Temperature of every node of the mesh [K]; interfaces have one, as layers touch without resistance.
+    /// Temperature of every node of the mesh [K]; an interface has one value, as layers are in perfect thermal contact.
     fn nodal_temperatures(&self, yielding: &Yielding, temperatures: &Temperatures) -> Vec<f64> {
         let mesh = self.solid.mesh();
         let plane = mesh.axes[0].len() * mesh.axes[1].len();
@@ -255,7 +255,7 @@ impl SolidBody {
         yielding.levels.iter().flat_map(level).map(|rise| start + rise).collect()
     }
 
-    /// Forces on all nodes, their components together [N].
+    /// Forces on all nodes, with the components of a node together [N].
     fn nodal_forces(&self, loads: &SolidLoads) -> Result<Vec<f64>, BodyError> {
         let mesh = self.solid.mesh();
         let (degrees, nodes) = (mesh.geometry.degrees(), mesh.nodes());
@@ -275,7 +275,7 @@ impl SolidBody {
         Ok(forces)
     }
 
-    /// Displacements and stress as the state remembers them; nothing where stress follows from deformation alone.
+    /// Returns displacements and stress from the state's history; `None` if stress follows from deformation alone.
     pub(super) fn remembered(
         &self,
         state: &[f64],
@@ -297,15 +297,15 @@ impl SolidBody {
         Ok(Some(Deformation::of_nodes(displacement, remembered)))
     }
 
-    /// Largest accumulated plastic strain of all points at which the law holds [1]: nothing that is read exceeds it. Zero
-    /// where nothing yields.
+    /// Largest accumulated plastic strain of all points at which the law is evaluated [1], an upper bound of all
+    /// readings. It is zero without yielding.
     pub(super) fn max_plastic_strain(&self, state: &[f64]) -> f64 {
         let largest =
             |yielding: &Yielding| yielding.problem.max_plastic_strain(&state[self.heat_len..]);
         self.yielding.as_ref().map_or(0.0, largest)
     }
 
-    /// Energy that yielding has dissipated [J].
+    /// Energy dissipated by yielding [J].
     pub(super) fn plastic_work(&self, state: &[f64]) -> f64 {
         let work =
             |yielding: &Yielding| yielding.problem.dissipated_energy(&state[self.heat_len..]);
@@ -318,7 +318,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_stays_between_both_ends_does_not_turn() {
+    fn monotonic_temperatures_do_not_turn() {
         for range in [Range::of(1.0, 3.0), Range::of(3.0, 1.0)] {
             assert_eq!([1.0, 2.0, 3.0].map(|value| range.beyond(value)), [0.0; 3]);
             assert_eq!([0.5, 3.25].map(|value| range.beyond(value)), [0.5, 0.25]);

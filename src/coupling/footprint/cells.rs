@@ -1,4 +1,4 @@
-//! What each cell of a footprint alone brings: the nodal vector of the value 1 on it.
+//! Nodal vector of the value 1 on each single cell of a footprint.
 
 use super::{Pattern, Placement, disc, gaussian, outer, tile_strips};
 use crate::method::mesh::Axis;
@@ -7,11 +7,11 @@ use crate::scene::{CellShape, Footprint, Profile};
 /// Entries of a vector that are not zero, with their places.
 pub type SparseVector = Vec<(usize, f64)>;
 
-/// Entries below this part of the largest are rounding errors of differences of discs.
+/// Fraction of the largest entry below which entries are rounding errors of differences of discs.
 const ROUNDING: f64 = 1e-13;
 
 /// Nodal vectors `∫ N dA` over each cell (weighted with its profile on a Gaussian spot), on the face with axes `x` and
-/// `y` (x fastest), of the footprint as it stands at the mirror image of each point.
+/// `y` (x fastest), of the footprint at the mirror image of each point.
 pub fn cells_on_plane(
     [x, y]: [&Axis; 2],
     footprint: &Footprint,
@@ -35,7 +35,7 @@ pub fn cells_on_plane(
     }
 }
 
-/// The same on the face with the radial axis of an axisymmetric body.
+/// Nodal vectors on the face with the radial axis of an axisymmetric body.
 pub fn cells_on_radius(axis: &Axis, footprint: &Footprint, radius: f64) -> Vec<SparseVector> {
     match footprint.profile(radius, &unit(footprint, 0)) {
         Profile::Discs(_) => {
@@ -91,7 +91,7 @@ fn sums_of_discs(
     (0..count(footprint)).map(of_cell).collect()
 }
 
-/// Products of columns and rows, which run the other way as seen in a mirror.
+/// Products of columns and rows, which are in reverse order in a mirror.
 fn tiles(
     columns: &[SparseVector],
     rows: &[SparseVector],

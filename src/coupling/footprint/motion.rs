@@ -1,7 +1,7 @@
-//! How the nodal vectors of a load change when its footprint moves or grows.
+//! Rates of the nodal vectors of a load while its footprint moves or grows.
 //!
-//! Exact, by Reynolds' transport theorem: what changes is what the edge sweeps over. The values on
-//! the footprint's cells do not change.
+//! They are exact, by Reynolds' transport theorem: the change is the area swept by the edge. The values on the
+//! footprint's cells do not change.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -10,7 +10,7 @@ use crate::math::gauss::gauss_on;
 use crate::method::mesh::Axis;
 use crate::scene::{Footprint, Profile};
 
-/// A strip of tiles along an axis, and how it changes.
+/// A strip of tiles along an axis, and its rate.
 type Strip = (Vec<f64>, Vec<f64>);
 
 impl Pattern {
@@ -98,7 +98,7 @@ impl Pattern {
     }
 }
 
-/// A sum of discs about one centre that moves, and which grow.
+/// A sum of concentric discs that move and grow.
 struct Motion<'a> {
     axes: [&'a Axis; 2],
     centre: [f64; 2],
@@ -144,8 +144,8 @@ impl Motion<'_> {
         }
     }
 
-    /// Adds `−∫ N f (v_i − n_i (v · n))/r dA`: what the directions away from the centre lose as it
-    /// moves. Along a ray the 1/r goes with the element of area, so that the integrand is smooth.
+    /// Adds `−∫ N f (v_i − n_i (v · n))/r dA`: the change of the directions away from the centre as it moves. Along a
+    /// ray the 1/r cancels with the element of area, so that the integrand is smooth.
     fn add_turned(&self, out: &mut [f64], axis: usize) {
         for piece in self.ray_angles().windows(2) {
             for (angle, w) in gauss_on(GAUSS_OVER_ARC, piece[0], piece[1]) {
@@ -266,7 +266,7 @@ fn gaussian_motion(
     super::gaussian_moment(axis, centre, radius, |u| 4.0 * u * (velocity + u * growth) / radius)
 }
 
-/// Strips of tiles along an axis, `∫ N dx` each, and how these change.
+/// Strips of tiles along an axis, `∫ N dx` each, and their rates.
 fn strip_motions(
     axis: &Axis,
     [centre, velocity]: [f64; 2],
@@ -303,7 +303,7 @@ mod tests {
         Axis::from_element_ends(&ends, order, Weight::Uniform)
     }
 
-    /// The half of it that is meshed where a plane of symmetry is.
+    /// The half that is meshed at a plane of symmetry.
     fn half(order: usize) -> Axis {
         Axis::from_element_ends(&[0.0, 0.03, 0.2, 0.7, 1.0], order, Weight::Uniform)
     }

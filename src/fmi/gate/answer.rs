@@ -1,4 +1,4 @@
-//! What every call answers with, and the C types that all versions of the standard share.
+//! Result of a call, and the C types common to all versions of the standard.
 
 use std::ffi::{c_char, c_void};
 
@@ -22,7 +22,7 @@ pub enum Status {
     Fatal = 4,
 }
 
-/// Why a call was not done, with the status to answer.
+/// Reason why a call was refused, with the status to return.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refusal {
     pub status: Status,
@@ -41,5 +41,5 @@ impl Refusal {
     }
 }
 
-/// What a call comes to: its value, or why not.
+/// Result of a call: its value, or the refusal.
 pub type Answer<T = Status> = Result<T, Refusal>;

@@ -1,19 +1,19 @@
-//! Arguments of C functions as slices and texts, and answers written to where the master wants them.
+//! Converts arguments of C functions to slices and texts, and writes results to the master's memory.
 
 use std::ffi::{CStr, CString};
 use std::{ptr, slice};
 
 use super::answer::{Answer, Refusal, Status, Text};
 
-/// A C array as a slice.
+/// Converts a C array to a slice.
 ///
 /// # Safety
-/// `pointer` is null or leads to `length` values that stay unchanged during the call.
+/// `pointer` is null or points to `length` values that stay unchanged during the call.
 pub unsafe fn array<'a, T>(pointer: *const T, length: usize, name: &str) -> Answer<&'a [T]> {
     match (pointer.is_null(), length) {
         (_, 0) => Ok(&[]),
         (true, _) => Err(null(name)),
-        // No array is larger; bytes of a count beyond wrap.
+        // No array can be larger: its size in bytes would overflow.
         (false, _) if length > isize::MAX as usize / size_of::<T>() => {
             Err(Refusal::error(format!("{length} elements of {name} are more than fit any memory")))
         }
@@ -22,10 +22,10 @@ pub unsafe fn array<'a, T>(pointer: *const T, length: usize, name: &str) -> Answ
     }
 }
 
-/// Writes an answer into a C array.
+/// Writes results to a C array.
 ///
 /// # Safety
-/// `pointer` is null or leads to room for as many values.
+/// `pointer` is null or points to memory for as many values.
 pub unsafe fn write<T: Copy>(pointer: *mut T, values: &[T], name: &str) -> Answer {
     if values.is_empty() {
         return Ok(Status::Ok);
@@ -68,7 +68,7 @@ pub unsafe fn texts(pointer: *const Text, length: usize, name: &str) -> Answer<V
     }
 }
 
-/// Writes pointers to texts, which have to stay where they are until the master has read them.
+/// Writes pointers to texts, which must stay in place until the master has read them.
 ///
 /// # Safety
 /// As for [`write`].

@@ -1,9 +1,9 @@
-//! The floating-point environment: rounding, subnormal numbers, and which exceptions trap.
+//! The floating-point environment: rounding, subnormal numbers, and trapping exceptions.
 //!
-//! A host may have its own. Another rounding would change the results, and a trap would end the process at
-//! the first infinity that is harmless here. So calls run in the standard environment (round to nearest,
-//! subnormal numbers kept, no traps), which threads started in them inherit, and the host gets back its
-//! own, flags included. Its logger is called in that too.
+//! A host may use its own. Another rounding would change the results, and a trap would end the process at the first
+//! infinity, which is harmless here. Calls therefore run in the standard environment (round to nearest, subnormal
+//! numbers kept, no traps), which threads started in them inherit. Afterwards the host's environment is restored, flags
+//! included. Its logger is also called in it.
 //!
 //! On x86-64 all arithmetic here is that of SSE and AVX, whose environment is MXCSR; the x87 unit is left
 //! alone. Source: Intel 64 and IA-32 Architectures Software Developer's Manual, volume 1, section 10.2.3; Arm
@@ -33,7 +33,7 @@ pub fn standard<R>(body: impl FnOnce() -> R) -> R {
     result
 }
 
-/// Runs `body`, which is the host's, in the host's environment.
+/// Runs `body`, which belongs to the host, in the host's environment.
 pub fn of_host<R>(body: impl FnOnce() -> R) -> R {
     let ours = Environment::current();
     let host = HOSTS.get();
@@ -41,7 +41,7 @@ pub fn of_host<R>(body: impl FnOnce() -> R) -> R {
         host.enter();
     }
     let result = apart(body);
-    // The flags that the host raises are the host's.
+    // Flags raised by the host belong to the host.
     HOSTS.set(Environment::current());
     ours.enter();
     result
@@ -129,7 +129,7 @@ mod register {
 
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 mod register {
-    /// Nothing is known of this processor's environment.
+    /// The environment of this processor is unknown.
     #[derive(Clone, Copy, PartialEq)]
     pub struct Environment;
 
@@ -164,7 +164,7 @@ mod tests {
         black_box(f64::MIN_POSITIVE) / black_box(2.0)
     }
 
-    /// Runs `body` in an environment of a host's, and tells whether that is still there.
+    /// Runs `body` in a host's environment, and returns true if that is unchanged afterwards.
     fn as_host(value: u32, body: impl FnOnce()) -> bool {
         let mut now = 0_u32;
         // SAFETY: legal values of the register, which is put back at the end.
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hosts_rounding_subnormals_and_traps_do_not_matter_and_stay() {
+    fn host_environment_has_no_effect_and_is_restored() {
         let nearest = third();
         let (upward, to_zero, flushing, trapping) = (0x5f80, 0x7f80, 0x9fc0, 0x1000);
         for value in [upward, to_zero, flushing, trapping] {
@@ -194,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn a_logger_runs_in_the_hosts_environment() {
+    fn loggers_run_in_the_host_environment() {
         let nearest = third();
         let stays = as_host(0x5fa0, || {
             standard(|| {

@@ -13,42 +13,42 @@ use crate::model::Model;
 use crate::runtime::allowance::Interrupt;
 use crate::runtime::fork_lock::ForkLock;
 
-/// What a `fmi2Component` or `fmi3Instance` points to. It is never freed but serves a later unit, so
-/// that a call that comes while its unit is taken back, or later, looks at memory that is still there.
+/// Target of a `fmi2Component` or `fmi3Instance`. It is never freed but reused for a later unit. A call during or after
+/// the release of its unit therefore still reads valid memory.
 #[derive(Default)]
 struct Instance {
-    /// Tells the version of the standard, and that the instance has not been taken back.
+    /// Identifies the version of the standard, and shows that the instance has not been released.
     marker: AtomicU64,
-    /// Locked during a call. A call that comes meanwhile, from another thread or from within the
-    /// logger, is refused instead of waiting: FMI allows one call at a time.
+    /// Locked during a call. A concurrent call, from another thread or from within the logger, is refused instead of
+    /// waiting: FMI allows one call at a time.
     unit: Mutex<Option<Box<Unit>>>,
-    /// That of the unit, for another thread to end a step with, under which the unit is locked.
+    /// Interrupt of the unit, with which another thread ends a step while the unit is locked.
     interrupt: Interrupt,
 }
 
-/// An instance that has been taken back.
+/// A released instance.
 struct Spare(&'static Instance);
 
-// SAFETY: there is no unit in it, which is all that may not go to another thread.
+// It contains no unit, the only part that may not move to another thread.
 unsafe impl Send for Spare {}
 
-/// The one that was taken back first is in front.
+/// The instance released first is in front.
 static SPARE: ForkLock<VecDeque<Spare>> = ForkLock::new(VecDeque::new());
-/// How many of them rest: a pointer that was freed leads to no unit before so many others were freed.
+/// Number of released instances kept unused: a freed pointer leads to no unit until this many others were freed.
 const RESTING: usize = 64;
 
 /// Hands a unit over to the master, for calls of the functions `F`.
 pub fn hand_out<F: Function>(mut unit: Unit) -> Handle {
     let instance = vacant_place();
     unit.interrupt = instance.interrupt.clone();
-    // Nobody else has a place that is new or has just been found unlocked.
+    // A place that is new or was found unlocked has no other user.
     *instance.unit.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(unit));
     instance.marker.store(F::MARKER, Ordering::Release);
     ptr::from_ref(instance).cast_mut().cast()
 }
 
-/// The place that has rested longest, or a new one: nobody waits for a thread that still calls the unit which
-/// had the place, as a forked process may not have that thread.
+/// Returns the place released longest ago, or a new one. It never waits for a thread that still calls the place's
+/// former unit, because a forked process may not have that thread.
 fn vacant_place() -> &'static Instance {
     let mut all = SPARE.lock();
     let rested = if all.len() > RESTING { all.pop_front() } else { None };
@@ -60,10 +60,10 @@ fn vacant_place() -> &'static Instance {
     }
 }
 
-/// Frees the places of units that were taken back, when the library goes.
+/// Frees the places of released units when the library is unloaded.
 #[cfg(target_os = "linux")]
 pub fn free_spares() {
-    // A process may end by a signal that came while a thread was here.
+    // A signal may end the process while a thread is here.
     let Some(mut spares) = SPARE.try_lock() else { return };
     for Spare(place) in std::mem::take(&mut *spares) {
         // SAFETY: comes from a box, and no unit is in it.
@@ -80,14 +80,14 @@ unsafe fn instance<F: Function>(handle: Handle, _: F) -> Option<&'static Instanc
     if pointer.is_null() || !pointer.is_aligned() {
         return None;
     }
-    // SAFETY: readable by contract; only the marker is looked at before it is known to be valid.
+    // Readable by contract; only the marker is read before the pointer is known to be valid.
     let marker = unsafe { AtomicU64::from_ptr((&raw const (*pointer).marker).cast_mut().cast()) };
     // SAFETY: instances are never freed.
     (marker.load(Ordering::Acquire) == F::MARKER).then(|| unsafe { &*pointer })
 }
 
-/// Ends the step under way behind `handle`, if there is one: what another thread may ask while a call
-/// runs. Touches nothing of the unit but a number that is there for this.
+/// Ends the step under way behind `handle`, if there is one. Another thread may call this while a call runs. It
+/// accesses only an atomic number of the unit.
 ///
 /// # Safety
 /// As for [`call`].
@@ -96,8 +96,8 @@ pub unsafe fn interrupt(handle: Handle, function: impl Function) -> bool {
     unsafe { instance(handle, function) }.is_some_and(|instance| instance.interrupt.interrupt())
 }
 
-/// Runs `body` on the unit behind `handle` if `function` is allowed now. Refusals and panics become
-/// one message in the log and the status to answer.
+/// Runs `body` on the unit behind `handle` if `function` is allowed now. Refusals and panics become one log message and
+/// the returned status.
 ///
 /// # Safety
 /// `handle` must be null or come from [`hand_out`].
@@ -126,7 +126,7 @@ fn run<F: Function>(
     })
 }
 
-/// After a panic the state is not to be trusted: only reset, or a second panic makes it final.
+/// After a panic the state is unreliable: only a reset is allowed; a second panic is fatal.
 fn after_panic(unit: &mut Unit, panic: &str) -> Refusal {
     let (phase, status) = match unit.phase {
         Phase::Error | Phase::Fatal => (Phase::Fatal, Status::Fatal),
@@ -136,7 +136,7 @@ fn after_panic(unit: &mut Unit, panic: &str) -> Refusal {
     Refusal { status, message: format!("internal error, please report it: {panic}") }
 }
 
-/// Takes an instance back and frees it, if `function` is allowed to do so now.
+/// Releases an instance if `function` is allowed to do so now.
 ///
 /// # Safety
 /// As for [`call`]; the pointer is invalid afterwards.
@@ -148,7 +148,7 @@ pub unsafe fn take_back(handle: Handle, function: impl Function) {
     if run(unit, function, |_| Ok(Status::Ok)) != Status::Ok {
         return;
     }
-    // From here on nobody finds the unit any more.
+    // From here on no call finds the unit any more.
     instance.marker.store(0, Ordering::Release);
     let unit = place.take();
     drop(place);
@@ -165,7 +165,7 @@ mod tests {
     use crate::fmi::two::table::Fmi2;
 
     #[test]
-    fn a_panic_leaves_a_unit_that_can_be_reset() {
+    fn units_can_be_reset_after_a_panic() {
         let mut unit = Unit::for_tests();
         let status = run(&mut unit, Fmi2::fmi2SetupExperiment, |_| panic!("a bug"));
         assert_eq!((status, unit.phase), (Status::Error, Phase::Error));

@@ -1,4 +1,4 @@
-//! The beginning of an instance, and what its master chooses of the log, in every version of the standard.
+//! Instantiation, and the log settings of a master, in every version of the standard.
 
 use std::ptr;
 use std::rc::Rc;
@@ -11,7 +11,8 @@ use super::panics;
 use crate::fmi::table::Function;
 use crate::fmi::unit::{Packed, StepControl, Unit};
 
-/// Makes a unit of what `load` reads, for calls of the functions `F`; null with a message in the log if it cannot.
+/// Creates a unit from the result of `load`, for calls of the functions `F`; on failure it logs a message and returns
+/// null.
 pub fn instantiate<F: Function>(
     function: &str,
     log: Log,
@@ -28,7 +29,7 @@ pub fn instantiate<F: Function>(
     }
 }
 
-/// Logs why there is no instance, and answers null.
+/// Logs why there is no instance, and returns null.
 pub fn no_instance(function: &str, log: &Log, refusal: Refusal) -> Handle {
     log.send(refusal.status, &format!("{function}: {}", refusal.message));
     ptr::null_mut()

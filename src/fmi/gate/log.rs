@@ -74,7 +74,7 @@ impl Category {
 /// Passes a message on to the master: status, category, text.
 pub type Sink = Box<dyn Fn(Status, &CStr, &str)>;
 
-/// Where messages go, and which of them.
+/// Sink of messages, and the enabled categories.
 pub struct Log {
     sink: Sink,
     on: bool,
@@ -82,12 +82,12 @@ pub struct Log {
 }
 
 impl Log {
-    /// All categories are wanted until a master chooses.
+    /// All categories are enabled until a master chooses.
     pub fn new(sink: Sink, on: bool) -> Self {
         Self { sink, on, wanted: BTreeSet::from([Category::All]) }
     }
 
-    /// Switches logging; no names stand for all categories. An unknown name changes nothing.
+    /// Switches logging; no names mean all categories. An unknown name changes nothing.
     pub fn configure(&mut self, on: bool, names: &[String]) -> Result<(), String> {
         let wanted: Result<BTreeSet<_>, String> = names
             .iter()
@@ -103,8 +103,8 @@ impl Log {
         Ok(())
     }
 
-    /// Sends one message, if wanted. Errors are not debug logging: a master that has switched that
-    /// off is still told why a call was refused.
+    /// Sends one message, if enabled. Errors are not debug logging: a master without debug logging still receives the
+    /// reasons of refusals.
     pub fn send(&self, status: Status, message: &str) {
         let category = Category::of(status);
         let wanted = if self.on {

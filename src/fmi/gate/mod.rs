@@ -1,7 +1,7 @@
 //! The gate between the C ABI and [`Unit`](super::unit::Unit), the same for every version of the standard.
 //!
-//! Every exported function keeps one contract with its host: an instance is null or one that this library gave
-//! out, other pointers are null or as the standard asks. [`gated!`] is where they rely on it.
+//! Every exported function has one contract with its host. An instance is null or was created by this library; other
+//! pointers are null or valid by the standard. [`gated!`] relies on it.
 
 pub mod answer;
 pub mod arguments;

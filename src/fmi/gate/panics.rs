@@ -1,4 +1,4 @@
-//! Keeps panics inside the library: caught, silent, and told as text.
+//! Keeps panics inside the library: caught, not printed, and reported as text.
 
 use std::any::Any;
 use std::cell::Cell;
@@ -11,17 +11,17 @@ use crate::runtime::fork_lock::ForkLock;
 use crate::runtime::thread::is_ours;
 
 thread_local! {
-    /// Whether this thread runs a call of the ABI. Nothing is kept per thread that has to be destroyed:
-    /// the destructor would keep the library in memory as long as the host's thread lives.
+    /// True while this thread runs a call of the ABI. There are no thread-local values with destructors: a destructor
+    /// would keep the library in memory during the life of the host's thread.
     static INSIDE: Cell<bool> = const { Cell::new(false) };
 }
 
-/// What the hook saw last: message and place.
+/// Message and place of the last panic seen by the hook.
 static SEEN: ForkLock<Option<String>> = ForkLock::new(None);
 
 static HOOK: SetUpOnce = SetUpOnce::new();
 
-/// Runs `work` in the floating-point environment that it is written for; a panic becomes its message.
+/// Runs `work` in the standard floating-point environment; a panic becomes its message.
 pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     HOOK.ensure(install_hook).map_err(|cut_off| cut_off.to_string())?;
     let outer = INSIDE.replace(true);
@@ -35,12 +35,12 @@ pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     })
 }
 
-/// A host's terminal is not ours to write on. The hook belongs to this library's own copy of the
-/// standard library; panics outside of the ABI go to the hook that was there before.
+/// The hook keeps panics off the host's terminal. It belongs to this library's own copy of the standard library; panics
+/// outside the ABI go to the previous hook.
 fn install_hook() {
     let previous = panic::take_hook();
     panic::set_hook(Box::new(move |info| {
-        // A panic of one of our threads is passed on to the one that waits for it.
+        // A panic on one of our threads is passed on to the waiting thread.
         if INSIDE.get() || is_ours() {
             let seen = info.to_string().replace('\n', " ");
             *SEEN.lock() = Some(seen);
@@ -50,7 +50,7 @@ fn install_hook() {
     }));
 }
 
-/// Gives back the memory of the hook.
+/// Frees the memory of the hook.
 #[cfg(target_os = "linux")]
 pub fn remove_hook() {
     if HOOK.is_done() && !thread::panicking() {
@@ -74,14 +74,14 @@ mod tests {
     use crate::runtime::thread::aside;
 
     #[test]
-    fn a_panic_becomes_its_message_and_place() {
+    fn panics_become_message_and_place() {
         let message = caught(|| panic!("too {}", "hot")).unwrap_err();
         assert!(message.contains("too hot") && message.contains("panics.rs"), "{message}");
         assert_eq!(caught(|| 7), Ok(7));
     }
 
     #[test]
-    fn a_panic_of_a_worker_thread_becomes_its_message() {
+    fn worker_panics_become_messages() {
         let give_up = |i: usize| assert!(i > 64, "worker {}", "gave up");
         let message = caught(|| parallel::map(2, 64, give_up)).unwrap_err();
         assert!(message.contains("worker gave up"), "{message}");

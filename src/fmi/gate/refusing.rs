@@ -14,7 +14,7 @@ pub unsafe fn refuse(handle: Handle, function: impl Function) -> Status {
     unsafe { call(handle, function, |_| unreachable!("the table never allows it")) }
 }
 
-/// Does nothing if asked for no variables; refuses all others, as no variable has the function's type.
+/// Succeeds for an empty list of variables; refuses all others, as no variable has the function's type.
 ///
 /// # Safety
 /// As for [`call`] and [`array`].

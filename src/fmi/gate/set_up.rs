@@ -1,4 +1,4 @@
-//! Set-up of a process, done once, and what the library returns when it is unloaded.
+//! Set-up of a process, done once, and release of resources when the library is unloaded.
 
 use std::process;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -9,10 +9,10 @@ use std::time::Duration;
 const NOTHING: u32 = 0;
 /// All has been set up; no process has this number either.
 const ALL: u32 = u32::MAX;
-/// Pause between two looks at what another thread sets up.
+/// Pause between two checks while another thread is setting up.
 const PAUSE: Duration = Duration::from_micros(20);
 
-/// Part of the set-up of a process; holds the process that is at it.
+/// Part of the set-up of a process; holds the number of the process that is setting it up.
 pub struct SetUpOnce(AtomicU32);
 
 /// The process was forked while a thread that it does not have was setting it up.
@@ -29,7 +29,7 @@ impl SetUpOnce {
         Self(AtomicU32::new(NOTHING))
     }
 
-    /// Calls `set_up` if no thread has; waits while another one is at it.
+    /// Calls `set_up` if no thread has; waits while another thread does.
     pub fn ensure(&self, set_up: impl FnOnce()) -> Result<(), CutOff> {
         let process = process::id();
         loop {
@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn a_forked_process_does_not_wait_for_threads_of_its_parent() {
+    fn forked_processes_do_not_wait_for_parent_threads() {
         let once = SetUpOnce(AtomicU32::new(process::id().wrapping_add(1).max(1)));
         assert_eq!(once.ensure(|| ()), Err(CutOff));
         assert!(!once.is_done());

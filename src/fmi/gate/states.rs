@@ -1,16 +1,16 @@
-//! Saving and restoring states through C pointers, which is the same in every version of the standard.
+//! Saves and restores states through C pointers, in every version of the standard.
 
 use super::answer::{Answer, Refusal, SavedState, Status};
 use super::arguments::{array, null, write};
 use crate::fmi::unit::{Unit, expect_room};
 
-/// What of a state's bytes there is at once, at most, when they are read.
+/// Largest number of copies of a state's bytes in memory while they are read.
 const COPIES: usize = 4;
 
-/// Saves the unit's state in the place that `state` points to, a new one if that is null.
+/// Saves the unit's state in the place that `state` points to, or in a new one if that is null.
 ///
 /// # Safety
-/// Pointers are null or as the standard asks, here and in the functions below.
+/// Pointers are null or valid by the standard, here and in the functions below.
 pub unsafe fn save(unit: &mut Unit, state: *mut SavedState) -> Answer {
     // SAFETY: by contract.
     unsafe {
@@ -61,7 +61,7 @@ pub unsafe fn serialize(unit: &Unit, state: SavedState, bytes: *mut u8, size: us
     unsafe { write(bytes, &found, "serializedState") }
 }
 
-/// Makes a saved state of bytes, in a new place.
+/// Creates a saved state from bytes, in a new place.
 ///
 /// # Safety
 /// As for [`save`].

@@ -1,8 +1,8 @@
-//! Tables of functions: which may be called when, and why others are never done.
+//! Tables of functions: the phases that allow each, or the reason why it is always refused.
 //!
-//! A version of the standard has one [`table!`], with a row for each function that acts on an instance. Functions
-//! with a body of their own stand in the version's other files, under the name of their row; those that only
-//! refuse stand in the table alone, with their arguments, and are exported from there.
+//! A version of the standard has one [`table!`], with a row for each function that acts on an instance. Functions with
+//! a body of their own are in the version's other files, under the name of their row. Functions that only refuse are in
+//! the table alone, with their arguments, and are exported from there.
 
 mod phase;
 mod reason;
@@ -13,16 +13,16 @@ pub use reason::Reason;
 use super::gate::answer::{Reference, Refusal};
 use super::unit::Unit;
 
-/// A version of the standard, by the enum of its functions.
+/// A version of the standard, identified by the enum of its functions.
 pub trait Version {
     /// The phases of this version with its names for them, in the order of the columns of its table.
     const PHASES: &'static [(Phase, &'static str)];
-    /// Marks an instance of this version that was given out and not taken back.
+    /// Marks an active instance of this version.
     const MARKER: u64;
     /// Name of arguments that are value references.
     const REFERENCES: &'static str;
 
-    /// The refusal of a variable that has another type than a function asks for, or of a reference to none.
+    /// Returns the refusal of a variable whose type is not that of a function, or of an unknown reference.
     fn of_another_type(unit: &Unit, reference: Reference, wanted: &str) -> Refusal;
 }
 
@@ -45,38 +45,38 @@ pub trait Function: Version + Copy + 'static {
         column.is_some_and(|column| row.as_bytes()[column] == b'x')
     }
 
-    /// The phases that allow this call, for messages.
+    /// Returns the phases that allow this call, for messages.
     fn allowed_phases(self) -> Vec<&'static str> {
         let allowed = Self::PHASES.iter().filter(|(phase, _)| self.allowed_in(*phase));
         allowed.map(|(_, name)| *name).collect()
     }
 
-    /// This version's name of a phase.
+    /// Returns this version's name of a phase.
     fn phase_name(phase: Phase) -> &'static str {
         let known = Self::PHASES.iter().find(|(known, _)| *known == phase);
         known.map_or("unknown", |(_, name)| name)
     }
 
-    /// The type in the name of a function that gets or sets variables of one type.
+    /// Returns the type in the name of a function that gets or sets variables of one type.
     fn kind(self) -> &'static str {
         &self.name()["fmi3Get".len()..]
     }
 }
 
-/// When a function may be called.
+/// Phases in which a function may be called.
 #[derive(Debug, Clone, Copy)]
 pub enum Rule {
-    /// A letter a phase; x: allowed.
+    /// One letter per phase; x: allowed.
     In(&'static str),
     Never(Reason),
 }
 
-/// Makes of one table the enum of a version's functions with their rows, and exports those that only refuse.
+/// Generates the enum of a version's functions with their rows from one table, and exports those that only refuse.
 ///
-/// First come rows of functions with a body: name in C and a letter a phase. Then, as `absent` in the phases of a
-/// letter each, those that get and set variables of a type that no variable has. At last, `refused` for a reason,
-/// those that no phase allows. Both are exported with the instance before their arguments and a status as their
-/// answer.
+/// First come rows of functions with a body: name in C and one letter per phase. Then, as `absent` with one letter per
+/// phase, come functions that get and set variables of a type that no variable has. Last, as `refused` with a reason,
+/// come functions that no phase allows. Both kinds are exported with the instance before their arguments, and return a
+/// status.
 macro_rules! table {
     (
         $table:ident

@@ -6,7 +6,7 @@ pub enum Phase {
     Instantiated,
     InitializationMode,
     StepComplete,
-    /// Seen only by calls that come while another call on the same instance runs.
+    /// Seen only by calls during another call on the same instance.
     StepInProgress,
     StepFailed,
     StepCanceled,
@@ -16,7 +16,7 @@ pub enum Phase {
 }
 
 impl Phase {
-    /// All phases, each at its number in the bytes of saved states.
+    /// All phases, ordered by their numbers in the bytes of saved states.
     pub const ALL: [Phase; 9] = [
         Phase::Instantiated,
         Phase::InitializationMode,
@@ -29,7 +29,7 @@ impl Phase {
         Phase::Fatal,
     ];
 
-    /// Returns true if an instance can be left in this phase and found in it again, and so saved.
+    /// Returns true if an instance can stay in this phase between calls, and so be saved in it.
     pub fn lasts(self) -> bool {
         !matches!(self, Phase::StepInProgress | Phase::Fatal)
     }

@@ -2,7 +2,7 @@
 
 use crate::fmi::gate::answer::Refusal;
 
-/// Reason for which a function is never done.
+/// Reason why a function is always refused.
 #[derive(Debug, Clone, Copy)]
 pub enum Reason {
     ModelExchange,

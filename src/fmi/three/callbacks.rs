@@ -1,4 +1,4 @@
-//! Callbacks of a host of FMI 3.0: its log, and what it is asked within a step.
+//! Callbacks of a host of FMI 3.0: log messages and intermediate updates.
 
 use std::ffi::CString;
 
@@ -7,7 +7,7 @@ use crate::fmi::gate::float_environment;
 use crate::fmi::gate::log::Sink;
 use crate::fmi::unit::Ask;
 
-/// The callback of FMI 3.0, whose messages are no formats.
+/// Returns a sink for the callback of FMI 3.0, whose messages are not formats.
 pub fn to_log_message(callback: LogMessage, environment: Environment) -> Sink {
     Box::new(move |status, category, message| {
         let Some(callback) = callback else { return };
@@ -20,7 +20,7 @@ pub fn to_log_message(callback: LogMessage, environment: Environment) -> Sink {
     })
 }
 
-/// Tells the host of a step under way. No variable takes part in that: none can be set or read then.
+/// Reports the progress of a step to the host. No variable takes part: none can be set or read then.
 pub fn to_ask(callback: IntermediateUpdate, environment: Environment) -> Option<Ask> {
     let callback = callback?;
     Some(Box::new(move |time, may_end_early| {

@@ -1,7 +1,7 @@
-//! FMI functions that tell which inputs an output follows at once, section 2.2 of the standard.
+//! FMI functions for the inputs that an output follows without delay, section 2.2 of the standard.
 //!
-//! Every element of an output array follows every element of the input arrays that it follows at all, so
-//! a dependency is told once for whole arrays: element index 0 stands for all elements.
+//! Every element of an output array follows either every element or no element of an input array. A dependency is
+//! therefore reported once for whole arrays: element index 0 represents all elements.
 
 use super::table::Fmi3;
 use super::types::{DEPENDENT, DependencyKind, Handle, Reference};
@@ -11,7 +11,7 @@ use crate::fmi::gate::gated;
 use crate::fmi::unit::{Unit, array_variable};
 use crate::variables::Causality;
 
-/// Counts the inputs that an output follows at once.
+/// Returns the number of inputs that an output follows without delay.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetNumberOfVariableDependencies(
     instance: Handle,
@@ -23,7 +23,7 @@ pub unsafe extern "C" fn fmi3GetNumberOfVariableDependencies(
     })
 }
 
-/// Lists the inputs that an output follows at once.
+/// Lists the inputs that an output follows without delay.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetVariableDependencies(
     instance: Handle,
@@ -49,7 +49,7 @@ pub unsafe extern "C" fn fmi3GetVariableDependencies(
     })
 }
 
-/// Value references of the inputs that an output follows at once.
+/// Value references of the inputs that an output follows without delay.
 fn inputs_of(unit: &Unit, output: Reference) -> Answer<Vec<Reference>> {
     let arrays = unit.arrays();
     let found = array_variable(&arrays, output)?;

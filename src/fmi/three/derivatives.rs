@@ -1,6 +1,6 @@
 //! FMI functions that differentiate: sections 2.2 and 4.2 of the standard.
 //!
-//! Seeds and sensitivities run over the elements of arrays, as values do.
+//! Seeds and sensitivities are ordered by the elements of arrays, like values.
 
 use super::table::Fmi3;
 use super::types::{Float64, Handle, Int32, Reference};
@@ -11,8 +11,8 @@ use crate::fmi::unit::Unit;
 
 /// Differentiates outputs along one direction: J·s for changes s of the knowns.
 ///
-/// With respect to inputs exact, with the unknowns of the bodies held: what outputs follow at once. In
-/// Initialization Mode parameters are known too; with respect to these to about 1e-10.
+/// The result is exact with respect to inputs, at constant unknowns of the bodies: it is the response without delay. In
+/// Initialization Mode parameters are known too; with respect to these it is accurate to about 1e-10.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetDirectionalDerivative(
     instance: Handle,
@@ -34,8 +34,8 @@ pub unsafe extern "C" fn fmi3GetDirectionalDerivative(
 
 /// Differentiates a weighted sum of outputs by each known: Jᵀ·s for weights s of the unknowns.
 ///
-/// The rules are those of directional derivatives. The cost grows with the number of those elements of the knowns
-/// that some unknown follows at once.
+/// The rules are those of directional derivatives. The cost grows with the number of elements of the knowns that some
+/// unknown follows without delay.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetAdjointDerivative(
     instance: Handle,
@@ -62,7 +62,7 @@ enum Way {
     Backwards,
 }
 
-/// Writes the sensitivity to a seed; `lists` are unknowns and knowns. Arrays come with their lengths.
+/// Writes the sensitivity to a seed; `lists` are unknowns and knowns. Arrays are given with their lengths.
 ///
 /// # Safety
 /// Pointers are null or as the standard asks.
@@ -96,7 +96,7 @@ unsafe fn differentiate(
 
 /// Reads time derivatives of outputs.
 ///
-/// Exact, under the inputs that the last step held or that have been set since.
+/// They are exact, under the inputs of the last step or those that were set since.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetOutputDerivatives(
     instance: Handle,
@@ -115,7 +115,7 @@ pub unsafe extern "C" fn fmi3GetOutputDerivatives(
     })
 }
 
-/// The elements of variables, each with the order that is asked of its variable.
+/// Returns the elements of variables, each with the order requested for its variable.
 fn with_orders(
     unit: &Unit,
     references: &[Reference],

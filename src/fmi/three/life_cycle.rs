@@ -23,10 +23,10 @@ pub extern "C" fn fmi3GetVersion() -> Text {
     c"3.0".as_ptr()
 }
 
-/// Makes an instance of the unit whose resources lie at a path.
+/// Creates an instance of the unit whose resources are at a path.
 ///
-/// Inputs are held over a step, and no variable is for intermediate updates: these tell how far a step of
-/// droplets has come, and let the master end it there.
+/// Inputs are constant over a step, and no variable takes part in intermediate updates. These report the progress of a
+/// step of droplets, and let the master end it early.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
     instance_name: Text,
@@ -122,7 +122,7 @@ pub unsafe extern "C" fn fmi3SetDebugLogging(
     })
 }
 
-/// Sets the times of the experiment and begins the initialization. A tolerance is looked at but not needed.
+/// Sets the times of the experiment and begins the initialization. A tolerance is checked but not used.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3EnterInitializationMode(
     instance: Handle,
@@ -152,7 +152,7 @@ pub unsafe extern "C" fn fmi3Terminate(instance: Handle) -> Status {
     gated!(instance, Fmi3::fmi3Terminate, Unit::terminate)
 }
 
-/// Brings back the start values.
+/// Restores the start values.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3Reset(instance: Handle) -> Status {
     gated!(instance, Fmi3::fmi3Reset, Unit::reset)

@@ -1,6 +1,6 @@
 //! The C ABI of FMI 3.0 for the same units, and their XML: arrays instead of families of scalars.
 //!
-//! [`table`] has a row for each function that acts on an instance; those with a body stand in the other files.
+//! [`table`] has a row for each function that acts on an instance; those with a body are in the other files.
 
 mod callbacks;
 mod dependencies;

@@ -1,5 +1,5 @@
-//! FMI functions that save and restore states, section 2.2 of the standard. The states are those of the
-//! same unit under FMI 2.0, bytes included.
+//! FMI functions that save and restore states, section 2.2 of the standard. The states, including their bytes, are
+//! those of the same unit under FMI 2.0.
 
 use super::step::stay_in_step_mode;
 use super::table::Fmi3;
@@ -13,7 +13,7 @@ pub unsafe extern "C" fn fmi3GetFMUState(instance: Handle, fmu_state: *mut Saved
     gated!(instance, Fmi3::fmi3GetFMUState, |unit| states::save(unit, fmu_state))
 }
 
-/// Goes back to a saved state, which stays saved.
+/// Restores a saved state, which stays saved.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3SetFMUState(instance: Handle, fmu_state: SavedState) -> Status {
     gated!(instance, Fmi3::fmi3SetFMUState, |unit| {
@@ -29,7 +29,7 @@ pub unsafe extern "C" fn fmi3FreeFMUState(instance: Handle, fmu_state: *mut Save
     gated!(instance, Fmi3::fmi3FreeFMUState, |unit| states::free(unit, fmu_state))
 }
 
-/// Counts the bytes that a saved state takes.
+/// Returns the number of bytes of a saved state.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3SerializedFMUStateSize(
     instance: Handle,
@@ -54,7 +54,7 @@ pub unsafe extern "C" fn fmi3SerializeFMUState(
     })
 }
 
-/// Makes a saved state of bytes.
+/// Creates a saved state from bytes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3DeserializeFMUState(
     instance: Handle,

@@ -10,12 +10,11 @@ use crate::fmi::unit::Unit;
 
 /// Advances the unit by a step.
 ///
-/// Inputs are held over the step. It never calls for events or the end. It ends early, if it may, where it is too
-/// long for one call, or where the master asked for that in an intermediate update.
+/// Inputs are constant over the step. It never requests events or termination. If allowed, it ends early when it is too
+/// long for one call, or when the master requests it in an intermediate update.
 ///
-/// A refused or discarded step leaves the unit as it was: the master may correct inputs or times and
-/// try again. No state is needed but the one that the master asks for, so
-/// `no_set_fmu_state_prior_to_current_point` changes nothing.
+/// A refused or discarded step leaves the unit unchanged: the master may correct inputs or times and try again. No
+/// state is kept except those saved by the master, so `no_set_fmu_state_prior_to_current_point` has no effect.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3DoStep(
     instance: Handle,
@@ -52,9 +51,9 @@ pub unsafe extern "C" fn fmi3DoStep(
     })
 }
 
-/// Takes a unit whose step has failed back to Step Mode.
+/// Returns a unit whose step has failed to Step Mode.
 ///
-/// FMI 3.0 knows no failed steps: a unit that discards one is in the mode that it was in before.
+/// FMI 3.0 has no failed steps: a unit that discards one stays in its previous mode.
 pub fn stay_in_step_mode(unit: &mut Unit) {
     if matches!(unit.phase, Phase::StepFailed | Phase::StepCanceled) {
         unit.phase = Phase::StepComplete;

@@ -1,4 +1,4 @@
-//! The functions of FMI 3.0 and which may be called when: FMI 3.0, sections 2.3 and 4.2, as one table.
+//! The functions of FMI 3.0 and the phases that allow them: FMI 3.0, sections 2.3 and 4.2, as one table.
 
 use super::types::{
     Binary, Boolean, Clock, Float32, Float64, Int8, Int16, Int64, IntervalQualifier, UInt8, UInt16,
@@ -8,8 +8,8 @@ use crate::fmi::gate::answer::{Reference, Refusal};
 use crate::fmi::table::{Phase, Version, table};
 use crate::fmi::unit::Unit;
 
-// One column a phase; x: allowed. Modes that a unit without events, clocks and structural parameters
-// never enters have none.
+// One column per phase; x: allowed. There are none for modes that a unit without events, clocks and structural
+// parameters never enters.
 table! {
     Fmi3
     //                                   Instantiated

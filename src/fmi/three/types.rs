@@ -1,7 +1,6 @@
 //! C types of `fmi3PlatformTypes.h` and `fmi3FunctionTypes.h`.
 //!
-//! What C calls `bool`, and enumerations that a master passes in, arrive as integers, since any value
-//! may come.
+//! C `bool` values, and enumerations passed by a master, are declared as integers, because any value may arrive.
 
 use std::ffi::{c_char, c_int, c_void};
 
@@ -42,8 +41,8 @@ pub const FALSE: Boolean = 0;
 /// `fmi3LogMessageCallback`: environment, status, category, message.
 pub type LogMessage = Option<unsafe extern "C" fn(Environment, Status, Text, Text)>;
 
-/// `fmi3IntermediateUpdateCallback`: environment, time, whether variables may be set or read, a step has been
-/// finished and this one may end early; whether and when it should.
+/// `fmi3IntermediateUpdateCallback`: environment, time, whether variables may be set or read, whether a step has
+/// finished and whether this one may end early; outputs whether and when it should end.
 pub type IntermediateUpdate = Option<
     unsafe extern "C" fn(
         Environment,

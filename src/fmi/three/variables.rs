@@ -36,7 +36,7 @@ pub unsafe extern "C" fn fmi3GetInt32(
     })
 }
 
-/// Reads texts. They stay where they are until the next call on the instance.
+/// Reads texts. They stay in place until the next call on the instance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetString(
     instance: Handle,

@@ -13,7 +13,7 @@ use crate::variables::{
     ArrayRegistry, ArrayVariable, Causality, Content, Quantity, Registry, Value, Variable,
 };
 
-/// The modelDescription.xml of a checked scene; `scene_text` is what the unit carries. The
+/// Returns the modelDescription.xml of a checked scene; `scene_text` is the scene text stored in the unit. The
 /// instantiation token is the GUID of the same unit under FMI 2.0.
 pub fn model_description(scene: &Scene, scene_text: &str) -> String {
     let registry = &Registry::of(scene);
@@ -21,7 +21,7 @@ pub fn model_description(scene: &Scene, scene_text: &str) -> String {
     description::model_description(&unit, scene, registry, scene_text)
 }
 
-/// A unit whose variables are arrays where they can be.
+/// A unit whose variables are arrays where possible.
 struct Arrays<'a> {
     scene: &'a Scene,
     registry: &'a Registry,
@@ -40,7 +40,7 @@ impl Description for Arrays<'_> {
 
     fn co_simulation(&self) -> Attributes {
         let has_droplets = self.scene.has_drops();
-        // Modes of heat take a step of any length in one, and inputs are held.
+        // Modal heat advances by any step at once, with constant inputs.
         let has_long_steps = self.scene.has_particles();
         vec![
             ("modelIdentifier", self.scene.name.clone()),
@@ -95,8 +95,8 @@ impl Description for Arrays<'_> {
         })
     }
 
-    /// Outputs with the inputs that they follow at once. At initialisation an output may follow all
-    /// parameters and inputs, which is what a list that is left out means.
+    /// Lists outputs with the inputs that they follow without delay. At initialisation an output may follow all
+    /// parameters and inputs, which an omitted list means.
     fn structure(&self, xml: &mut Xml) -> io::Result<()> {
         let is_output = |v: &ArrayVariable| v.causality(self.registry) == Some(Causality::Output);
         let mut outputs = self.arrays.variables.iter().enumerate().filter(|(_, v)| is_output(v));
@@ -135,7 +135,7 @@ impl Arrays<'_> {
     }
 }
 
-/// Element and attributes that tell type, bounds and start values; all elements have the same bounds.
+/// Element and attributes for type, bounds and start values; all elements have the same bounds.
 fn typed(elements: &[Variable]) -> (&'static str, Attributes) {
     let variable = &elements[0];
     let start = &variable.start;

@@ -8,8 +8,8 @@ use crate::fmi::gate::gated;
 
 /// Differentiates outputs by inputs along one direction.
 ///
-/// With respect to inputs exact, with the unknowns of the bodies held: what outputs follow at once.
-/// In initialization mode parameters are known too; with respect to these to about 1e-10.
+/// The result is exact with respect to inputs, at constant unknowns of the bodies: it is the response without delay. In
+/// initialization mode parameters are known too; with respect to these it is accurate to about 1e-10.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     component: Handle,
@@ -49,8 +49,7 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
 
 /// Reads time derivatives of outputs.
 ///
-/// Exact, under the inputs and the derivatives of inputs that the last step ended with, or that have
-/// been set since.
+/// They are exact, under the inputs and input derivatives at the end of the last step, or those that were set since.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
     component: Handle,

@@ -27,7 +27,7 @@ pub extern "C" fn fmi2GetVersion() -> Text {
     c"2.0".as_ptr()
 }
 
-/// Makes an instance of the unit whose resources lie at a URI.
+/// Creates an instance of the unit whose resources are at a URI.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Instantiate(
     instance_name: Text,
@@ -88,7 +88,7 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
     })
 }
 
-/// Sets the times of the experiment. A tolerance is looked at but not needed.
+/// Sets the times of the experiment. A tolerance is checked but not used.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetupExperiment(
     component: Handle,
@@ -123,7 +123,7 @@ pub unsafe extern "C" fn fmi2Terminate(component: Handle) -> Status {
     gated!(component, Fmi2::fmi2Terminate, Unit::terminate)
 }
 
-/// Brings back the start values.
+/// Restores the start values.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Reset(component: Handle) -> Status {
     gated!(component, Fmi2::fmi2Reset, Unit::reset)

@@ -6,10 +6,10 @@ use super::types::Callbacks;
 use crate::fmi::gate::float_environment;
 use crate::fmi::gate::log::Sink;
 
-/// Longest message in bytes; masters have been seen to format into fixed buffers of 1024.
+/// Longest message in bytes; some masters format into fixed buffers of 1024.
 const LONGEST: usize = 1000;
 
-/// The logger of FMI 2.0, told the name of the instance.
+/// Returns a sink for the logger of FMI 2.0, with the name of the instance.
 pub fn to_logger(instance: &CStr, callbacks: &Callbacks) -> Sink {
     let Callbacks { logger, component_environment: environment, .. } = *callbacks;
     let instance = instance.to_owned();
@@ -25,8 +25,8 @@ pub fn to_logger(instance: &CStr, callbacks: &Callbacks) -> Sink {
     })
 }
 
-/// The text as a `printf` format that prints it. Many masters print the format as it is and ignore
-/// further arguments, so `"%s"` with the text behind it would show nothing there.
+/// Returns the text as a `printf` format that prints it. Many masters print the format itself and ignore further
+/// arguments, so `"%s"` with the text as an argument would print nothing useful.
 fn as_format(message: &str) -> CString {
     let mut format = String::with_capacity(message.len());
     for character in message.chars() {

@@ -1,6 +1,6 @@
 //! The C ABI of FMI 2.0, and its XML.
 //!
-//! [`table`] has a row for each function that acts on an instance; those with a body stand in the other files.
+//! [`table`] has a row for each function that acts on an instance; those with a body are in the other files.
 
 mod derivatives;
 mod life_cycle;

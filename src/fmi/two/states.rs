@@ -11,7 +11,7 @@ pub unsafe extern "C" fn fmi2GetFMUstate(component: Handle, state: *mut SavedSta
     gated!(component, Fmi2::fmi2GetFMUstate, |unit| states::save(unit, state))
 }
 
-/// Goes back to a saved state, which stays saved.
+/// Restores a saved state, which stays saved.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetFMUstate(component: Handle, state: SavedState) -> Status {
     gated!(component, Fmi2::fmi2SetFMUstate, |unit| unit.restore(state))
@@ -23,7 +23,7 @@ pub unsafe extern "C" fn fmi2FreeFMUstate(component: Handle, state: *mut SavedSt
     gated!(component, Fmi2::fmi2FreeFMUstate, |unit| states::free(unit, state))
 }
 
-/// Counts the bytes that a saved state takes.
+/// Returns the number of bytes of a saved state.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
     component: Handle,
@@ -48,7 +48,7 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
     })
 }
 
-/// Makes a saved state of bytes.
+/// Creates a saved state from bytes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     component: Handle,

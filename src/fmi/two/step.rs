@@ -1,6 +1,6 @@
 //! FMI functions of co-simulation, section 4.2 of the standard.
 //!
-//! A step is done when fmi2DoStep returns, so there is no pending status to ask for.
+//! A step is complete when fmi2DoStep returns, so there is no pending status.
 
 use std::ffi::c_int;
 
@@ -14,10 +14,10 @@ use crate::fmi::table::Reason;
 
 /// Advances the unit by a step.
 ///
-/// A refused step leaves the unit as it was: the master may correct inputs or times and try again. So
-/// does a discarded one, but what may follow it is a saved state, a reset or the end.
+/// A refused step leaves the unit unchanged: the master may correct inputs or times and try again. So does a discarded
+/// one, after which only a saved state, a reset or termination is allowed.
 ///
-/// No state is needed but the one that the master asks for, so the last argument changes nothing.
+/// No state is kept except those saved by the master, so the last argument has no effect.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2DoStep(
     component: Handle,
@@ -28,7 +28,7 @@ pub unsafe extern "C" fn fmi2DoStep(
     gated!(component, Fmi2::fmi2DoStep, |unit| unit.step(point, step))
 }
 
-/// Reads the time of the last successful step; other numbers there are none.
+/// Reads the time of the last successful step; no other numbers exist.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetRealStatus(
     component: Handle,
@@ -41,7 +41,7 @@ pub unsafe extern "C" fn fmi2GetRealStatus(
     })
 }
 
-/// Discards every question: no step is pending.
+/// Discards every request: no step is pending.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetStatus(
     component: Handle,
@@ -51,7 +51,7 @@ pub unsafe extern "C" fn fmi2GetStatus(
     gated!(component, Fmi2::fmi2GetStatus, |_| no_status(kind))
 }
 
-/// Discards every question: no step is pending.
+/// Discards every request: no step is pending.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetIntegerStatus(
     component: Handle,
@@ -61,7 +61,7 @@ pub unsafe extern "C" fn fmi2GetIntegerStatus(
     gated!(component, Fmi2::fmi2GetIntegerStatus, |_| no_status(kind))
 }
 
-/// Denies that the unit wants to end the simulation, which it never does.
+/// Reports that the unit does not request termination; it never does.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetBooleanStatus(
     component: Handle,
@@ -69,13 +69,13 @@ pub unsafe extern "C" fn fmi2GetBooleanStatus(
     value: *mut Boolean,
 ) -> Status {
     gated!(component, Fmi2::fmi2GetBooleanStatus, |_| match kind {
-        // A unit never wants to end the simulation.
+        // A unit never requests termination.
         TERMINATED => write(value, &[0], "value"),
         _ => no_status(kind),
     })
 }
 
-/// Discards every question: no step is pending.
+/// Discards every request: no step is pending.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetStringStatus(
     component: Handle,
@@ -97,9 +97,8 @@ fn no_status(kind: c_int) -> Answer {
 
 /// Cancels the step under way.
 ///
-/// The standard knows it for steps that are pending. Here it ends a step that another thread is in: that
-/// fmi2DoStep discards the step between two rounds of its computation, and leaves the unit as it was, in
-/// the state stepCanceled.
+/// The standard defines this for pending steps. Here it ends a step that runs on another thread. The fmi2DoStep of that thread
+/// discards the step between two rounds of its computation, and leaves the unit unchanged in the state stepCanceled.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2CancelStep(component: Handle) -> Status {
     // SAFETY: by contract.

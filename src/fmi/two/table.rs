@@ -1,11 +1,11 @@
-//! The functions of FMI 2.0 and which may be called when: FMI 2.0.4, section 4.2.4, as one table.
+//! The functions of FMI 2.0 and the phases that allow them: FMI 2.0.4, section 4.2.4, as one table.
 
 use super::types::{Boolean, EventInfo, Real};
 use crate::fmi::gate::answer::{Reference, Refusal};
 use crate::fmi::table::{Phase, Version, table};
 use crate::fmi::unit::Unit;
 
-// One column a phase; x: allowed.
+// One column per phase; x: allowed.
 table! {
     Fmi2
     //                            instantiated

@@ -1,6 +1,6 @@
 //! C types of `fmi2TypesPlatform.h` and `fmi2FunctionTypes.h`.
 //!
-//! Enumerations that a master passes in arrive as integers, since any value may come.
+//! Enumerations passed by a master are declared as integers, because any value may arrive.
 
 use std::ffi::{c_char, c_int, c_uint, c_void};
 

@@ -1,12 +1,12 @@
-//! From the resource location that a master gives to a path.
+//! Converts the resource location from a master to a path.
 
 use std::borrow::Cow;
 use std::path::PathBuf;
 
 use percent_encoding::percent_decode_str;
 
-/// The path that a `file:` URI names. Masters also write one slash, `localhost`, unescaped blanks or
-/// a plain path; all are understood.
+/// Returns the path of a `file:` URI. Some masters write one slash, `localhost`, unescaped blanks or a plain path; all
+/// of these are accepted.
 pub fn to_path(uri: &str) -> Result<PathBuf, String> {
     let Some(rest) = strip_scheme(uri) else {
         return match uri.split_once("://") {
@@ -24,19 +24,19 @@ pub fn to_path(uri: &str) -> Result<PathBuf, String> {
     bytes_to_path(decoded.into_owned()).ok_or_else(|| format!("{uri:?} is no valid path"))
 }
 
-/// What stands behind `file:`, in any case.
+/// Returns the part after `file:`, in any case.
 fn strip_scheme(uri: &str) -> Option<&str> {
     uri.get(..5).filter(|scheme| scheme.eq_ignore_ascii_case("file:")).map(|_| &uri[5..])
 }
 
-/// What stands behind `//host`, if the host is this one.
+/// Returns the part after `//host`, if the host is this one.
 fn strip_authority(rest: &str) -> Option<&str> {
     let Some(rest) = rest.strip_prefix("//") else { return Some(rest) };
     let (host, path) = rest.split_at(rest.find('/').unwrap_or(rest.len()));
     (host.is_empty() || host.eq_ignore_ascii_case("localhost")).then_some(path)
 }
 
-/// `C:/folder` from `/C:/folder`.
+/// Returns `C:/folder` for `/C:/folder`.
 fn strip_drive_slash(path: &str) -> &str {
     match path.as_bytes() {
         [b'/', drive, b':', b'/', ..] if drive.is_ascii_alphabetic() => &path[1..],

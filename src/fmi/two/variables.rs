@@ -45,7 +45,7 @@ pub unsafe extern "C" fn fmi2GetBoolean(
     unsafe { absent(component, Fmi2::fmi2GetBoolean, references, count) }
 }
 
-/// Reads texts. They stay where they are until the next call on the instance.
+/// Reads texts. They stay in place until the next call on the instance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetString(
     component: Handle,

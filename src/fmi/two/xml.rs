@@ -10,7 +10,7 @@ use crate::fmi::unit::highest_output_derivative;
 use crate::scene::Scene;
 use crate::variables::{Causality, Quantity, Registry, Value, Variable};
 
-/// The modelDescription.xml of a checked scene; `scene_text` is what the unit carries.
+/// Returns the modelDescription.xml of a checked scene; `scene_text` is the scene text stored in the unit.
 pub fn model_description(scene: &Scene, scene_text: &str) -> String {
     let registry = &Registry::of(scene);
     description::model_description(&Scalars { scene, registry }, scene, registry, scene_text)
@@ -64,10 +64,9 @@ impl Description for Scalars<'_> {
         Ok(())
     }
 
-    /// Outputs with the inputs that they follow at once. A list that is left out means all inputs, so it
-    /// stands for that list, and for those that would take too much room. Kinds that are left out are all
-    /// `dependent`. At initialisation an output may follow all parameters and inputs. Directional
-    /// derivatives serve all of these.
+    /// Lists outputs with the inputs that they follow without delay. An omitted list means all inputs; it replaces a
+    /// list of all inputs and lists that would be too long. Omitted kinds are all `dependent`. At initialisation an
+    /// output may follow all parameters and inputs. Directional derivatives exist for all of these.
     fn structure(&self, xml: &mut Xml) -> io::Result<()> {
         let registry = self.registry;
         let dependencies = registry.all_dependencies(self.scene);
@@ -94,7 +93,7 @@ impl Description for Scalars<'_> {
     }
 }
 
-/// The element that tells type, bounds and start value.
+/// Element for type, bounds and start value.
 fn typed(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
     let declared = variable.quantity.map(|q| ("declaredType", q.type_name().to_owned()));
     let bound =
@@ -115,11 +114,11 @@ fn typed(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
     leaf(xml, element, &attributes)
 }
 
-/// More entries than these are not written for the outputs that share one list of dependencies:
-/// XML holds a list for every output, and tools take a second or more to read ten megabytes.
+/// Largest number of entries written for the outputs that share one list of dependencies. XML repeats the list for
+/// every output, and tools take a second or more to read ten megabytes.
 const MOST_DEPENDENCIES: usize = 100_000;
 
-/// The XML counts variables from one.
+/// The XML numbers variables from one.
 fn index(reference: usize) -> String {
     (reference + 1).to_string()
 }

@@ -10,11 +10,11 @@ use crate::fmi::gate::answer::{Answer, Reference};
 use crate::variables::Output;
 
 impl Unit {
-    /// Jᵀ·w, where J holds the derivatives of outputs by inputs, and in initialization mode by
-    /// parameters too: for each known the sum over the unknowns of weight times derivative.
+    /// Computes Jᵀ·w, where J holds the derivatives of outputs by inputs, and in initialization mode by parameters too:
+    /// for each known, the sum over the unknowns of weight times derivative.
     ///
-    /// Column by column, from the same equations as directional derivatives and so as exact. Columns
-    /// of inputs that no weighted unknown follows at once are zero and cost nothing.
+    /// It is computed column by column from the equations of directional derivatives, so it is equally exact. Columns
+    /// of inputs that no weighted unknown follows without delay are zero and cost nothing.
     pub fn adjoint_derivative(
         &mut self,
         unknowns: &[Reference],
@@ -50,7 +50,7 @@ impl Unit {
         Ok(sums)
     }
 
-    /// Places of the inputs that some of these outputs follow at once.
+    /// Places of the inputs that some of these outputs follow without delay.
     fn followed(&self, outputs: &[Reference]) -> BTreeSet<usize> {
         let all: BTreeMap<usize, Rc<[usize]>> =
             self.registry.all_dependencies(&self.packed).into_iter().collect();

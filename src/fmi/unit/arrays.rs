@@ -1,6 +1,6 @@
-//! Getting and setting variables by reference where families of scalars are arrays, in safe Rust.
+//! Gets and sets variables by reference, with families of scalars as arrays, in safe Rust.
 //!
-//! A set is all or nothing, as in [`super::values`], which does the work on the scalars.
+//! A set is all or nothing, as in [`super::values`], which processes the scalars.
 
 use std::ffi::CString;
 use std::ops::Range;
@@ -13,13 +13,13 @@ use crate::fmi::table::Phase;
 use crate::variables::{ArrayRegistry, ArrayVariable, Causality, Content};
 
 impl Unit {
-    /// The variables as FMI 3.0 counts them.
+    /// Returns the variables as numbered in FMI 3.0.
     pub fn arrays(&self) -> Arc<ArrayRegistry> {
         let list = || Arc::new(ArrayRegistry::of(&self.packed));
         Arc::clone(self.arrays.get_or_init(list))
     }
 
-    /// Values of variables, which must be `count` in all.
+    /// Returns values of variables, `count` in total.
     pub fn floats(&mut self, references: &[Reference], count: usize) -> Answer<Vec<f64>> {
         let arrays = self.arrays();
         let variables = self.of_kind(&arrays, references, Kind::Real)?;
@@ -30,7 +30,7 @@ impl Unit {
             Content::Time | Content::Constants(..) => None,
         });
         let elements: Vec<Reference> = ranges.flat_map(places).collect();
-        // In one go, so that inputs are looked at once for all outputs.
+        // All at once, so that inputs are checked once for all outputs.
         let mut found = self.reals(&elements)?.into_iter();
         let mut values = Vec::with_capacity(count);
         for variable in variables {
@@ -49,7 +49,7 @@ impl Unit {
         self.set_reals(&elements, values)
     }
 
-    /// Values of Int32 variables, which must be `count` in all.
+    /// Returns values of Int32 variables, `count` in total.
     pub fn whole_numbers(&mut self, references: &[Reference], count: usize) -> Answer<Vec<i32>> {
         let elements = self.settable(references, Kind::Integer, count)?;
         self.integers(&elements)
@@ -61,7 +61,7 @@ impl Unit {
         self.set_integers(&elements, values)
     }
 
-    /// Texts, kept by the unit until the next call.
+    /// Returns texts, which the unit keeps until the next call.
     pub fn strings(&mut self, references: &[Reference], count: usize) -> Answer<&[CString]> {
         let elements = self.settable(references, Kind::Text, count)?;
         self.texts(&elements)
@@ -73,7 +73,7 @@ impl Unit {
         self.set_texts(&elements, values)
     }
 
-    /// The refusal of a variable for a function that asks for another type, or of a reference to none.
+    /// Returns the refusal of a variable whose type is not that of a function, or of an unknown reference.
     pub fn array_of_another_type(&self, reference: Reference, wanted: &str) -> Refusal {
         match array_variable(&self.arrays(), reference) {
             Ok(variable) => wrong_type(&variable.name, wanted, self.kind(variable).of_arrays()),
@@ -81,7 +81,7 @@ impl Unit {
         }
     }
 
-    /// Places of the elements of variables that have any, one after another.
+    /// Returns the places of the elements of variables that have elements, in sequence.
     pub fn elements(
         &self,
         arrays: &ArrayRegistry,
@@ -94,7 +94,7 @@ impl Unit {
         Ok(elements)
     }
 
-    /// Places of the elements of variables that are no constants, `count` in all.
+    /// Returns the places of the elements of variables that are not constants, `count` in total.
     fn settable(
         &self,
         references: &[Reference],

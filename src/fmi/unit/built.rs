@@ -1,4 +1,4 @@
-//! The model of a unit, built when first needed, and what it takes to keep it true to the inputs.
+//! The model of a unit, built lazily and kept consistent with the inputs.
 
 use std::sync::Arc;
 
@@ -11,25 +11,25 @@ use crate::runtime::thread::{STACK, aside};
 use crate::scene::{self, Scene};
 use crate::variables::{Registry, Slot, Variable};
 
-/// A built model, and what follows from the present state.
+/// A built model, with results of the present state.
 pub struct Run {
     pub model: Arc<Model>,
     pub cache: Cache,
-    /// Time derivative of the state, once asked for.
+    /// Time derivative of the state, if it was computed.
     pub tangent: Option<Tangent>,
-    /// Whether the inputs have been checked together since they changed.
+    /// True if the inputs have been checked together since they changed.
     pub checked: bool,
 }
 
 impl Run {
-    /// A model of which nothing has been computed yet.
+    /// Wraps a model without any results.
     pub fn new(model: Arc<Model>) -> Self {
         Self { model, cache: Cache::default(), tangent: None, checked: false }
     }
 }
 
 impl Unit {
-    /// The model and the state, built when first needed, with inputs that make sense together.
+    /// Returns the model, built if necessary, and the state with valid inputs.
     pub fn run(&mut self) -> Answer<(&mut Run, &mut State)> {
         let run = match self.run.take() {
             Some(run) => run,
@@ -49,7 +49,7 @@ impl Unit {
             self.log.send(Status::Ok, &note);
         }
         let model = match self.model_of(&self.scene) {
-            // What is kept may be the memory that is missing.
+            // Kept data may occupy the missing memory.
             Err(_) if !self.kept.is_empty() => {
                 self.kept.clear();
                 self.model_of(&self.scene)?
@@ -66,13 +66,13 @@ impl Unit {
             self.log.send(Status::Ok, &note);
         }
         self.warn_once(model.tolerance_warnings());
-        // Meshes stay what they are, whatever parameters become.
+        // Meshes are kept, whatever the parameters become.
         self.scene.refinement.clone_from(&model.scene().refinement);
         self.state.bodies = model.initial_state().bodies;
         Ok(Run::new(model))
     }
 
-    /// Solids whose stored reduction is not that of a model.
+    /// Solids whose stored reduction differs from that of a model.
     fn reduced_anew(&self, model: &Model) -> Vec<String> {
         let anew = model.reductions().into_iter().filter_map(|(name, reduction)| {
             let stored = self.stored.iter().find(|(body, _)| *body == name)?;
@@ -84,7 +84,7 @@ impl Unit {
         anew.collect()
     }
 
-    /// What is computed before the first step, as neither this process nor the unit knows it.
+    /// Returns the recordings to be computed before the first step, which neither this process nor the unit holds.
     fn to_be_recorded(&self) -> Vec<String> {
         let scene = &self.scene;
         if !scene.has_replayed_drops() {
@@ -96,13 +96,13 @@ impl Unit {
         })
     }
 
-    /// Refuses to look at the state, or to copy it, where there is too little address space for that.
+    /// Refuses to read or copy the state if there is too little address space.
     pub fn expect_room(&self) -> Answer<()> {
         let room = |run: &Run| run.model.room(&self.state);
         expect_room(self.run.as_ref().map_or(0, room))
     }
 
-    /// The model of a scene with parameters.
+    /// Returns the model of a scene with parameters.
     pub fn model_of(&self, scene: &Scene) -> Answer<Arc<Model>> {
         expect_room(STACK + PRODUCTS + SPARE)?;
         let model = aside(|| {
@@ -112,7 +112,7 @@ impl Unit {
         model.map_err(|error| explain(&self.registry, error))
     }
 
-    /// Drops all that followed from other inputs.
+    /// Discards all results that followed from other inputs.
     pub fn forget_past_inputs(&mut self) {
         self.is_settled = false;
         self.forget_past_derivatives();
@@ -122,7 +122,7 @@ impl Unit {
         }
     }
 
-    /// Takes over a scene with other parameters; a model of the old ones is dropped.
+    /// Replaces the scene by one with other parameters; a model of the old ones is dropped.
     pub fn set_scene(&mut self, scene: Scene) {
         if scene == self.scene {
             return;
@@ -134,7 +134,7 @@ impl Unit {
         self.scene.forget_estimates();
     }
 
-    /// Drops the model and what follows from the state, but for its stiffness and its reductions.
+    /// Drops the model and the results of the state, except its stiffness and its reductions.
     pub fn drop_run(&mut self) {
         if let Some(run) = self.run.take() {
             self.kept = run.model.stiffness();
@@ -142,7 +142,7 @@ impl Unit {
         }
     }
 
-    /// Drops the derivatives of inputs that the last step ended with, unless they were set since.
+    /// Drops the derivatives of inputs at the end of the last step, unless they were set since.
     pub fn forget_past_derivatives(&mut self) {
         if !self.has_set_derivatives {
             self.state.derivatives.clear();
@@ -153,12 +153,12 @@ impl Unit {
     }
 }
 
-/// Refuses what takes more address space than there is.
+/// Refuses an operation that needs more address space than there is.
 pub fn expect_room(bytes: usize) -> Answer<()> {
     address_space::expect(bytes).map_err(|error| Refusal::error(error.to_string()))
 }
 
-/// An error of the model in words that name the variable at fault.
+/// Converts an error of the model to a message that names the variable at fault.
 pub fn explain(registry: &Registry, error: ModelError) -> Refusal {
     let message = error.to_string();
     let (status, index) = match error {

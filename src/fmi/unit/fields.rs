@@ -1,4 +1,4 @@
-//! Files of fields that a unit writes as it goes.
+//! Field files that a unit writes during a run.
 
 use std::path::Path;
 
@@ -8,12 +8,12 @@ use crate::output::{FieldSeries, FolderLock};
 use crate::runtime::thread::aside;
 
 impl Unit {
-    /// Opens the files of fields if they are wanted, and writes the present ones.
+    /// Opens the field files if they are requested, and writes the present fields.
     pub fn open_series(&mut self) -> Status {
         let Some(run) = self.run.as_ref().filter(|_| !self.directory.is_empty()) else {
             return Status::Ok;
         };
-        // Where the host is now: it may go elsewhere.
+        // Relative to the host's present directory, which may change later.
         let named = Path::new(&self.directory);
         let directory = std::path::absolute(named).unwrap_or_else(|_| named.to_owned());
         let open = || {

@@ -1,4 +1,4 @@
-//! Types of variables under both versions of the standard, and refusals of others.
+//! Types of variables under both versions of the standard, and refusals of mismatches.
 
 use crate::fmi::gate::answer::{Answer, Reference, Refusal};
 use crate::variables::Slot;
@@ -12,7 +12,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// The type of a variable by its slot.
+    /// Returns the type of a variable by its slot.
     pub fn of(slot: &Slot) -> Self {
         match slot {
             Slot::Threads => Kind::Integer,
@@ -40,12 +40,12 @@ impl Kind {
     }
 }
 
-/// Refuses a variable of another type than a function asks for.
+/// Refuses a variable whose type is not that of a function.
 pub fn wrong_type(name: &str, wanted: &str, found: &str) -> Refusal {
     Refusal::error(format!("{name} is no {wanted} but a {found}"))
 }
 
-/// Looks a variable up among all that there are.
+/// Looks a variable up by its reference.
 pub fn look_up<T>(variables: &[T], reference: Reference) -> Answer<&T> {
     variables.get(reference as usize).ok_or_else(|| {
         let last = variables.len().saturating_sub(1);

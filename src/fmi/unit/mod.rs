@@ -1,4 +1,4 @@
-//! An instance of either version in safe Rust: its life from instantiation to termination.
+//! An instance of either version in safe Rust: its life cycle from instantiation to termination.
 
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
@@ -43,12 +43,12 @@ use saved::SavedStates;
 pub struct Unit {
     pub log: Log,
     pub phase: Phase,
-    /// What the last fmi2GetString or fmi3GetString gave pointers to.
+    /// Targets of the pointers returned by the last fmi2GetString or fmi3GetString.
     pub texts: Vec<CString>,
-    /// The states that the master has saved and not freed.
+    /// The states saved by the master and not freed.
     pub(super) saved: SavedStates,
     pub(super) registry: Arc<Registry>,
-    /// The variables as FMI 3.0 counts them, listed when first asked for.
+    /// The variables as numbered in FMI 3.0, listed lazily.
     pub(super) arrays: OnceCell<Arc<ArrayRegistry>>,
     pub(super) guid: String,
     /// The scene as packed.
@@ -60,36 +60,37 @@ pub struct Unit {
     pub(super) experiment: Experiment,
     /// Time and inputs, and the unknowns once there is a model.
     pub(super) state: State,
-    /// Whether the master has set the state's derivatives of inputs since the last step; if not,
-    /// they are what that step ended with, and the next one holds its inputs.
+    /// True if the master has set the state's derivatives of inputs since the last step. If not, they are those at the
+    /// end of that step, and inputs are constant in the next one.
     pub(super) has_set_derivatives: bool,
     pub(super) run: Option<Run>,
-    /// Stiffness of a model that has gone, for the next one, which may differ in what concerns heat alone.
+    /// Stiffness of a dropped model, for the next one, which may differ only in thermal data.
     kept: Stiffness,
-    /// Recorded drops of the unit, which its models find as long as they are held here.
+    /// Recorded drops of the unit, available to its models while held here.
     _records: Vec<Kept>,
-    /// Reductions that the unit has stored, each with the name of its body.
+    /// Reductions stored in the unit, each with the name of its body.
     stored: Vec<(String, KeptReduction)>,
-    /// Those of a model that has gone, for the next one.
+    /// Reductions of a dropped model, for the next one.
     reductions: Vec<(String, KeptReduction)>,
-    /// What is implausible in the scene as packed.
+    /// Warnings about the scene as packed.
     warnings: Vec<Warning>,
-    /// What the master has been warned of.
+    /// Subjects of which the master was warned.
     said: BTreeSet<String>,
-    /// Inputs at the beginning of the last step, where what they become next may tell of it; nothing after a jump back.
+    /// Inputs at the beginning of the last step, if the next inputs may respond to that step; `None` after a restored
+    /// state.
     told: Option<Vec<f64>>,
-    /// True if the last step was no shorter than the meshes resolve and no input has been set otherwise since: a
-    /// single short one follows no jump then.
+    /// True if the last step was no shorter than the meshes resolve and no input has been set differently since. A
+    /// single short step then follows no jump.
     is_settled: bool,
-    /// The files of fields, in a folder that is written by nobody else meanwhile.
+    /// The field files, in a folder that is locked against other writers.
     pub(super) series: Option<(FieldSeries, FolderLock)>,
-    /// Ends the step under way, from another thread.
+    /// Ends the step under way from another thread.
     pub(super) interrupt: Interrupt,
-    /// What the host lets a step do besides going to its end.
+    /// Host settings that let a step end early or report its progress.
     pub(super) control: Rc<StepControl>,
 }
 
-/// The times that fmi2SetupExperiment tells [s].
+/// The times set by fmi2SetupExperiment [s].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Experiment {
     pub start: f64,
@@ -135,7 +136,7 @@ impl Unit {
         }
     }
 
-    /// Refuses a function that the standard does not allow now.
+    /// Refuses a function that the standard does not allow in this phase.
     pub fn check_phase<F: Function>(&self, function: F) -> Answer<()> {
         if let Rule::Never(reason) = function.rule() {
             return Err(reason.into());
@@ -149,7 +150,7 @@ impl Unit {
         Err(Refusal::error(message))
     }
 
-    /// Sets start and stop time. A tolerance is checked and not needed.
+    /// Sets start and stop time. A tolerance is checked but not used.
     pub fn set_experiment(&mut self, tolerance: Option<f64>, experiment: Experiment) -> Answer {
         let Experiment { start, stop } = experiment;
         if !start.is_finite() {
@@ -173,18 +174,18 @@ impl Unit {
         Ok(Status::Ok)
     }
 
-    /// Builds the model if nobody has asked for it yet; from here on parameters are fixed.
+    /// Builds the model if necessary; from here on parameters are fixed.
     pub fn finish_initialization(&mut self) -> Answer {
         let registry = Arc::clone(&self.registry);
         let (run, state) = self.run()?;
-        // From here on running maxima follow no input at once.
+        // From here on running maxima follow no input without delay.
         let noted = run.model.note_peaks(state, &mut run.cache);
         noted.map_err(|error| Refusal::error(explain(&registry, error).message))?;
         self.phase = Phase::StepComplete;
         Ok(self.open_series())
     }
 
-    /// Ends the run: closes files, and warns of what only the end shows.
+    /// Ends the run: closes files, and sends warnings that only the end of a run allows.
     pub fn terminate(&mut self) -> Answer {
         self.warn_at_end();
         self.series = None;
@@ -192,7 +193,7 @@ impl Unit {
         Ok(Status::Ok)
     }
 
-    /// Back to the start values, as after fmi2Instantiate; log settings and saved states stay.
+    /// Restores the start values, as after fmi2Instantiate; log settings and saved states are kept.
     pub fn reset(&mut self) -> Answer {
         self.drop_run();
         self.forget_answers();

@@ -22,7 +22,7 @@ pub struct Packed {
     pub(super) warnings: Vec<Warning>,
     pub(super) registry: Registry,
     pub(super) guid: String,
-    /// At the start of time.
+    /// State at the start time.
     pub(super) state: State,
     pub(super) records: Vec<Kept>,
     pub(super) reductions: Vec<(String, KeptReduction)>,
@@ -40,8 +40,8 @@ impl Packed {
 
 static CACHES: SetUpOnce = SetUpOnce::new();
 
-/// Reads the scene in a unit's folder of resources and compares the GUID, in FMI 3.0 the
-/// instantiation token. Nothing heavy: parameters may still change.
+/// Reads the scene in a unit's resource folder and checks the GUID (in FMI 3.0, the instantiation token). Nothing
+/// expensive is computed, as parameters may still change.
 pub fn read(resources: &Path, guid: &str) -> Result<Packed, String> {
     address_space::expect(STACK + PRODUCTS + SPARE).map_err(|error| error.to_string())?;
     aside(|| {
@@ -69,16 +69,16 @@ fn read_here(resources: &Path, guid: &str) -> Result<Packed, String> {
     Ok(packed)
 }
 
-/// Folders among a unit's resources, which not every unit has: of recorded drops, and of reduced solids.
+/// Optional folders of a unit's resources: recorded drops, and reduced solids.
 const RECORDS: &str = "records";
 const REDUCTIONS: &str = "reduced";
 
-/// Bytes of all files in one of these folders, at most.
+/// Largest total size of the files in one of these folders [B].
 const MOST_KEPT: u64 = 256_000_000;
-/// Memory that is taken while a file is read over its size, at most.
+/// Largest ratio of memory to file size while a file is read.
 const SPREAD: usize = 4;
 
-/// Contents of the files of a folder among the resources, by the names of bodies.
+/// Returns the contents of the files of a resource folder, by the names of bodies.
 fn kept_in<T>(
     resources: &Path,
     folder: &str,
@@ -99,7 +99,7 @@ fn kept_in<T>(
     paths.into_iter().map(kept).collect()
 }
 
-/// Bytes of a file of the unit, at most `most`; links that lead out of the resources are refused.
+/// Reads a file of the unit of at most `most` bytes; links that lead out of the resources are refused.
 fn own_bytes(resources: &Path, path: &Path, most: u64) -> Result<Vec<u8>, String> {
     let place = |path: &Path| fs::canonicalize(path).map_err(|reason| reason.to_string());
     let found = place(path)?;

@@ -13,29 +13,29 @@ use crate::model::{BodyError, Cache, HIGHEST_INPUT_DERIVATIVE, ModelError, State
 use crate::scene::Scene;
 use crate::variables::{Output, Parameter, Registry, Slot, Variable};
 
-/// Highest order of output derivatives, as the XML declares it: the steps of particles have none.
+/// Highest order of output derivatives, as declared in the XML: steps of particles have none.
 pub fn highest_output_derivative(scene: &Scene) -> usize {
     if scene.has_drops() { 0 } else { 1 }
 }
 
-/// What outputs may be differentiated by.
+/// Variables by which outputs may be differentiated.
 pub(in crate::fmi) enum Known<'a> {
     /// Place among the state's inputs.
     Input(usize),
     Parameter(&'a Parameter),
 }
 
-/// What changes.
+/// Changes of inputs or parameters.
 pub(in crate::fmi) enum Change<'a> {
     /// All inputs, at these rates.
     Inputs(Vec<f64>),
-    /// One of them at rate one.
+    /// Change of one input at rate one.
     Input(usize),
     Parameter(&'a Parameter),
 }
 
 impl Unit {
-    /// Changes of outputs when inputs change by `changes`, and in initialization mode parameters too.
+    /// Computes changes of outputs when inputs change by `changes`; in initialization mode also parameters.
     pub fn directional_derivative(
         &mut self,
         unknowns: &[Reference],
@@ -64,7 +64,7 @@ impl Unit {
         Ok(sum)
     }
 
-    /// The variables that outputs may be differentiated by now, with their names.
+    /// Returns the variables by which outputs may be differentiated now, with their names.
     pub(in crate::fmi) fn knowns<'a>(
         &self,
         registry: &'a Registry,
@@ -83,7 +83,7 @@ impl Unit {
         find(registry, references, Kind::Real)?.into_iter().map(known).collect()
     }
 
-    /// How outputs follow each of these changes.
+    /// Computes the rates of outputs for each of these changes.
     pub(in crate::fmi) fn rates(
         &mut self,
         outputs: &[&Output],
@@ -95,7 +95,7 @@ impl Unit {
         let scene = self.scene.clone();
         let (run, state) = self.run()?;
         let (model, cache) = (Arc::clone(&run.model), &mut run.cache);
-        // Of a change nothing is solved yet, and for those of parameters models are built.
+        // Changes have no cached solution yet, and those of parameters need further models.
         let is_deep = outputs.iter().any(|output| model.is_deep(state, &Cache::default(), output))
             || changes.iter().any(|change| matches!(change, Change::Parameter(_)));
         aside_if(is_deep, || {

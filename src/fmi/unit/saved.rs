@@ -1,4 +1,4 @@
-//! States that a master has saved: what belongs to one, and which of them live.
+//! States saved by a master: their contents and their life.
 
 use std::collections::BTreeMap;
 use std::collections::hash_map::RandomState;
@@ -16,45 +16,44 @@ use crate::fmi::table::Phase;
 use crate::model::{Model, State};
 use crate::scene::Scene;
 
-/// All that a run needs to go on to the bit (FMI 2.0.4, section 2.1.8): time, unknowns, inputs and
-/// their derivatives, parameters, start and stop time, and the phase.
+/// All data for a bitwise identical continuation of a run (FMI 2.0.4, section 2.1.8): time, unknowns, inputs and their
+/// derivatives, parameters, start and stop time, and the phase.
 ///
-/// What is left out does not bear on results: name, callbacks and log settings belong to the
-/// instance, results derived from the state are computed again, and files of fields stay where they
-/// are. Their series goes on from the restored time, and replaces what was written from then on.
+/// Data without effect on results are excluded. Name, callbacks and log settings belong to the instance, results
+/// derived from the state are recomputed, and field files stay in place. Their series continues from the restored time,
+/// and replaces what was written after that time.
 #[derive(Clone)]
 pub struct Snapshot {
     pub phase: Phase,
     /// The scene with its parameters.
     pub scene: Scene,
-    /// Folder of the fields; nothing in states from bytes, which leave the instance its own.
+    /// Folder of the fields; `None` for states from bytes, which keep the instance's own.
     pub directory: Option<String>,
     pub experiment: Experiment,
     pub state: State,
     pub has_set_derivatives: bool,
-    /// There once the unit had one; then the state holds unknowns that fit it.
+    /// Set once the unit had a model; then the state holds matching unknowns.
     pub model: Option<Arc<Model>>,
 }
 
-/// The snapshots of one instance that its master has not freed, by the pointers that stand for
-/// them.
+/// Snapshots of one instance that its master has not freed, by their pointers.
 ///
-/// Such a pointer is a number that this copy of the library never gives out again in this process, and
-/// nobody looks at what it points to. Other copies, as other units load them, begin elsewhere among
-/// 2⁶² numbers. So one that was freed, came from another instance or was never given out is recognised.
+/// Such a pointer is a number that this copy of the library never reuses in this process, and it is never dereferenced.
+/// Other copies, loaded with other units, begin at other places among 2⁶² numbers. Pointers that were freed, came from
+/// another instance or were never issued are therefore recognised.
 #[derive(Default)]
 pub struct SavedStates(BTreeMap<usize, Snapshot>);
 
-/// Numbers given out after the first one.
+/// Number of pointers issued after the first one.
 static COUNT: AtomicUsize = AtomicUsize::new(0);
 
-/// The number given out first, once it is known; until then zero.
+/// The first issued number, or zero until it is known.
 static FIRST: AtomicUsize = AtomicUsize::new(0);
 
-/// The number given out first, odd so that none is null or could be an address of an aligned value.
+/// The first issued number, odd so that none is null or the address of an aligned value.
 ///
-/// It follows from where this copy of the library lies, from the process and from the time of the first
-/// call, by a hash whose keys are drawn by the system.
+/// It is a hash of the address of this copy of the library, of the process and of the time of the first call, with keys
+/// drawn by the system.
 fn first() -> usize {
     let known = FIRST.load(Ordering::Relaxed);
     if known != 0 {
@@ -63,7 +62,7 @@ fn first() -> usize {
     let place = (&raw const COUNT).addr();
     let of = (place, process::id(), SystemTime::now());
     let drawn = RandomState::new().hash_one(of) as usize | 1;
-    // Of several threads one draws for all.
+    // Among several threads, one draws for all.
     let set = FIRST.compare_exchange(0, drawn, Ordering::Relaxed, Ordering::Relaxed);
     set.map_or_else(|earlier| earlier, |_| drawn)
 }
@@ -81,13 +80,13 @@ impl SavedStates {
         self.0.get(&pointer.addr()).ok_or_else(|| unknown(pointer))
     }
 
-    /// Puts another snapshot under the pointer of one.
+    /// Replaces the snapshot of a pointer.
     pub fn replace(&mut self, pointer: SavedState, snapshot: Snapshot) -> Answer<()> {
         *self.0.get_mut(&pointer.addr()).ok_or_else(|| unknown(pointer))? = snapshot;
         Ok(())
     }
 
-    /// Forgets the snapshot of a pointer.
+    /// Removes the snapshot of a pointer.
     pub fn remove(&mut self, pointer: SavedState) -> Answer<()> {
         self.0.remove(&pointer.addr()).map(drop).ok_or_else(|| unknown(pointer))
     }
@@ -100,7 +99,7 @@ fn unknown(pointer: SavedState) -> Refusal {
 }
 
 impl Unit {
-    /// Saves the present state; a null pointer asks for a new place, another for its own again.
+    /// Saves the present state; a null pointer requests a new place, any other pointer is reused.
     pub fn save(&mut self, place: SavedState) -> Answer<SavedState> {
         self.expect_room()?;
         let snapshot = Snapshot {
@@ -118,7 +117,7 @@ impl Unit {
         self.saved.replace(place, snapshot).map(|()| place)
     }
 
-    /// Takes a saved state over; it stays saved.
+    /// Restores a saved state, which stays saved.
     pub fn restore(&mut self, place: SavedState) -> Answer {
         let snapshot = self.saved.get(place)?;
         if let Some(model) = &snapshot.model {

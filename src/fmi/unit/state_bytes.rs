@@ -9,10 +9,9 @@
 //! | … | contents: phase, parameters, experiment, time, inputs, their derivatives, unknowns, running maxima |
 //! | 16 | first half of the SHA-256 of everything before |
 //!
-//! Names of folders are left out, as bytes may come from anywhere: fields are written where the instance that
-//! goes on has been set to write. Numbers are little-endian, counts 64 bits wide, and each body's unknowns
-//! carry their own count:
-//! how many there may be is for the model to say.
+//! Folder names are excluded, because bytes may come from anywhere: fields are written to the folder of the instance
+//! that continues. Numbers are little-endian, counts 64 bits wide, and each body's unknowns carry their own count. The
+//! model checks these counts.
 
 use sha2::{Digest, Sha256};
 
@@ -26,15 +25,15 @@ use crate::scene::{MOST_THREADS, Scene};
 use crate::variables::{Parameter, Registry, Slot};
 
 const MARK: &[u8; 8] = b"impinge\n";
-/// To be raised whenever what bodies keep in their states changes. Those of earlier versions are refused: 3
-/// named a folder.
+/// Version of the format, to be raised whenever the states of bodies change. Earlier versions are refused: version 3
+/// included a folder name.
 const VERSION: u32 = 4;
 const GUID_LENGTH: usize = 38;
 const HEAD: usize = MARK.len() + 4 + 8 + GUID_LENGTH;
 const CHECKSUM: usize = 16;
 
 impl Unit {
-    /// The bytes of a snapshot of this unit.
+    /// Returns the bytes of a snapshot of this unit.
     pub fn serialize(&self, snapshot: &Snapshot) -> Vec<u8> {
         let mut contents = Writer::default();
         write_snapshot(&mut contents, snapshot, &self.registry);
@@ -49,7 +48,7 @@ impl Unit {
         bytes
     }
 
-    /// The snapshot in these bytes, if they are whole and of this unit.
+    /// Reads the snapshot from bytes that are complete and belong to this unit.
     pub fn deserialize(&self, bytes: &[u8]) -> Answer<Snapshot> {
         let contents = open(bytes, &self.guid).map_err(Refusal::error)?;
         let read = Reader(contents).snapshot(&self.packed, &self.registry);
@@ -60,13 +59,13 @@ impl Unit {
         if let Some(message) = out_of_bounds(&self.registry, &snapshot.state.inputs) {
             return Err(contradicts(message));
         }
-        // After a panic, too, there may be none.
+        // After a panic, too, there may be no model.
         let early = matches!(
             snapshot.phase,
             Phase::Instantiated | Phase::InitializationMode | Phase::Error
         );
         if early && snapshot.state.bodies.is_empty() {
-            // There need not be a model yet, nor parameters that make sense.
+            // There may be no model yet, nor valid parameters.
             let (inputs, count) = (&snapshot.state.inputs, self.state.inputs.len());
             let mut lists = std::iter::once(inputs).chain(&snapshot.state.derivatives);
             return match lists.find(|list| list.len() != count) {
@@ -85,7 +84,7 @@ impl Unit {
     }
 }
 
-/// Why an input cannot have the value that it has among these.
+/// Returns why an input is out of bounds.
 fn out_of_bounds(registry: &Registry, inputs: &[f64]) -> Option<String> {
     registry.variables.iter().find_map(|variable| match variable.slot {
         Slot::Input(index) => variable.refusal(*inputs.get(index)?),
@@ -93,7 +92,7 @@ fn out_of_bounds(registry: &Registry, inputs: &[f64]) -> Option<String> {
     })
 }
 
-/// The contents of bytes that are whole and of the unit with this GUID.
+/// Returns the contents of bytes that are complete and belong to the unit with this GUID.
 fn open<'a>(bytes: &'a [u8], guid: &str) -> Result<&'a [u8], String> {
     let size = bytes.len();
     if size < HEAD + CHECKSUM {
@@ -137,7 +136,7 @@ fn checksum(bytes: &[u8]) -> [u8; CHECKSUM] {
     std::array::from_fn(|i| hash[i])
 }
 
-/// The parameters that are numbers, in the order of the registry.
+/// Returns the parameters that are numbers, in the order of the registry.
 fn parameters(registry: &Registry) -> impl Iterator<Item = &Parameter> {
     registry.variables.iter().filter_map(|variable| match &variable.slot {
         Slot::Parameter(parameter) => Some(parameter),
@@ -196,7 +195,7 @@ struct Reader<'a>(&'a [u8]);
 impl Reader<'_> {
     fn snapshot(mut self, packed: &Scene, registry: &Registry) -> Result<Snapshot, String> {
         let phase = self.count()?;
-        // Only in these a state can be saved, so that no other can be come back to.
+        // States can be saved only in these phases, so no other can be restored.
         let known = Phase::ALL.get(phase).filter(|phase| phase.lasts());
         let phase = *known.ok_or_else(|| format!("phase {phase}, in which nothing is saved"))?;
         let threads = self.count()?;
@@ -292,7 +291,7 @@ mod tests {
     use super::*;
     use crate::fmi::gate::answer::Status;
 
-    /// A running unit and what it saves.
+    /// Returns a running unit with a snapshot of it.
     fn running() -> (Unit, Snapshot) {
         let mut unit = Unit::for_tests();
         unit.finish_initialization().unwrap();
@@ -301,7 +300,7 @@ mod tests {
         (unit, snapshot)
     }
 
-    /// Whole bytes of this unit whose contents make no sense are refused with these words.
+    /// Complete bytes of this unit with invalid contents are refused with these words.
     #[track_caller]
     fn refused(change: impl FnOnce(&mut Snapshot), words: &str) {
         let (unit, mut snapshot) = running();
@@ -314,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn the_model_says_how_many_unknowns_a_body_takes() {
+    fn model_checks_the_number_of_unknowns() {
         refused(|s| s.state.bodies[0].truncate(9), "unknowns of plate");
         refused(|s| s.state.bodies[0].push(0.0), "unknowns of plate");
         refused(|s| s.state.bodies.push(Vec::new()), "unknowns of 2 bodies; the scene has 1");

@@ -11,18 +11,17 @@ use crate::fmi::table::Phase;
 use crate::model::check_step_length;
 use crate::runtime::allowance::Halt;
 
-/// A time is taken for another one if they differ by less than this part of the step …
+/// Two times are equal if they differ by less than this fraction of the step …
 const STEP_TOLERANCE: f64 = 1e-9;
-/// … plus this part of the times themselves, which masters sum up with rounding errors.
+/// … plus this fraction of the times themselves, which masters sum up with rounding errors.
 const TIME_TOLERANCE: f64 = 1e-13;
 
 impl Unit {
-    /// Advances from `point` by `step` [s]. The time afterwards is their sum, so that it never
-    /// drifts from the master's. Inputs whose derivatives have been set follow them; afterwards they
-    /// are what they have become.
+    /// Advances from `point` by `step` [s]. The time afterwards is their sum, so that it never drifts from the
+    /// master's. Inputs with derivatives follow them and keep their final values.
     ///
-    /// A step that cannot be completed, though nothing was wrong when it began, is discarded; so is one
-    /// that another thread cancels. One that may end early then stands where it has come to.
+    /// A step that fails after a valid start is discarded; so is one cancelled by another thread. A step that may end
+    /// early then ends at the time reached.
     pub fn step(&mut self, point: f64, step: f64) -> Answer {
         self.check_step(point, step)?;
         let registry = Arc::clone(&self.registry);
@@ -68,7 +67,7 @@ impl Unit {
         }
         check_step_length(step).map_err(|error| Refusal::error(error.to_string()))?;
         let time = self.time();
-        // A step that is far too long may end early: what it asked for says nothing of how far it goes.
+        // A step that is far too long may end early: its requested length does not indicate how far it gets.
         let usual = step.min(self.scene.step);
         let tolerance = STEP_TOLERANCE * usual + TIME_TOLERANCE * time.abs();
         if !point.is_finite() || (point - time).abs() > tolerance {

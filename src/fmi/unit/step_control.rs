@@ -1,28 +1,28 @@
-//! How a step goes: to its end, or only as far as its host wants and a step may go.
+//! Control of a step: to its end, or only as far as its host and the limits allow.
 //!
-//! FMI 3.0 lets a unit return early, and tell its host on the way how far it has come. A unit does so between
-//! parts of a step, none of which differs from a step of that length.
+//! FMI 3.0 lets a unit return early, and report its progress to the host. A unit does so between parts of a step; each
+//! part equals a step of its length.
 
 use crate::model::{Cache, Model, ModelError, State};
 use crate::runtime::allowance::{Allowance, EARLY_UPDATES, Halt, Interrupt};
 
-/// Tells the host a time within a step [s] and whether the step may end early; the time at which the host
-/// wants that.
+/// Reports to the host a time within a step [s], and whether the step may end early; returns the time at which the host
+/// wants it to end.
 pub type Ask = Box<dyn Fn(f64, bool) -> Option<f64>>;
 
-/// What a host lets a step do.
+/// Settings of the host for a step.
 #[derive(Default)]
 pub struct StepControl {
     pub may_end_early: bool,
     pub ask: Option<Ask>,
 }
 
-/// Least part of a step that is tried after a longer one was too long.
+/// Smallest fraction of a step that is tried after a longer one was too long.
 const LEAST: f64 = 1e-12;
 
 impl StepControl {
-    /// Advances a state from `point` by `step` [s]. Its time afterwards is the sum of both, or an earlier one where
-    /// the step ended early. An error leaves it as it was.
+    /// Advances a state from `point` by `step` [s]. Its time afterwards is the sum of both, or an earlier one if the
+    /// step ended early. After an error it is unchanged.
     pub fn advance(
         &self,
         (model, cache): (&Model, &mut Cache),
@@ -36,7 +36,7 @@ impl StepControl {
             let advanced = self.go((model, &mut *cache), state, (point, length), &allowance);
             let Err(error) = advanced else { return Ok(()) };
             let part = error.halt().and_then(|halt| halt.part_within(EARLY_UPDATES));
-            // Part by part this comes to what fits, as the work is not always in proportion.
+            // Repeated shortening finds a length that fits, as the work is not always proportional to it.
             let shorter = part.map(|part| length * part.clamp(LEAST, 0.5));
             match shorter.filter(|&shorter| self.may_end(state) && point + shorter > point) {
                 Some(shorter) => length = shorter,
@@ -46,13 +46,13 @@ impl StepControl {
         }
     }
 
-    /// Whether a step from a state may end early: not where inputs follow derivatives, which a state saved under
-    /// FMI 2.0 may bring. These are known for the step alone.
+    /// Returns true if a step from a state may end early. It may not if inputs follow derivatives, as in a state saved
+    /// under FMI 2.0, because these apply to a single step.
     fn may_end(&self, state: &State) -> bool {
         self.may_end_early && state.derivatives.is_empty()
     }
 
-    /// Goes towards the end of a step, in parts where the host wants to be told of them.
+    /// Advances towards the end of a step, in parts if the host follows its progress.
     fn go(
         &self,
         (model, cache): (&Model, &mut Cache),
@@ -71,7 +71,7 @@ impl StepControl {
         while now < end {
             let parts = model.parts(end - now);
             let next = if parts > 1.0 { now + (end - now) / parts } else { end };
-            // Nothing is lost in rounding.
+            // Guards against a step lost in rounding.
             let next = if next > now { next } else { end };
             let stepped = match now == point {
                 true => model.step_within(allowance, state, cache, next - now),
@@ -82,7 +82,7 @@ impl StepControl {
                     break;
                 }
                 *state = before;
-                // It holds what follows from the state that the parts came to.
+                // The cache follows from the state that the parts reached.
                 cache.clear();
                 return Err(error);
             }
@@ -91,7 +91,7 @@ impl StepControl {
             if now < end
                 && let Some(wanted) = ask(now, may_end).filter(|_| may_end)
             {
-                // A time that is none, or past, is now.
+                // An invalid or past time means now.
                 end = if wanted > now { end.min(wanted) } else { now };
             }
         }
@@ -123,7 +123,7 @@ fluid = { density = 1000.0, viscosity = 1e-3, specific_heat = 4180.0, conductivi
 "#;
 
     #[test]
-    fn an_error_in_a_later_part_changes_nothing() {
+    fn errors_in_later_parts_change_nothing() {
         let scene = scene::parse(DROP, "scene.toml").unwrap_or_else(|error| panic!("{error}"));
         let model = Model::build(&scene, 1).unwrap_or_else(|error| panic!("{error}"));
         let interrupt = Interrupt::default();

@@ -1,6 +1,6 @@
-//! Getting and setting variables by reference, in safe Rust.
+//! Gets and sets variables by reference, in safe Rust.
 //!
-//! A set is all or nothing: every reference and value is checked before the first one is taken over.
+//! A set is all or nothing: every reference and value is checked before the first one is stored.
 
 use std::ffi::CString;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use crate::runtime::thread::{STACK, aside};
 use crate::variables::{Causality, Output, Registry, Slot, Variable};
 
 impl Unit {
-    /// Values of Real variables.
+    /// Returns values of Real variables.
     pub fn reals(&mut self, references: &[Reference]) -> Answer<Vec<f64>> {
         let registry = Arc::clone(&self.registry);
         let variables = find(&registry, references, Kind::Real)?;
@@ -31,7 +31,7 @@ impl Unit {
         Ok(values)
     }
 
-    /// Warns once of each output whose value tells less than it seems to.
+    /// Warns once of each output whose value is less accurate than it seems.
     fn warn_of_values(&mut self, variables: &[&Variable], values: &[f64]) {
         let Some(run) = self.run.as_ref().filter(|_| self.scene.has_drops()) else {
             return;
@@ -44,7 +44,7 @@ impl Unit {
         }
     }
 
-    /// Values of those variables that are outputs.
+    /// Returns values of those variables that are outputs.
     fn outputs(&mut self, registry: &Registry, variables: &[&Variable]) -> Answer<Vec<f64>> {
         if !variables.iter().any(|variable| output_of(variable).is_some()) {
             return Ok(Vec::new());
@@ -77,7 +77,7 @@ impl Unit {
         Ok(vec![threads; variables.len()])
     }
 
-    /// Texts, kept by the unit until the next call.
+    /// Returns texts, which the unit keeps until the next call.
     pub fn texts(&mut self, references: &[Reference]) -> Answer<&[CString]> {
         let variables = find(&self.registry, references, Kind::Text)?;
         let text = CString::new(self.directory.as_str()).unwrap_or_default();
@@ -85,7 +85,7 @@ impl Unit {
         Ok(&self.texts)
     }
 
-    /// The refusal of a variable for a function that asks for another type, or of a reference to none.
+    /// Returns the refusal of a variable whose type is not that of a function, or of an unknown reference.
     pub fn scalar_of_another_type(&self, reference: Reference, wanted: &str) -> Refusal {
         match look_up(&self.registry.variables, reference) {
             Ok(variable) => {
@@ -110,7 +110,7 @@ impl Unit {
                 Slot::Parameter(parameter) => {
                     parameter.set(scene.get_or_insert_with(|| self.scene.clone()), value);
                 }
-                // Bits, so that a zero of the other sign is read back as it was set.
+                // Compares bits, so that a zero of the other sign is read back as set.
                 Slot::Input(index) => {
                     let input = &mut self.state.inputs[*index];
                     has_changed |= input.to_bits() != value.to_bits();
@@ -129,7 +129,7 @@ impl Unit {
         Ok(Status::Ok)
     }
 
-    /// Warns once of each input, and of one element of an array, that a value is implausible.
+    /// Warns once of each input with an implausible value, and of one element per array.
     fn warn_of_implausible(&mut self, variables: &[&Variable], values: &[f64]) {
         for (variable, &value) in variables.iter().zip(values) {
             let warning = variable.implausible(&self.scene, value);
@@ -189,7 +189,7 @@ fn output_of<'a>(variable: &&'a Variable) -> Option<&'a Output> {
     }
 }
 
-/// Runs `work`, on a thread of our own if it goes deep.
+/// Runs `work`, on a thread of our own if it needs much stack.
 pub(in crate::fmi) fn aside_if<R: Send>(
     is_deep: bool,
     work: impl FnOnce() -> Answer<R> + Send,
@@ -201,7 +201,7 @@ pub(in crate::fmi) fn aside_if<R: Send>(
     aside(work)
 }
 
-/// The variables of these references, all of one kind.
+/// Returns the variables of these references, all of one kind.
 pub(in crate::fmi) fn find<'a>(
     registry: &'a Registry,
     references: &[Reference],

@@ -1,4 +1,4 @@
-//! What a master is warned of, and when.
+//! Warnings to the master and their occasions.
 
 use std::sync::Arc;
 
@@ -9,13 +9,13 @@ use crate::output::OutputError;
 use crate::runtime::thread::aside;
 use crate::warning::Warning;
 
-/// The subject of warnings of steps that are too short, of which one is enough.
+/// Subject of warnings about steps that are too short, of which one is sufficient.
 const SHORT_STEPS: &str = "short steps";
-/// The same of walls that are held and respond all the same.
+/// Subject of warnings about walls that are held but respond.
 const HELD_WALL: &str = "held wall";
 
 impl Unit {
-    /// Warns of what is known of drops and of what melts only as a run ends, where there is room to look.
+    /// Sends warnings about drops and melting that are only known at the end of a run, if memory allows.
     pub(super) fn warn_at_end(&mut self) {
         let Some(model) = self.run.as_ref().map(|run| Arc::clone(&run.model)) else { return };
         if !(self.scene.has_drops() || self.scene.melts()) || self.expect_room().is_err() {
@@ -26,18 +26,18 @@ impl Unit {
         self.warn_once(warnings);
     }
 
-    /// Whether inputs may be answers to a step that took them as held, and nothing has been said of that yet.
+    /// Returns true if inputs may respond to a step during which they were constant, and no warning was sent yet.
     pub(super) fn listens_to_answers(&self) -> bool {
         let is_held = self.scene.wall.iter().any(|wall| wall.effusivity.is_none());
         is_held && !self.said.contains(HELD_WALL)
     }
 
-    /// Forgets what the last step began with, as what comes is no answer to it.
+    /// Discards the inputs of the last step, because the next ones do not respond to it.
     pub(in crate::fmi) fn forget_answers(&mut self) {
         self.told = None;
     }
 
-    /// Warns once of what is implausible in the scene with its parameters, now that they are fixed.
+    /// Warns once of implausible values in the scene with its parameters, which are now fixed.
     pub(super) fn warn_of_scene(&mut self) {
         let changed = self.scene != self.packed;
         let warnings = match changed {
@@ -47,7 +47,7 @@ impl Unit {
         self.warn_once(warnings);
     }
 
-    /// Warns once of each fluid that is beyond a point at which it freezes or boils, where there is room to look.
+    /// Warns once of each fluid beyond its freezing or boiling point, if memory allows.
     pub(super) fn warn_of_phases(&mut self) {
         let Some(model) = self.run.as_ref().map(|run| Arc::clone(&run.model)) else { return };
         if !model.watches_phases() || self.expect_room().is_err() {
@@ -58,7 +58,7 @@ impl Unit {
         self.warn_once(warnings);
     }
 
-    /// Warns of an input that was set in response to a step and contradicts how that was computed.
+    /// Warns of an input that was set in response to a step and contradicts the step's assumption.
     pub(super) fn warn_of_response(&mut self, warning: Option<Warning>) {
         self.warn_once(warning.map(|warning| warning.of_subject(HELD_WALL)));
     }
@@ -83,7 +83,7 @@ impl Unit {
         }
     }
 
-    /// The computation is fine, so files that cannot be written are no error. Each is told once.
+    /// Warns once of each file that cannot be written; the computation is unaffected, so this is no error.
     pub(in crate::fmi) fn warn_of_output(&mut self, error: &OutputError) -> Status {
         let message = format!("output.directory {:?}: {error}", self.directory);
         if self.said.insert(message.clone()) {

@@ -25,7 +25,7 @@ pub struct Conduction {
     pub melting: Option<Melting>,
 }
 
-/// Why constants of conduction make no sense.
+/// Reasons why constants of conduction are invalid.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ConductionError {
     #[error("density {0} kg/m³ (allowed: finite, above 0)")]
@@ -66,7 +66,7 @@ impl Conduction {
             && self.melting.is_none()
     }
 
-    /// The linear law that holds about a temperature [K], without melting.
+    /// Returns the linear law at a temperature [K], without melting.
     pub fn linearised(&self, temperature: f64) -> Self {
         Self {
             density: self.density,

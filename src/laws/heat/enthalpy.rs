@@ -1,47 +1,48 @@
 use super::conduction::Conduction;
 
-/// Volumetric enthalpy over temperature, and its inverse, exact: pieces of second degree, and jumps where something
-/// melts at one temperature.
+/// Volumetric enthalpy as an exact function of temperature, and its inverse: quadratic pieces, and jumps at isothermal
+/// melting.
 ///
-/// `H(T) = ∫ ρ c dT + ρ L f(T)` [J/m³] from a reference temperature, with f linear between solidus and
-/// liquidus (V. R. Voller and C. R. Swaminathan 1991, doi 10.1080/10407799108944962). At the one temperature of an
-/// isothermal melting the enthalpy of a temperature is that of the solid.
+/// `H(T) = ∫ ρ c dT + ρ L f(T)` [J/m³] from a reference temperature, with f linear between solidus and liquidus (V. R.
+/// Voller and C. R. Swaminathan 1991, doi 10.1080/10407799108944962). At the temperature of isothermal melting the
+/// enthalpy is that of the solid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Enthalpy {
-    /// The first one reaches down without end, the last one up.
+    /// The first piece extends down, the last one up, without limit.
     pieces: Vec<Piece>,
     latent: f64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Piece {
-    /// Temperature above the reference [K] and enthalpy [J/m³] at which it begins; at which the first one ends.
+    /// Temperature above the reference [K] and enthalpy [J/m³] at the start of the piece; the first piece has those of
+    /// its end.
     rise: f64,
     content: f64,
     /// `dH/dT` there [J/(m³ K)]; infinite for a jump.
     capacity: f64,
     /// `d²H/dT²` [J/(m³ K²)]
     slope: f64,
-    /// Latent part of the enthalpy there [J/m³], and its derivative over temperature [J/(m³ K)].
+    /// Latent part of the enthalpy there [J/m³], and its derivative with respect to temperature [J/(m³ K)].
     latent: f64,
     latent_rate: f64,
 }
 
-/// What belongs to an enthalpy.
+/// State at an enthalpy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EnthalpyPoint {
     /// Temperature above the reference [K].
     pub rise: f64,
-    /// `dT/dH` [m³ K/J]: zero where something melts at one temperature.
+    /// `dT/dH` [m³ K/J]: zero during isothermal melting.
     pub inverse_capacity: f64,
-    /// `ρ c` without what melting takes [J/(m³ K)].
+    /// `ρ c` without latent heat [J/(m³ K)].
     pub sensible: f64,
     /// Latent part of the enthalpy [J/m³].
     pub latent: f64,
 }
 
 impl Enthalpy {
-    /// Of materials side by side at one temperature, with the part of the volume that each has.
+    /// Enthalpy of materials side by side at one temperature, with the volume fraction of each.
     pub fn of_mixture(parts: &[(f64, &Conduction)], reference: f64) -> Self {
         let knots = knots(parts, reference);
         let sensible = |t: f64| -> f64 {
@@ -90,14 +91,14 @@ impl Enthalpy {
 
     /// Enthalpy [J/m³] at a temperature above the reference [K].
     pub fn content(&self, rise: f64) -> f64 {
-        // A jump begins where the piece before it ends, which is the solid's enthalpy.
+        // A jump begins at the end of the previous piece, which is the solid's enthalpy.
         let piece = self.pieces[1..].iter().rfind(|piece| piece.rise < rise);
         let piece = piece.unwrap_or(&self.pieces[0]);
         let along = rise - piece.rise;
         piece.content + along * (piece.capacity + 0.5 * piece.slope * along)
     }
 
-    /// What belongs to an enthalpy [J/m³].
+    /// Returns the state at an enthalpy [J/m³].
     pub fn at(&self, content: f64) -> EnthalpyPoint {
         let number = self.pieces[1..].partition_point(|piece| piece.content <= content);
         let piece = &self.pieces[number];
@@ -116,14 +117,14 @@ impl Enthalpy {
         }
     }
 
-    /// Enthalpy that all melting takes [J/m³].
+    /// Latent heat of all melting [J/m³].
     pub fn latent(&self) -> f64 {
         self.latent
     }
 }
 
-/// Where pieces begin, above the reference; the reference is one of them, so that small differences to it keep
-/// all digits.
+/// Temperatures above the reference at which pieces begin. The reference is one of them, so that small differences to
+/// it keep all digits.
 fn knots(parts: &[(f64, &Conduction)], reference: f64) -> Vec<f64> {
     let mut knots = vec![0.0];
     for (_, substance) in parts {
@@ -137,7 +138,7 @@ fn knots(parts: &[(f64, &Conduction)], reference: f64) -> Vec<f64> {
     knots
 }
 
-/// What melts at one temperature [J/m³].
+/// Latent heat of isothermal melting at one temperature [J/m³].
 fn latent_jump(parts: &[(f64, &Conduction)], rise: f64, reference: f64) -> f64 {
     let melts = |(part, substance): &(f64, &Conduction)| {
         let melting = substance.melting.filter(|m| m.is_isothermal())?;
@@ -147,7 +148,7 @@ fn latent_jump(parts: &[(f64, &Conduction)], rise: f64, reference: f64) -> f64 {
     parts.iter().filter_map(melts).sum()
 }
 
-/// What melts over a range of temperatures around one [J/(m³ K)].
+/// Latent heat per temperature of melting over a range around one temperature [J/(m³ K)].
 fn latent_rate(parts: &[(f64, &Conduction)], temperature: f64) -> f64 {
     let melts = |(part, substance): &(f64, &Conduction)| {
         let melting = substance.melting.filter(|m| !m.is_isothermal())?;
@@ -204,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn the_slope_of_the_inverse_is_that_of_its_differences() {
+    fn inverse_slope_matches_differences() {
         let law = alloy(800.0, 1000.0).enthalpy(500.0);
         for content in [-3e8, 1e8, 9e8, 1.6e9, 2.9e9, 5e9] {
             let (low, high) = (law.at(content - 1e3), law.at(content + 1e3));
@@ -229,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mixture_holds_what_its_parts_hold_at_its_temperature() {
+    fn mixture_enthalpy_is_the_sum_of_its_parts() {
         let (a, b) = (alloy(900.0, 900.0), alloy(700.0, 1100.0));
         let mixture = Enthalpy::of_mixture(&[(0.3, &a), (0.7, &b)], 400.0);
         let laws = [a.enthalpy(400.0), b.enthalpy(400.0)];

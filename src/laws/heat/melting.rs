@@ -18,7 +18,7 @@ pub struct Melting {
     pub latent_heat: f64,
 }
 
-/// Why there is no such melting.
+/// Reasons why melting data are invalid.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MeltingError {
     #[error("solidus {0} K (allowed: finite, above 0 K)")]

@@ -1,33 +1,33 @@
-//! Stress that is read where a law was not evaluated, taken back to what the law bears there.
+//! Stress read where a law was not evaluated, returned to the limit of the law there.
 //!
-//! Polynomials through points that flow go beyond the yield surface `‖ξ‖ ≤ R`, `ξ = dev σ − β`, between and beyond these
-//! points. The nearest stress within it scales ξ and leaves the pressure alone, as the radial return of the law does.
-//! On a free face equilibrium prescribes the traction instead: there the return scales the other parts of ξ, and the
+//! Polynomials through yielding points exceed the yield surface `‖ξ‖ ≤ R`, `ξ = dev σ − β`, between and beyond these
+//! points. The nearest admissible stress scales ξ and leaves the pressure unchanged, like the radial return of the law.
+//! On a free face equilibrium prescribes the traction instead. There the return scales the other parts of ξ, and the
 //! pressure follows from the traction, as in plane stress (J. C. Simo and T. J. R. Hughes 1998, § 3.4).
 
 /// Shears of the traction on a face that is normal to an axis, among xx, yy, zz, xy, yz, xz.
 const SHEARS: [[usize; 2]; 3] = [[3, 5], [3, 4], [4, 5]];
 
-/// Sum of normal components over three.
+/// Third of the sum of normal components.
 fn mean(tensor: &[f64; 6]) -> f64 {
     (tensor[0] + tensor[1] + tensor[2]) / 3.0
 }
 
-/// Part of the square of a tensor's norm that shears contribute.
+/// Contribution of shears to the squared norm of a tensor.
 fn squares<'a>(shears: impl Iterator<Item = &'a f64>) -> f64 {
     shears.map(|shear| 2.0 * shear * shear).sum()
 }
 
 /// Returns a stress whose ξ is at most `radius` [Pa] long, from a stress and a deviatoric back stress [Pa]. `face` is
-/// the axis normal to the free face on which the stress lies; its traction stays if the radius leaves room for that.
+/// the axis normal to the free face on which the stress is located; its traction is kept if the radius allows it.
 ///
-/// A stress within the radius stays as it is, to the bit.
+/// A stress within the radius is bitwise unchanged.
 pub fn admissible(stress: [f64; 6], back: &[f64; 6], radius: f64, face: Option<usize>) -> [f64; 6] {
     let pressure = mean(&stress);
     let deviator = |i: usize| stress[i] - if i < 3 { pressure } else { 0.0 };
     let xi: [f64; 6] = std::array::from_fn(|i| deviator(i) - back[i]);
     let square = xi[..3].iter().map(|x| x * x).sum::<f64>() + squares(xi[3..].iter());
-    // Not `square > …`: what is no number stays none.
+    // Not `square > …`, so that NaN remains NaN.
     if !square.is_finite() || square.sqrt() <= radius {
         return stress;
     }
@@ -98,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn the_surface_stands_about_the_back_stress() {
+    fn yield_surface_is_centred_on_the_back_stress() {
         let back = [40.0, -10.0, -30.0, 5.0, 0.0, 1.0];
         for stress in STRESSES {
             for face in [None, Some(2)] {

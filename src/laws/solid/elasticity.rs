@@ -30,11 +30,11 @@ pub struct Elasticity {
 
 /// Default of a constant of elasticity, in words.
 const NO_STRESS: &str = "none: no stress";
-/// At −1 and ½ resistance to shear or to compression is lost, and close to these lost in rounding.
+/// At −1 and ½ resistance to shear or to compression vanishes, and close to these it is lost in rounding.
 const POISSON_MARGIN: f64 = 1e-9;
 
 impl Elasticity {
-    /// All keys, needed for a reason.
+    /// All keys, with the reason why they are needed.
     pub const fn needs(why: &'static str) -> [Need; 3] {
         [
             Need { key: "young", why, allowed: "a positive number (Pa)" },
@@ -43,7 +43,7 @@ impl Elasticity {
         ]
     }
 
-    /// The numbers that hold at a temperature [K].
+    /// Returns the constants at a temperature [K].
     pub fn linearised(&self, temperature: f64) -> Self {
         let at = |property: &Option<Property>| property.as_ref().map(|own| own.at(temperature));
         Self { young: at(&self.young), poisson: at(&self.poisson), expansion: at(&self.expansion) }

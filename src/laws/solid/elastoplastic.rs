@@ -8,8 +8,8 @@
 //! - Elasticity: `σ = 3K (tr ε/3 − ε_T) 1 + 2G dev(ε − εₚ)`, `ε_T = α(T)(T − T_ref)`.
 //!
 //! A step is the radial return of M. L. Wilkins 1964 with the consistent tangent of J. C. Simo and R. L. Taylor 1985
-//! (doi 10.1016/0045-7825(85)90070-2). Hardening is linear, so the return is one division, and exact where constants
-//! change with temperature, as all of them are those of the step's end.
+//! (doi 10.1016/0045-7825(85)90070-2). Hardening is linear, so the return is one division. It is exact for
+//! temperature-dependent constants, because all of them are those of the step's end.
 
 use std::sync::Arc;
 
@@ -52,12 +52,12 @@ impl Deformation for ElastoplasticLaw {
 /// A constant as a function of temperature [K].
 pub type OfTemperature = Arc<dyn Fn(f64) -> f64 + Send + Sync>;
 
-/// The function that is the same at all temperatures.
+/// The function that is constant over temperature.
 pub fn constant(value: f64) -> OfTemperature {
     Arc::new(move |_| value)
 }
 
-/// The law, its constants as functions of temperature.
+/// J₂ plasticity with constants as functions of temperature.
 #[derive(Clone)]
 pub struct Elastoplastic {
     /// Young's modulus E [Pa].
@@ -66,7 +66,7 @@ pub struct Elastoplastic {
     pub poisson: OfTemperature,
     /// Mean coefficient of linear thermal expansion α between T_ref and T [1/K].
     pub expansion: OfTemperature,
-    /// Initial yield stress σ_y [Pa]; infinite where nothing yields.
+    /// Initial yield stress σ_y [Pa]; infinite if the material never yields.
     pub yield_stress: OfTemperature,
     /// Isotropic hardening modulus H_i [Pa].
     pub isotropic: OfTemperature,
@@ -76,7 +76,7 @@ pub struct Elastoplastic {
     pub stress_free_temperature: f64,
 }
 
-/// The constants of the law at one temperature.
+/// Constants of the law at one temperature.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointConstants {
     /// Bulk modulus K [Pa].
@@ -90,11 +90,11 @@ pub struct PointConstants {
     /// Hardening moduli H_i and H_k [Pa].
     pub isotropic: f64,
     pub kinematic: f64,
-    /// What flow takes beyond the yield surface.
+    /// Overstress of viscous flow beyond the yield surface.
     pub overstress: Overstress,
 }
 
-/// How a point's stress changes: `dσ = K dθ 1 + A de + B n (n:de)` with the change θ of volume and e of shape.
+/// Change of a point's stress: `dσ = K dθ 1 + A de + B n (n:de)` with the change θ of volume and e of shape.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointTangent {
     /// K [Pa].
@@ -102,7 +102,7 @@ pub struct PointTangent {
     /// A and B [Pa].
     pub all: f64,
     pub along: f64,
-    /// n, as stress: shears once.
+    /// n, in stress notation: shears once.
     pub direction: [f64; 6],
 }
 
@@ -114,7 +114,7 @@ fn inner(a: &[f64; 6], b: &[f64; 6]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5])
 }
 
-/// `a:a`, that of huge tensors too.
+/// Norm `√(a:a)`, safe from overflow.
 fn norm(a: &[f64; 6]) -> f64 {
     let largest = a.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     if largest == 0.0 || !largest.is_finite() {
@@ -124,16 +124,16 @@ fn norm(a: &[f64; 6]) -> f64 {
     largest * inner(&scaled, &scaled).sqrt()
 }
 
-/// A strain's components as a tensor's: engineering shears halved.
+/// Converts strain components to tensor components: engineering shears are halved.
 fn tensor(strain: &[f64; 6]) -> [f64; 6] {
     std::array::from_fn(|i| if i < 3 { strain[i] } else { 0.5 * strain[i] })
 }
 
 impl Elastoplastic {
-    /// The law with these constants; `otherwise` is the yield stress [Pa] where the scene gives none.
+    /// Creates the law with these constants; `otherwise` is the yield stress [Pa] if the scene sets none.
     ///
     /// # Panics
-    /// If constants of elasticity are missing, which checked scenes that ask for mechanics have.
+    /// If constants of elasticity are missing; checked scenes with mechanics have them.
     pub fn of(
         elasticity: &Elasticity,
         yielding: &Yielding,
@@ -159,7 +159,7 @@ impl Elastoplastic {
         }
     }
 
-    /// The law that never yields.
+    /// Creates the law without yielding.
     pub fn elastic(law: &Thermoelastic, stress_free_temperature: f64) -> Self {
         Self {
             young: constant(law.young),
@@ -172,8 +172,8 @@ impl Elastoplastic {
         }
     }
 
-    /// The constants at a temperature [K]; nothing where they are none: not positive moduli, −1 < ν < ½, a negative
-    /// yield stress, softening, or no numbers.
+    /// Returns the constants at a temperature [K]; `None` if they are invalid. Invalid are non-positive moduli, ν
+    /// outside of −1 < ν < ½, a negative yield stress, softening, and NaN.
     pub fn at(&self, temperature: f64) -> Option<PointConstants> {
         let (young, poisson) = ((self.young)(temperature), (self.poisson)(temperature));
         let constants = PointConstants {
@@ -197,21 +197,21 @@ impl PointConstants {
         moduli && hardening && self.thermal_strain.is_finite() && self.yield_stress >= 0.0
     }
 
-    /// `E/(1 − ν) = 18KG/(3K + 4G)`, of stress over strain in two directions [Pa].
+    /// `E/(1 − ν) = 18KG/(3K + 4G)`, the ratio of stress to strain for equibiaxial strain [Pa].
     pub fn biaxial_modulus(&self) -> f64 {
         18.0 * self.bulk * self.shear / (3.0 * self.bulk + 4.0 * self.shear)
     }
 
-    /// The tangent where nothing yields.
+    /// Returns the tangent without yielding.
     pub fn elastic_tangent(&self) -> PointTangent {
         PointTangent { bulk: self.bulk, all: 2.0 * self.shear, along: 0.0, direction: [0.0; 6] }
     }
 
-    /// The part of stress that a change of shape makes, [Pa]: the return to the yield surface.
+    /// Returns the stress of a change of shape [Pa], after the return to the yield surface.
     ///
-    /// `shape` is the strain less a third of the elastic change of volume and less the thermal strain in each
-    /// direction, with engineering shears. It is a deviator where elements take the change of volume at the point
-    /// itself; what a projected one leaves over yields with the rest.
+    /// `shape` is the strain minus a third of the elastic volume change and minus the thermal strain in each direction,
+    /// with engineering shears. It is a deviator if elements use the volume change at the point itself. The remainder
+    /// of a projected volume change yields with the rest.
     pub fn return_to_yield(
         &self,
         shape: &[f64; 6],
@@ -226,7 +226,7 @@ impl PointConstants {
         let xi: [f64; 6] = std::array::from_fn(|i| trial[i] - back[i]);
         let size = norm(&xi);
         let excess = size - self.radius(old.accumulated);
-        // Not `excess <= 0`: what is no number goes on as it is.
+        // Not `excess <= 0`, so that NaN propagates.
         if excess.is_nan() || excess <= 0.0 || !size.is_finite() {
             return (trial, tangent);
         }
@@ -240,7 +240,7 @@ impl PointConstants {
         }
         new.accumulated += ROOT * flow;
         new.dissipated += (self.yield_stress * ROOT + overstress) * flow;
-        // From the surface of flow, not from the trial, which may be far beyond it.
+        // From the flow surface, not from the trial, which may be far beyond it.
         let radius = self.radius(new.accumulated) + overstress;
         let back = self.back_stress(&new.back_strain);
         let stress = std::array::from_fn(|i| back[i] + radius * direction[i]);
@@ -264,7 +264,7 @@ impl PointConstants {
         norm(&xi) - self.radius(history.accumulated)
     }
 
-    /// Plastic strain that would accumulate over the step if a stress [Pa] stayed; nothing where flow takes no time.
+    /// Plastic strain that would accumulate over the step at constant stress [Pa]; `None` for rate-independent flow.
     pub fn flow_at(&self, stress: &[f64; 6], history: &PlasticHistory) -> Option<f64> {
         if self.overstress == Overstress::NONE {
             return None;
@@ -277,7 +277,7 @@ impl PointConstants {
         tensor(back_strain).map(|a| self.kinematic / 1.5 * a)
     }
 
-    /// Energy that hardening keeps per volume, `½ H_i p² + ⅓ H_k a:a` [J/m³].
+    /// Energy stored by hardening per volume, `½ H_i p² + ⅓ H_k a:a` [J/m³].
     pub fn hardening_energy(&self, history: &PlasticHistory) -> f64 {
         let back = tensor(&history.back_strain);
         0.5 * self.isotropic * history.accumulated.powi(2)
@@ -286,7 +286,7 @@ impl PointConstants {
 }
 
 impl PointTangent {
-    /// The change of stress that goes with a change of shape, engineering shears.
+    /// Change of stress for a change of shape with engineering shears.
     #[inline]
     pub fn of_shape(&self, change: &[f64; 6]) -> [f64; 6] {
         let n = &self.direction;
@@ -294,7 +294,7 @@ impl PointTangent {
         std::array::from_fn(|i| self.all * change[i] * if i < 3 { 1.0 } else { 0.5 } + along * n[i])
     }
 
-    /// The change of stress that goes with a strain.
+    /// Change of stress for a strain.
     pub fn of_strain(&self, strain: &[f64; 6]) -> [f64; 6] {
         let volume = strain[0] + strain[1] + strain[2];
         let mut shape = *strain;
@@ -310,7 +310,7 @@ impl Law for Elastoplastic {
         PlasticHistory::LEN
     }
 
-    /// Where the constants are none at this temperature, the answer is no number.
+    /// NaN if the constants are invalid at this temperature.
     fn respond(
         &self,
         strain: &[f64; 6],
@@ -339,7 +339,7 @@ impl From<Elastoplastic> for Arc<dyn FlowLaw> {
     }
 }
 
-/// The response by constants; no number where there are none.
+/// Response with given constants; NaN without any.
 pub(super) fn respond_at(
     constants: Option<PointConstants>,
     strain: &[f64; 6],
@@ -358,7 +358,7 @@ pub(super) fn respond_at(
     after.write(new);
     let pressure = constants.bulk * (volume - 3.0 * constants.thermal_strain);
     stress[..3].iter_mut().for_each(|s| *s += pressure);
-    // Symmetric: its columns are its rows.
+    // Symmetric: columns equal rows.
     let rows = std::array::from_fn(|j| {
         tangent.of_strain(&std::array::from_fn(|i| f64::from(u8::from(i == j))))
     });

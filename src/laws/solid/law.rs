@@ -17,34 +17,34 @@ pub trait Keys {
     }
 }
 
-/// A law as a scene names it.
+/// A law as set in a scene.
 pub trait Deformation: Keys {
     fn elasticity(&self) -> &Elasticity;
 
-    /// Keys that a scene must give, each with what it is and why it must be there.
+    /// Keys that a scene must set, each with its allowed values and the reason.
     fn needs(&self) -> Vec<Need> {
         Vec::new()
     }
 
-    /// Returns true if strain may stay.
+    /// Returns true if the law allows permanent strain.
     fn yields(&self) -> bool {
         false
     }
 
-    /// Returns true if strain goes on under a stress that stays.
+    /// Returns true if strain continues under constant stress.
     fn creeps(&self) -> bool {
         false
     }
 
-    /// Returns true if stress follows from deformation and temperature alone, and linearly.
+    /// Returns true if stress is a linear function of deformation and temperature alone.
     fn is_linear(&self) -> bool {
         !self.yields() && self.properties().iter().all(|(_, property)| property.is_constant())
     }
 
-    /// The law, free of stress at a temperature [K].
+    /// Returns the flow law, stress-free at a temperature [K].
     ///
     /// # Panics
-    /// If constants of elasticity are missing, which checked scenes that ask for mechanics have.
+    /// If constants of elasticity are missing; checked scenes with mechanics have them.
     fn flow_law(&self, stress_free_temperature: f64) -> Arc<dyn FlowLaw>;
 }
 
@@ -62,7 +62,7 @@ pub struct Need {
 pub struct Response {
     /// Stress xx, yy, zz, xy, yz, xz [Pa].
     pub stress: [f64; 6],
-    /// `∂σ_i/∂ε_j` with engineering shears [Pa]: consistent with how the law goes over the step.
+    /// `∂σ_i/∂ε_j` with engineering shears [Pa], consistent with the integration of the law over the step.
     pub tangent: [[f64; 6]; 6],
     /// Energy dissipated per volume in the step [J/m³].
     pub dissipation: f64,
@@ -70,14 +70,14 @@ pub struct Response {
 
 /// A constitutive law of small strains.
 pub trait Law: Send + Sync {
-    /// Length of the history that the law keeps at a point, a list of numbers that begins as zeros.
+    /// Length of the history at a point, a list of numbers that begins as zeros.
     fn history_len(&self) -> usize;
 
-    /// The response to a strain xx, yy, zz, xy, yz, xz (engineering shears) at a temperature [K] after a step of some
-    /// duration [s].
+    /// Computes the response to a strain xx, yy, zz, xy, yz, xz (engineering shears) at a temperature [K] after a step
+    /// of some duration [s].
     ///
     /// The last accepted step left the history `old`; this one would leave `new`. As `old` never changes, a strain may
-    /// be tried and given up at any time.
+    /// be tried and discarded at any time.
     fn respond(
         &self,
         strain: &[f64; 6],
@@ -88,15 +88,15 @@ pub trait Law: Send + Sync {
     ) -> Response;
 }
 
-/// A law by which stress returns along its deviator, as equilibrium of whole bodies takes them.
+/// A law whose stress returns along its deviator, for the equilibrium of whole bodies.
 pub trait FlowLaw: Law {
     /// Temperature without thermal strain [K].
     fn stress_free_temperature(&self) -> f64;
 
-    /// The constants at a temperature [K] over a step [s]; nothing where they are none.
+    /// Returns the constants at a temperature [K] over a step [s]; `None` if they are invalid.
     fn over_step(&self, temperature: f64, duration: f64) -> Option<PointConstants>;
 
-    /// Whether strain goes on under a stress that stays.
+    /// Returns true if strain continues under constant stress.
     fn creeps(&self) -> bool {
         false
     }

@@ -1,7 +1,7 @@
-//! Laws by which solids deform, one a file.
+//! Laws of deformation of solids, one per file.
 //!
-//! To add one: write its file, with a struct of its keys made of [`Part`]s by [`law_of_parts!`] and a [`Deformation`]
-//! that turns them into a [`Law`], and name it in the list of [`SolidLaw`] below.
+//! To add one, write its file with a struct of its keys made of [`Part`]s by [`law_of_parts!`], and a [`Deformation`]
+//! that turns them into a [`Law`]. Then add it to the list of [`SolidLaw`] below.
 
 mod admissible;
 mod elasticity;
@@ -73,7 +73,7 @@ macro_rules! solid_laws {
             /// Values of the key `model`.
             pub const MODELS: &[&str] = &[$($model),+];
 
-            /// Visits the types of the parts that the table of a model consists of, beside those of heat.
+            /// Visits the types of the parts that the table of a model consists of, except those of heat.
             pub fn visit_parts(model: &str, visitor: &mut impl PartVisitor) {
                 match model {
                     $($model => <$keys>::visit_parts(visitor),)+
@@ -81,12 +81,12 @@ macro_rules! solid_laws {
                 }
             }
 
-            /// The law behind the interface that all laws share.
+            /// Returns the law behind the interface shared by all laws.
             pub fn deformation(&self) -> &dyn Deformation {
                 match self { $(Self::$law(law) => law),+ }
             }
 
-            /// The law's constants, to be changed.
+            /// Returns the law's constants for modification.
             pub fn parts_mut(&mut self) -> Vec<&mut dyn Part> {
                 match self { $(Self::$law(law) => law::Keys::parts_mut(law)),+ }
             }

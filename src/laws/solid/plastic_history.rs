@@ -1,10 +1,10 @@
-/// PlasticHistory of J₂ plasticity at a point; shears of strains are engineering shears.
+/// History of J₂ plasticity at a point; shears of strains are engineering shears.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PlasticHistory {
     /// Plastic strain xx, yy, zz, xy, yz, xz [1].
     pub plastic_strain: [f64; 6],
-    /// The strain `a` that the back stress `β = ⅔ H_k a` follows from [1]. It is kept instead of β, so that β stays a
-    /// function of temperature where H_k is one, and hardening neither makes nor loses energy.
+    /// The strain `a` of the back stress `β = ⅔ H_k a` [1]. It is stored instead of β, so that β follows a
+    /// temperature-dependent H_k, and hardening conserves energy.
     pub back_strain: [f64; 6],
     /// Accumulated plastic strain `p = ∫ √(⅔ ε̇ₚ:ε̇ₚ) dt` [1].
     pub accumulated: f64,
@@ -13,7 +13,7 @@ pub struct PlasticHistory {
 }
 
 impl PlasticHistory {
-    /// Length of the list in which a history is kept.
+    /// Length of the list that stores a history.
     pub const LEN: usize = 14;
 
     /// Reads the first [`Self::LEN`] numbers: plastic strain, back strain, accumulated strain, dissipated energy.

@@ -24,8 +24,8 @@ pub fn max_principal(stress: [f64; 6]) -> f64 {
     scale * (mean + 2.0 * spread * (ratio.acos() / 3.0).cos())
 }
 
-/// The power of two below the largest component, so that squares and cubes of scaled components neither
-/// overflow nor vanish and scaling rounds nothing; NaN where a component is no finite number.
+/// Power of two below the largest component. Scaled squares and cubes neither overflow nor underflow, and scaling
+/// causes no rounding. NaN if a component is not finite.
 fn scale(stress: [f64; 6]) -> f64 {
     const EXPONENT: u64 = 0x7ff0_0000_0000_0000;
     if !stress.iter().all(|s| s.is_finite()) {
@@ -35,8 +35,7 @@ fn scale(stress: [f64; 6]) -> f64 {
     f64::from_bits(largest.to_bits() & EXPONENT)
 }
 
-/// Turns a stress in cylindrical components rr, tt, zz, rz at the angle of `(x, y)` into Cartesian
-/// ones.
+/// Converts a stress in cylindrical components rr, tt, zz, rz at the angle of `(x, y)` to Cartesian ones.
 pub fn from_cylindrical([rr, tt, zz, rz]: [f64; 4], x: f64, y: f64) -> [f64; 6] {
     let r = x.hypot(y);
     let (c, s) = if r > 0.0 { (x / r, y / r) } else { (1.0, 0.0) };
@@ -57,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn the_largest_principal_stress_is_an_eigenvalue() {
+    fn largest_principal_stress_is_an_eigenvalue() {
         let s = [3.0, -1.0, 2.0, 0.7, -0.4, 1.1];
         let m = nalgebra::Matrix3::new(s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2]);
         let largest = m.symmetric_eigenvalues().max();

@@ -1,13 +1,13 @@
-//! How measures of a stress state change when the stress changes; order xx, yy, zz, xy, yz, xz [Pa].
+//! Rates of measures of a stress state when the stress changes; order xx, yy, zz, xy, yz, xz [Pa].
 //!
-//! Where a measure has a kink, as both have at zero stress, its one-sided derivative in the
-//! direction of the change is given.
+//! At a kink of a measure, as both have at zero stress, the rate is the one-sided derivative in the direction of the
+//! change.
 
 use nalgebra::{DMatrix, Matrix3};
 
 use super::stress::{max_principal, von_mises};
 
-/// Principal stresses closer than this, relative to the largest magnitude, count as one.
+/// Relative difference of principal stresses, over the largest magnitude, below which they count as equal.
 const SAME: f64 = 1e-10;
 
 /// Rate of the von Mises stress: `(3/2) s : σ̇ / σ_vM` with the deviator `s`.

@@ -63,8 +63,8 @@ impl Thermoelastic {
         (3.0 * self.lame_first() + 2.0 * self.shear_modulus()) * self.expansion
     }
 
-    /// Strain along its normal, per kelvin, of a layer that is held sideways and free along its
-    /// normal: `α (1 + ν) / (1 − ν)` [1/K].
+    /// Strain per kelvin along the normal of a layer that is held laterally and free along its normal:
+    /// `α (1 + ν) / (1 − ν)` [1/K].
     pub fn layer_strain(&self) -> f64 {
         self.expansion * (1.0 + self.poisson) / (1.0 - self.poisson)
     }

@@ -1,4 +1,4 @@
-//! Viscoplasticity: J₂ plasticity whose flow takes time.
+//! Viscoplasticity: rate-dependent J₂ plasticity.
 //!
 //! Beyond its yield surface (see `elastoplastic`) a body flows at the rate of a power of the overstress (P. Perzyna
 //! 1966, doi 10.1016/S0065-2156(08)70009-7; F. H. Norton 1929)
@@ -26,7 +26,7 @@ law_of_parts! {
     ViscoplasticLaw { elasticity: Elasticity, yielding: Yielding, flow: Flow }
 }
 
-/// What flow follows.
+/// Keys of flow that takes time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Flow {
     /// Rate at which the body flows.
@@ -88,7 +88,7 @@ pub struct Creep {
     pub activation_temperature: f64,
 }
 
-/// The law.
+/// The viscoplastic law.
 #[derive(Clone)]
 pub struct Viscoplastic {
     /// Elasticity, yield and hardening.
@@ -96,16 +96,16 @@ pub struct Viscoplastic {
     pub creep: Creep,
 }
 
-/// How flow over a step follows from the overstress, `γ = c sⁿ`.
+/// Flow over a step as a function of the overstress, `γ = c sⁿ`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overstress {
-    /// ln c, c in 1/Paⁿ; infinite where flow takes no time.
+    /// ln c, c in 1/Paⁿ; infinite for rate-independent flow.
     pub logarithm: f64,
     /// n
     pub exponent: f64,
 }
 
-/// How the excess of a trial over the yield surface parts.
+/// Split of the excess of a trial over the yield surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Parted {
     /// γ [1].
@@ -116,13 +116,13 @@ pub struct Parted {
     pub share: f64,
 }
 
-/// More iterations than any root takes.
+/// Upper limit of iterations, above the number that any root needs.
 const MOST_ITERATIONS: usize = 100;
 /// `ln √(3/2)`
 const LOGARITHM_OF_ROOT: f64 = 0.202_732_554_054_082_2;
 
 impl Creep {
-    /// Over a step [s] at a temperature [K].
+    /// Returns the flow function over a step [s] at a temperature [K].
     pub fn over_step(&self, temperature: f64, duration: f64) -> Overstress {
         let Self { coefficient, exponent, activation_temperature } = *self;
         // γ = √(3/2) p, of a stress that is √(3/2) times the norm.
@@ -133,10 +133,10 @@ impl Creep {
 }
 
 impl Overstress {
-    /// Flow that takes no time: there is no overstress.
+    /// Rate-independent flow, without overstress.
     pub const NONE: Self = Self { logarithm: f64::INFINITY, exponent: 1.0 };
 
-    /// Flow at an overstress [Pa] that stays.
+    /// Flow at a constant overstress [Pa].
     pub fn flow(&self, overstress: f64) -> f64 {
         if overstress > 0.0 {
             (self.logarithm + self.exponent * overstress.ln()).exp()
@@ -145,7 +145,7 @@ impl Overstress {
         }
     }
 
-    /// Logarithm of the flow at an overstress [Pa] that stays; minus infinity where nothing flows.
+    /// Logarithm of the flow at a constant overstress [Pa]; minus infinity without flow.
     pub fn logarithm_of_flow(&self, overstress: f64) -> f64 {
         if overstress > 0.0 {
             self.logarithm + self.exponent * overstress.ln()
@@ -154,16 +154,16 @@ impl Overstress {
         }
     }
 
-    /// Overstress [Pa] at which flow has a logarithm.
+    /// Overstress [Pa] at which the logarithm of the flow has a value.
     pub fn of_flow(&self, logarithm: f64) -> f64 {
         ((logarithm - self.logarithm) / self.exponent).exp()
     }
 
-    /// Parts an excess e > 0 [Pa] by `e = s + m γ`, with a modulus m [Pa].
+    /// Splits an excess e > 0 [Pa] by `e = s + m γ`, with a modulus m [Pa].
     ///
-    /// With `s = e x`, `x + β xⁿ = 1` where `β = m c eⁿ⁻¹`. The root lies below both 1 and β^(−1/n); over the smaller
-    /// of them it is that of `a t + b tⁿ = 1`, of which one is 1 and the other less. That is convex and grows, so
-    /// Newton's method from t = 1 comes down to the root, whatever the numbers.
+    /// With `s = e x`, `x + β xⁿ = 1` where `β = m c eⁿ⁻¹`. The root is below both 1 and β^(−1/n). Scaled by the
+    /// smaller of them it solves `a t + b tⁿ = 1`, where one coefficient is 1 and the other is less. The left side is
+    /// convex and increasing, so Newton's method from t = 1 decreases to the root, whatever the numbers.
     pub fn part(&self, excess: f64, modulus: f64) -> Parted {
         let n = self.exponent;
         let beta = self.logarithm + modulus.ln() + (n - 1.0) * excess.ln();
@@ -172,7 +172,7 @@ impl Overstress {
         for _ in 0..MOST_ITERATIONS {
             let power = t.powf(n - 1.0);
             let change = (a * t + b * power * t - 1.0) / (a + n * b * power);
-            // Rounding may turn it at the root.
+            // Rounding may reverse its sign at the root.
             if change.is_nan() || change <= 0.5 * f64::EPSILON * t {
                 break;
             }
@@ -180,7 +180,7 @@ impl Overstress {
         }
         let (linear, power) = (a * t, b * t.powf(n));
         let share = if power > 0.0 { 1.0 / (1.0 + linear / (n * power)) } else { 0.0 };
-        // Each from where it is small itself, not a difference.
+        // Each is computed from its own small expression, not from a difference.
         Parted { flow: excess / modulus * power, overstress: excess * linear, share }
     }
 }
@@ -205,7 +205,7 @@ impl Law for Viscoplastic {
         PlasticHistory::LEN
     }
 
-    /// Where the constants are none at this temperature, the answer is no number.
+    /// NaN if the constants are invalid at this temperature.
     fn respond(
         &self,
         strain: &[f64; 6],
@@ -223,7 +223,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_excess_parts_whatever_the_numbers() {
+    fn excess_is_split_for_all_magnitudes() {
         for exponent in [1.0, 1.5, 3.0, 5.0, 12.0, 50.0] {
             for beta in [-700.0, -300.0, -30.0, -3.0, -1e-9, 0.0, 1e-9, 2.0, 40.0, 300.0, 3e3, 1e5]
             {

@@ -1,27 +1,27 @@
-//! A body in numbers: what follows from enthalpies, and the heat that they cause to flow.
+//! Discrete data of a body: fields that follow from enthalpies, and the heat flow that they cause.
 
 use super::grid::Grid;
 use super::lateral::{End, Lateral};
 use super::setup::{Condition, Loads, Setup};
 use crate::laws::{Curve, Enthalpy, radiative_flux, radiative_slope};
 
-/// All that is known before time starts.
+/// All data known before time starts.
 pub struct Body {
     pub reference: f64,
     pub copies: f64,
     pub grid: Grid,
     pub lateral: Lateral,
-    /// Next to each node [m³].
+    /// Volume next to each node [m³].
     pub volumes: Vec<f64>,
-    /// Laws of the levels' volumetric enthalpy, and which one each has.
+    /// Laws of the levels' volumetric enthalpy, and the index of each level's law.
     laws: Vec<Enthalpy>,
     law_of: Vec<usize>,
     /// Heat conductivity integral of each material.
     curves: Vec<Curve>,
     pub faces: Vec<FaceNodes>,
-    /// Whether a node has a prescribed temperature.
+    /// True if a node has a prescribed temperature.
     pub held: Vec<bool>,
-    /// Whether systems are symmetric: one material without contacts.
+    /// True if systems are symmetric: one material without contacts.
     pub is_symmetric: bool,
 }
 
@@ -29,20 +29,20 @@ pub struct FaceNodes {
     pub condition: Condition,
     axis: usize,
     high: bool,
-    /// With their areas [m²]; of a prescribed face those that it holds.
+    /// Nodes with their areas [m²]; for a prescribed face those that it holds.
     pub nodes: Vec<(usize, f64)>,
     measure: f64,
 }
 
-/// What belongs to the nodes' enthalpies.
+/// Fields that follow from the nodal enthalpies.
 pub struct Fields {
     /// Temperature above the reference [K].
     pub rise: Vec<f64>,
     /// `dT/dH` [m³ K/J]
     pub inverse_capacity: Vec<f64>,
-    /// `ρc` without what melting takes [J/(m³ K)].
+    /// `ρc` without latent heat [J/(m³ K)].
     pub sensible: Vec<f64>,
-    /// Of the material below and above [W/(m K)], and their integrals from the reference [W/m].
+    /// Conductivity of the material below and above [W/(m K)], and its integral from the reference [W/m].
     pub conductivity: [Vec<f64>; 2],
     pub integral: [Vec<f64>; 2],
 }
@@ -55,10 +55,10 @@ pub struct Drive {
 
 /// Heat that flows at a moment [W].
 pub struct Flow {
-    /// Into the nodes.
+    /// Heat flow into the nodes.
     pub nodes: Vec<f64>,
     pub brought_in: f64,
-    /// Through faces whose temperature matters, but for those of prescribed temperature.
+    /// Heat flow out through faces whose flux depends on the temperature, without those of prescribed temperature.
     pub lost: f64,
 }
 
@@ -178,8 +178,8 @@ impl Body {
         }
     }
 
-    /// How the heat that nodes lose grows with their temperature [W/K], and its mean over the areas of bottom and top
-    /// [W/(m² K)].
+    /// Derivative of the nodal heat losses with respect to temperature [W/K], and its mean over the areas of bottom and
+    /// top [W/(m² K)].
     pub fn losses(&self, fields: &Fields) -> (Vec<f64>, [f64; 2]) {
         let mut losses = vec![0.0; fields.rise.len()];
         let mut ends = [0.0; 2];
@@ -197,7 +197,7 @@ impl Body {
         (losses, ends)
     }
 
-    /// Gives the nodes of prescribed temperature the enthalpy of that.
+    /// Sets the enthalpy of nodes of prescribed temperature.
     pub fn hold(&self, contents: &mut [f64], drive: &Drive) {
         for (face, value) in self.faces.iter().zip(&drive.faces) {
             if face.condition == Condition::Prescribed {
@@ -210,7 +210,7 @@ impl Body {
 }
 
 impl Drive {
-    /// Loads a time `t` after the beginning of a step, from their values there and their derivatives.
+    /// Returns the loads a time `t` after the beginning of a step, from their values there and their derivatives.
     pub fn at(loads: &[Loads], t: f64) -> Self {
         let mut drive = Self { faces: Vec::new(), surface: [Vec::new(), Vec::new()] };
         let mut weight = 1.0;
@@ -230,7 +230,7 @@ fn add(sum: &mut Vec<f64>, list: &[f64], weight: f64) {
     sum.iter_mut().zip(list).for_each(|(sum, value)| *sum += weight * value);
 }
 
-/// One law for each pair of materials and their share that a level has.
+/// Returns one law for each combination of materials and their shares in a level.
 fn laws(setup: &Setup, grid: &Grid) -> (Vec<Enthalpy>, Vec<usize>) {
     let mut kinds: Vec<([usize; 2], f64)> = Vec::new();
     let mut laws = Vec::new();
@@ -270,7 +270,7 @@ fn face_nodes(setup: &Setup, grid: &Grid, held: &mut [bool]) -> Vec<FaceNodes> {
     setup.faces.iter().map(face_nodes).collect()
 }
 
-/// How the ends along x and y conduct, about: the materials' mean conductivity at the reference.
+/// Approximate end conditions along x and y: with the materials' mean conductivity at the reference.
 fn lateral_ends(grid: &Grid, curves: &[Curve], faces: &[FaceNodes]) -> [[End; 2]; 2] {
     let (mut sum, mut height) = (0.0, 0.0);
     for level in &grid.levels {

@@ -1,4 +1,4 @@
-//! Nodes in levels along z, the volumes next to them and the conductances between them.
+//! Nodes in levels along z, with their volumes and conductances.
 
 use super::setup::Setup;
 use crate::method::mesh::Axis;
@@ -8,7 +8,7 @@ pub struct Grid {
     /// Along x and y.
     pub sides: [Side; 2],
     pub levels: Vec<Level>,
-    /// Between a level and the next.
+    /// Joints between a level and the next.
     pub joints: Vec<Joint>,
 }
 
@@ -50,7 +50,7 @@ impl Grid {
             let below = k.checked_sub(1).map(|e| (half(e), layers[e]));
             let above = layers.get(k).map(|&material| (half(k), material));
             let level = |below: Option<(f64, usize)>, above: Option<(f64, usize)>| {
-                // What is not there has no height, and the material of the other side. A point has measure one.
+                // A missing side has no height, and the material of the other side. A point has measure one.
                 let some = below.or(above).unwrap_or((1.0, 0));
                 let sides = match (below, above) {
                     (None, None) => [some, (0.0, 0)],
@@ -73,7 +73,7 @@ impl Grid {
         Self { sides, levels, joints }
     }
 
-    /// Nodes of a level.
+    /// Number of nodes of a level.
     pub fn plane(&self) -> usize {
         self.sides[0].mass.len() * self.sides[1].mass.len()
     }
@@ -82,13 +82,13 @@ impl Grid {
         self.plane() * self.levels.len()
     }
 
-    /// Areas next to the nodes of a level [m²].
+    /// Area next to each node of a level [m²].
     pub fn areas(&self) -> Vec<f64> {
         let [x, y] = &self.sides;
         y.mass.iter().flat_map(|my| x.mass.iter().map(move |mx| mx * my)).collect()
     }
 
-    /// What a level conducts sideways from each of its nodes, over its height [1].
+    /// Diagonal of lateral conduction for each node of a level, over its height [1].
     pub fn lateral_diagonal(&self) -> Vec<f64> {
         let [x, y] = &self.sides;
         let of = |(j, my): (usize, &f64)| {
@@ -98,8 +98,8 @@ impl Grid {
         y.mass.iter().enumerate().flat_map(of).collect()
     }
 
-    /// Heat into each node [W]: `∫ k dT` as seen from the element below and from the one above, temperatures at
-    /// contacts. What is given to one node is taken from another.
+    /// Computes the heat flow into each node [W] from `∫ k dT` with the materials of the elements below and above, and
+    /// from temperatures at contacts. Flows between two nodes are equal and opposite.
     pub fn conduct(&self, integrals: [&[f64]; 2], temperatures: &[f64], out: &mut [f64]) {
         out.fill(0.0);
         let plane = self.plane();
@@ -181,7 +181,7 @@ impl Level {
         self.heights[0] + self.heights[1]
     }
 
-    /// Whether both sides are of one material.
+    /// Returns true if both sides are of one material.
     pub fn is_uniform(&self) -> bool {
         self.materials[0] == self.materials[1]
     }

@@ -1,4 +1,4 @@
-//! Modes of conduction along x and y, which take the levels of a body apart.
+//! Modes of conduction along x and y, which decouple into systems along z.
 
 use faer::{Mat, MatRef};
 
@@ -6,18 +6,18 @@ use super::grid::Side;
 use crate::math::eigenvectors::eigenvectors;
 use crate::math::product::product;
 
-/// Mass-normal modes along both lateral axes, masses being lumped.
+/// Mass-normal modes along both lateral axes, with lumped masses.
 pub struct Lateral {
     axes: [Modes; 2],
 }
 
 struct Modes {
-    /// By columns; zero at nodes that are held.
+    /// Modes by columns; zero at held nodes.
     shapes: Mat<f64>,
     decay: Vec<f64>,
 }
 
-/// How an end of an axis conducts into its surroundings.
+/// Thermal condition of an end of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum End {
     Held,
@@ -30,7 +30,7 @@ impl Lateral {
         Self { axes: [0, 1].map(|a| Modes::new(&sides[a], ends[a])) }
     }
 
-    /// Modes of a level.
+    /// Number of modes of a level.
     pub fn count(&self) -> usize {
         self.axes.iter().map(|modes| modes.decay.len()).product()
     }

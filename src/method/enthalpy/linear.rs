@@ -1,24 +1,23 @@
-//! The linear systems of Newton's method, and what they are preconditioned by.
+//! The linear systems of Newton's method and their preconditioner.
 //!
-//! The unknown is the temperature in units in which a level conducts as at the reference: `x = κ δT`, κ the
-//! conductivity over that at the reference. So within a material the system is symmetric, `(V ∂H/∂x + τ K) x = −r`,
-//! with a constant K; where materials or contacts lie along z it is not. Where enthalpy changes at one temperature,
-//! x is zero.
+//! The unknown is the temperature change scaled by conductivity, `x = κ δT`, with κ the conductivity over that at the
+//! reference. Within one material the system is then symmetric, `(V ∂H/∂x + τ K) x = −r`, with a constant K. With
+//! several materials or contacts along z it is not. Where enthalpy changes at one temperature, x is zero.
 //!
-//! The preconditioner takes means over each level but for the diagonal, `S Ā S` with `S² = diag A / diag Ā`:
-//! eigenvectors along x and y leave one system with three diagonals along z for each mode, not symmetric either. It
-//! is exact where constants differ along z alone, whatever the layers, gradings and fronts there are; S makes it
-//! good for short steps too, and for nodes that melt.
+//! The preconditioner uses means over each level except for the diagonal, `S Ā S` with `S² = diag A / diag Ā`.
+//! Eigenvectors along x and y leave one tridiagonal system along z for each mode, in general not symmetric. It is exact
+//! if constants differ along z alone, whatever the layers, gradings and fronts are. S makes it effective for short
+//! steps too, and for melting nodes.
 
 use super::grid::{Grid, Joint};
 use super::lateral::Lateral;
 use crate::math::conjugate_gradients::Operator;
 
-/// What the nodes have to do with a system, all of the length of these.
+/// Nodal coefficients of a system.
 pub struct Coefficients<'a> {
-    /// Volume over the change of x with the volumetric enthalpy: infinite at nodes that are not solved for.
+    /// Volume over the change of x with the volumetric enthalpy: infinite at held nodes.
     pub storage: Vec<f64>,
-    /// Heat into the surroundings of a temperature [W/K], over κ.
+    /// Derivative of the heat loss to the surroundings [W/K], over κ.
     pub loss: Vec<f64>,
     /// Conductivities below and above, over κ.
     pub ratios: [Vec<f64>; 2],
@@ -34,7 +33,7 @@ pub struct System<'a> {
     lateral: &'a Lateral,
     /// Length of an implicit step [s].
     tau: f64,
-    /// Whether conductivities below and above differ anywhere, or there are contacts.
+    /// True if conductivities below and above differ anywhere, or there are contacts.
     has_layers: bool,
     storage: Vec<f64>,
     loss: Vec<f64>,
@@ -49,7 +48,7 @@ pub struct System<'a> {
     pivots: Vec<f64>,
 }
 
-/// Means of the levels, per area: what couples a level to itself, to the one below and to the one above; and to itself
+/// Means of the levels, per area: coupling of a level to itself, to the one below and to the one above; and to itself
 /// times the eigenvalue of a mode.
 struct Bands {
     diagonal: Vec<f64>,
@@ -93,12 +92,12 @@ impl<'a> System<'a> {
         self.storage[node]
     }
 
-    /// Heat that a node gives to its neighbours, per its temperature [W/K].
+    /// Heat flow from a node to its neighbours, per its temperature [W/K].
     pub fn conducted(&self, node: usize) -> f64 {
         self.own[node] / self.inverse[node]
     }
 
-    /// Heat that it gives to the surroundings, per its temperature [W/K].
+    /// Heat flow from a node to the surroundings, per its temperature [W/K].
     pub fn lost(&self, node: usize) -> f64 {
         self.loss[node] / self.inverse[node]
     }
@@ -114,7 +113,7 @@ impl<'a> System<'a> {
         self.grid.conduct([&below, &above], &times(&self.inverse), out);
     }
 
-    /// `√(diag Ā / diag A)`, zero where nothing is solved for.
+    /// `√(diag Ā / diag A)`, zero at held nodes.
     fn scales(&self) -> Vec<f64> {
         let (areas, sideways) = (self.grid.areas(), self.grid.lateral_diagonal());
         let plane = areas.len();
@@ -127,7 +126,7 @@ impl<'a> System<'a> {
         (0..self.own.len()).map(scale).collect()
     }
 
-    /// The diagonal of conduction.
+    /// Returns the diagonal of conduction.
     fn conducted_diagonal(&self) -> Vec<f64> {
         let (areas, sideways) = (self.grid.areas(), self.grid.lateral_diagonal());
         let plane = areas.len();
@@ -202,7 +201,7 @@ impl Bands {
             bands.spread[k] = tau
                 * (level.heights[0] * means.ratios[0][k] + level.heights[1] * means.ratios[1][k]);
             if !means.storage[k].is_finite() {
-                // Nothing of the level is solved for.
+                // No node of the level is free.
                 (bands.diagonal[k], bands.spread[k]) = (1.0, 0.0);
                 (bands.below[k], bands.above[k]) = (0.0, 0.0);
             }
@@ -247,9 +246,9 @@ impl Bands {
     }
 }
 
-/// Means over the nodes of each level that are not held.
+/// Means over the free nodes of each level.
 struct Means {
-    /// Per area; infinite where nothing of a level changes its temperature.
+    /// Per area; infinite where no node of a level changes its temperature.
     storage: Vec<f64>,
     ratios: [Vec<f64>; 2],
     inverse: Vec<f64>,

@@ -1,4 +1,4 @@
-//! The nonlinear heat of a body, its state and how that advances.
+//! Nonlinear heat problem of a body, its state and time integration.
 
 use super::body::{Body, Drive};
 use super::setup::{Loads, Setup, SetupError};
@@ -7,17 +7,17 @@ use super::step::{Outcome, Step};
 use crate::method::heat_totals::HeatTotals;
 use crate::runtime::allowance::{Allowance, Halt};
 
-/// What a step aims at, in parts of the error allowed; and how much the next one may be shorter or longer.
+/// Target error of a step, as a fraction of the allowed one, and limits of the ratio of step lengths.
 const AIM: f64 = 0.9;
 const SHRINK: f64 = 0.1;
 const GROWTH: f64 = 4.0;
-/// Part of its length that a step is given again where its systems could not be solved.
+/// Factor of the length at which a step is repeated if its systems could not be solved.
 const RETREAT: f64 = 0.25;
-/// Part of a communication step below which inner steps are given up: the time would not go on.
+/// Fraction of a communication step below which inner steps are abandoned: time would no longer advance.
 const SHORTEST: f64 = 1e-16;
-/// Change of temperature that a first step is made for, in tolerances.
+/// Temperature change of a first step, in tolerances.
 const FIRST: f64 = 10.0;
-/// Numbers a node that a problem and a step of it hold at once.
+/// Numbers per node that a problem and a step of it hold at once.
 const VECTORS: f64 = 65.0;
 
 /// Entries of the state after the nodes' enthalpies.
@@ -26,17 +26,18 @@ const COUNT: usize = 1;
 const INITIAL: usize = 2;
 const EXTRA: usize = 5;
 
-/// The nonlinear heat problem of a body: everything known before time starts.
+/// Nonlinear heat problem of a body: everything known before time starts.
 ///
-/// Its state is a vector: for each node, x running fastest, then y, then the levels along z, the volumetric enthalpy
-/// above that of the solid at the reference temperature [J/m³]; then the length of the next inner step [s], zero before
-/// the first; the number of inner steps made; the heat of the body at time zero above that at the reference; the heat
-/// brought in and the heat lost since then [J]. At a contact two levels stand at one height, the lower side's first.
+/// Its state is a vector. It begins with the volumetric enthalpy of each node above that of the solid at the reference
+/// temperature [J/m³], with x running fastest, then y, then the levels along z. Then follow the length of the next
+/// inner step [s], zero before the first; the number of inner steps made; the heat of the body at time zero above that
+/// at the reference; and the heat supplied and lost since then [J]. At a contact two levels have equal height, with the
+/// lower side first.
 pub struct EnthalpyHeat {
     body: Body,
 }
 
-/// Why a state could not be advanced; it is as it was before.
+/// Reasons why a state could not be advanced; it is then unchanged.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Failure {
     #[error(transparent)]
@@ -54,11 +55,11 @@ pub enum Failure {
 }
 
 impl EnthalpyHeat {
-    /// Memory [bytes] that a problem and a step of it take at most, about, for numbers of nodes along x and y and of
-    /// levels along z.
+    /// Approximate upper bound of the memory [bytes] of a problem and a step of it, for numbers of nodes along x and y
+    /// and of levels along z.
     pub fn expected_bytes(counts: [usize; 3]) -> f64 {
         let [x, y, z] = counts.map(|count| count as f64);
-        // An eigenproblem takes its matrix, its vectors and what they are made in.
+        // An eigenproblem needs its matrix, its vectors and their work space.
         8.0 * (VECTORS * x * y * z + 4.0 * (x * x + y * y))
     }
 
@@ -81,12 +82,12 @@ impl EnthalpyHeat {
         self.nodes() + EXTRA
     }
 
-    /// State of a body at one temperature [K]; solid, where that is the one at which it melts.
+    /// Returns the state of a body at one temperature [K]; at the melting temperature it is solid.
     pub fn initial_state(&self, temperature: f64) -> Vec<f64> {
         self.initial_state_of(&vec![temperature; self.nodes()])
     }
 
-    /// State of a body whose nodes have temperatures [K].
+    /// Returns the state of a body with these nodal temperatures [K].
     pub fn initial_state_of(&self, temperatures: &[f64]) -> Vec<f64> {
         let body = &self.body;
         let content = |(node, t): (usize, &f64)| body.law(node).content(t - body.reference);
@@ -99,8 +100,8 @@ impl EnthalpyHeat {
     /// Advances `state` by `dt` [s] under loads that are polynomials in time, at most quadratic: one entry of `loads`
     /// for their values at the beginning and one for each derivative.
     ///
-    /// `tolerance` [K] is what an inner step may err by at any node, as far as its estimate tells: enthalpy over the
-    /// heat capacity without melting.
+    /// `tolerance` [K] limits the estimated error of an inner step at any node: enthalpy over the heat capacity without
+    /// melting.
     pub fn advance(
         &self,
         state: &mut [f64],
@@ -122,7 +123,7 @@ impl EnthalpyHeat {
             let left = dt - time;
             let wanted = extra[STEP].max(shortest);
             let length = match wanted {
-                // No rest that is short beside the steps before it.
+                // Avoids a remainder that is short relative to the steps before it.
                 long if long >= left * (1.0 - 1e-9) => left,
                 long if 2.0 * long > left => 0.5 * left,
                 short => short,
@@ -130,10 +131,10 @@ impl EnthalpyHeat {
             let step = Step { body: &self.body, loads, start: time, length, tolerance, allowance };
             let (outcome, taken) = attempt(step, &contents, shortest)?;
             time = if taken == left { dt } else { time + taken };
-            // What has just been too long is so again.
+            // A length that was just too long is not tried again.
             let growth = if taken < length { 1.0 } else { GROWTH };
             let next = taken * factor(outcome.error).min(growth);
-            // A step that the end has cut short says little about the next one.
+            // A step cut short by the end is no guide for the next one.
             let is_cut = taken == length && length < wanted && outcome.error <= 0.5;
             extra[STEP] = if is_cut { next.max(wanted) } else { next };
             extra[COUNT] += 1.0;
@@ -164,7 +165,7 @@ impl EnthalpyHeat {
         Ok(())
     }
 
-    /// Time in which what flows at the beginning changes temperatures by some tolerances.
+    /// Time in which the initial heat flow changes temperatures by some tolerances.
     fn first_step(&self, contents: &[f64], loads: &[Loads], dt: f64, tolerance: f64) -> f64 {
         let body = &self.body;
         let drive = Drive::at(loads, 0.0);
@@ -185,7 +186,7 @@ impl EnthalpyHeat {
         self.each(state, |node, content| self.body.reference + self.body.law(node).at(content).rise)
     }
 
-    /// Part of what melts at a node that is liquid: 0 where nothing melts.
+    /// Liquid fraction of the melting material at a node; 0 where nothing melts.
     pub fn liquid_fractions(&self, state: &[f64]) -> Vec<f64> {
         self.each(state, |node, content| {
             let law = self.body.law(node);
@@ -194,7 +195,7 @@ impl EnthalpyHeat {
         })
     }
 
-    /// Volume that each node stands for, of the mesh [m³].
+    /// Volume that each node of the mesh represents [m³].
     pub fn volumes(&self) -> &[f64] {
         &self.body.volumes
     }
@@ -205,12 +206,12 @@ impl EnthalpyHeat {
         self.heat(contents) - extra[INITIAL]
     }
 
-    /// Heat that has passed since time zero [J]; what prescribed temperatures take is lost.
+    /// Heat transferred since time zero [J]; heat absorbed by prescribed temperatures counts as lost.
     pub fn totals(&self, state: &[f64]) -> HeatTotals {
         HeatTotals::read(state)
     }
 
-    /// Inner steps made since time zero.
+    /// Number of inner steps since time zero.
     pub fn steps(&self, state: &[f64]) -> f64 {
         state[self.nodes() + COUNT]
     }
@@ -226,7 +227,7 @@ impl EnthalpyHeat {
     }
 }
 
-/// Takes a step, or a shorter one that can be taken and is accurate enough, and tells its length.
+/// Takes a step, or a shorter one that can be solved and is accurate enough; returns its length.
 fn attempt(mut step: Step, contents: &[f64], shortest: f64) -> Result<(Outcome, f64), Failure> {
     loop {
         step.allowance.spend(1.0, "steps of nonlinear heat", contents.len())?;
@@ -243,9 +244,9 @@ fn attempt(mut step: Step, contents: &[f64], shortest: f64) -> Result<(Outcome, 
     }
 }
 
-/// How long the next step may be over one with an error: the estimate grows as the third power.
+/// Ratio of the next step's length to that of a step with an error: the estimate grows as the third power.
 fn factor(error: f64) -> f64 {
-    // An error that is no number is one that is too large.
+    // NaN counts as too large an error.
     (AIM / error.cbrt()).max(SHRINK)
 }
 

@@ -1,27 +1,27 @@
-//! What a nonlinear heat problem is made of, as plain data.
+//! Data of a nonlinear heat problem.
 
 use crate::laws::{Conduction, ConductionError};
 use crate::method::mesh::{Mesh, MeshFace};
 
-/// A body and what surrounds it.
+/// A body and its surroundings.
 #[derive(Debug, Clone)]
 pub struct Setup {
-    /// Where it is mirrored, all loads are even about the planes.
+    /// If it is mirrored, all loads are even about the planes.
     pub mesh: Mesh,
-    /// Temperature [K] from which enthalpies count; best that of the body at time zero.
+    /// Reference temperature of enthalpies [K], preferably that of the body at time zero.
     pub reference: f64,
     pub materials: Vec<Conduction>,
-    /// For each element of the mesh along z, its material; empty for the first one throughout.
+    /// Material of each element of the mesh along z; empty if the first one applies throughout.
     pub layers: Vec<usize>,
     pub contacts: Vec<Contact>,
-    /// An end of an axis may stand here more than once, as with convection and radiation. All others are insulated.
+    /// An end of an axis may be listed more than once, as with convection and radiation. All other ends are insulated.
     pub faces: Vec<Face>,
 }
 
-/// Resistance to heat between two layers: both have nodes of their own there.
+/// Thermal resistance between two layers, which have separate nodes there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
-    /// Elements along z that lie below it: at least one, and not all of them.
+    /// Number of elements along z below it: at least one, and not all of them.
     pub below: usize,
     /// Contact conductance [W/(m² K)].
     pub conductance: f64,
@@ -34,30 +34,30 @@ pub struct Face {
     pub condition: Condition,
 }
 
-/// Condition on a face, and what the value of the face in [`Loads`] is.
+/// Condition on a face, with the meaning of the face's value in [`Loads`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Condition {
-    /// Heat flux into the body [W/m²] is the value.
+    /// The value is the heat flux into the body [W/m²].
     Flux,
     /// Heat transfer coefficient h [W/(m² K)]; the value is the ambient temperature [K].
     Convective(f64),
     /// Emissivity ε of `q = ε σ (T∞⁴ − T⁴)` [1]; the value is the temperature of the surroundings T∞ [K].
     Radiative(f64),
-    /// Prescribed temperature [K] is the value. On an edge of two, the one listed first holds.
+    /// The value is the prescribed temperature [K]. On an edge of two such faces, the one listed first applies.
     Prescribed,
 }
 
-/// What drives the heat, or a time derivative of it.
+/// Loads of the heat problem, or a time derivative of them.
 #[derive(Debug, Clone, Copy)]
 pub struct Loads<'a> {
-    /// Heat into the nodes of the bottom and the top [W], x running fastest; empty for none. As of linear elements on
-    /// all nodes ([`linear_mesh`]).
+    /// Heat into the nodes of the bottom and the top [W], x running fastest, as for linear elements on all nodes
+    /// ([`linear_mesh`]); empty for none.
     pub surface: &'a [Vec<f64>; 2],
-    /// For each face its value, as its [`Condition`] says.
+    /// Value of each face, as defined by its [`Condition`].
     pub faces: &'a [f64],
 }
 
-/// Why there is no such problem.
+/// Reasons why a setup is invalid.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SetupError {
     #[error("reference temperature {0} K (allowed: finite, above 0)")]
@@ -82,7 +82,7 @@ pub enum SetupError {
     Nodes,
 }
 
-/// The same nodes in linear elements.
+/// Returns the mesh of linear elements on the same nodes.
 pub fn linear_mesh(mesh: &Mesh) -> Mesh {
     let mut linear = mesh.clone();
     linear.axes.iter_mut().for_each(|axis| axis.order = 1);
@@ -143,7 +143,7 @@ impl Setup {
         }
     }
 
-    /// Material of each element along z of linear elements on all nodes.
+    /// Material of each linear element along z.
     pub(super) fn linear_layers(&self) -> Vec<usize> {
         let axis = &self.mesh.axes[2];
         let material = |i: usize| self.layers.get(i / axis.order).copied().unwrap_or(0);

@@ -6,26 +6,26 @@ use crate::math::{bicgstab, conjugate_gradients};
 use crate::runtime::allowance::{Allowance, Halt};
 use crate::runtime::parallel::Team;
 
-/// Newton's steps in a stage; where more are needed, a shorter step costs less.
+/// Largest number of Newton steps in a stage; if more are needed, a shorter step is cheaper.
 const MOST_NEWTON: usize = 16;
-/// Halvings of a step of Newton's.
+/// Largest number of halvings of a Newton step.
 const MOST_HALVINGS: usize = 7;
-/// What rounding leaves of a residual, in parts of what it is the sum of.
+/// Rounding error of a residual, relative to its summands.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
-/// Part of a residual that a linear system may leave; less where Newton's method is about to end.
+/// Residual reduction of a linear system; stricter when Newton's method is about to end.
 const LINEAR: f64 = 1e-2;
-/// `∂T/∂H` times the heat capacity below which a node counts as one that melts at one temperature.
+/// `∂T/∂H` times the heat capacity below which a node counts as melting at one temperature.
 const STILL: f64 = 1e-12;
 
-/// What an implicit stage is to solve.
+/// Data of an implicit stage.
 pub struct Stage<'a> {
     pub body: &'a Body,
     pub drive: &'a Drive,
     /// Length of the implicit step, γ Δt [s].
     pub tau: f64,
-    /// Heat of the nodes without what flows in this stage [J].
+    /// Heat of the nodes without the flow of this stage [J].
     pub known: &'a [f64],
-    /// Residual that may be left, as a temperature [K].
+    /// Allowed residual, as a temperature [K].
     pub tolerance: f64,
     pub allowance: &'a Allowance,
 }
@@ -35,17 +35,17 @@ pub enum Unsolved {
     Halted(Halt),
 }
 
-/// An iterate, and what it lacks.
+/// An iterate with its residual.
 struct Iterate {
     contents: Vec<f64>,
     fields: Fields,
     flow: Flow,
-    /// `V H − τ R − known` [J], zero at nodes that are held.
+    /// `V H − τ R − known` [J], zero at held nodes.
     residual: Vec<f64>,
 }
 
 impl Stage<'_> {
-    /// Improves the enthalpies until they solve the stage; the heat that flows then.
+    /// Improves the enthalpies until they solve the stage; returns them with the resulting heat flow.
     pub fn solve(&self, contents: Vec<f64>) -> Result<(Vec<f64>, Flow), Unsolved> {
         let mut iterate = self.look_at(contents);
         for _ in 0..MOST_NEWTON {
@@ -109,7 +109,7 @@ impl Stage<'_> {
         System::new(&body.grid, &body.lateral, self.tau, coefficients)
     }
 
-    /// For each node one over the residual that may be left [1/J].
+    /// For each node, the inverse of the allowed residual [1/J].
     fn weights(&self, iterate: &Iterate, system: &System) -> Vec<f64> {
         let body = self.body;
         let weight = |node: usize| {
@@ -149,7 +149,7 @@ impl Stage<'_> {
         }
         let change = |node: usize| match (system.is_solved(node), still(node)) {
             (true, _) => system.storage(node) * x[node] / self.body.volumes[node],
-            // The temperature stands still and the enthalpy takes all that comes.
+            // The temperature is constant and the enthalpy absorbs all heat.
             (false, true) => {
                 let heat = self.tau * conducted[node] - iterate.residual[node];
                 heat / self.body.volumes[node]
@@ -159,7 +159,7 @@ impl Stage<'_> {
         Ok((0..size).map(change).collect())
     }
 
-    /// Goes along a direction as far as the residual becomes smaller.
+    /// Moves along a direction as far as the residual decreases.
     fn search(
         &self,
         from: Iterate,
@@ -184,7 +184,7 @@ fn norms(residual: &[f64], weights: &[f64]) -> (f64, f64) {
     let (mut largest, mut sum) = (0.0_f64, 0.0);
     for (r, w) in residual.iter().zip(weights) {
         let scaled = (r * w).abs();
-        // Not `max` alone, which passes over what is no number.
+        // Not `max` alone, which ignores NaN.
         largest = if scaled.is_nan() { f64::INFINITY } else { largest.max(scaled) };
         sum += scaled * scaled;
     }

@@ -1,9 +1,9 @@
 //! One step in time: four stages, of which the first is explicit, of third order with an error estimate of second
 //! (A. Kværnø 2004, doi 10.1023/B:BITN.0000046811.70614.38, method 3(2)).
 //!
-//! All stages are of second order, so that prescribed temperatures that move cost no order. The last stage is the
-//! step's end and damps fast modes wholly (L-stable); the one before it, which the end is compared with, lets them
-//! pass, so a step over what has just changed is seen to be too long.
+//! All stages are of second order, so moving prescribed temperatures do not reduce the order. The last stage is the end
+//! of the step and damps fast modes completely (L-stable). The stage before it, with which the end is compared, does
+//! not damp them, so a step after a jump is recognised as too long.
 
 use super::body::{Body, Drive, Flow};
 use super::setup::Loads;
@@ -14,7 +14,7 @@ use crate::runtime::allowance::Allowance;
 /// γ: root of `γ³ − 3γ² + 3γ/2 − 1/6`.
 const GAMMA: f64 = 0.435_866_521_508_459;
 const STAGES: usize = 4;
-/// Part of the tolerance that Newton's method may leave.
+/// Fraction of the tolerance allowed for the residual of Newton's method.
 const NEWTON: f64 = 0.02;
 
 /// Times of the stages, and the weights of their flows.
@@ -36,10 +36,10 @@ const WEIGHTS: [[f64; STAGES]; STAGES] = [
     ],
 ];
 
-/// The end of a step.
+/// Result of a step.
 pub struct Outcome {
     pub contents: Vec<f64>,
-    /// Heat that came in and went out meanwhile, of the mesh [J].
+    /// Heat that entered and left the mesh during the step [J].
     pub passed: HeatTotals,
     /// Estimate of the error over the tolerance.
     pub error: f64,
@@ -49,7 +49,7 @@ pub struct Outcome {
 pub struct Step<'a> {
     pub body: &'a Body,
     pub loads: &'a [Loads<'a>],
-    /// When it begins within the loads' polynomials, and its length [s].
+    /// Beginning within the loads' polynomials, and length of the step [s].
     pub start: f64,
     pub length: f64,
     /// [K]
@@ -93,8 +93,8 @@ impl Step<'_> {
         known
     }
 
-    /// Where Newton's method begins: on the line through the beginning and the second stage, and the third stage for
-    /// the last, which is of the same time.
+    /// Initial guess of Newton's method: on the line through the beginning and the second stage; for the last stage,
+    /// the third one, which is at the same time.
     fn guess(&self, stage: usize, ends: &[Vec<f64>]) -> Vec<f64> {
         match stage {
             2 => {
@@ -124,7 +124,7 @@ impl Step<'_> {
             }
             end[node] = contents[node] + heat / volume;
             let off = (end[node] - ends[STAGES - 2][node]) / body.law(node).at(end[node]).sensible;
-            // Not `max` alone, which passes over what is no number.
+            // Not `max` alone, which ignores NaN.
             error = if off.is_nan() { f64::INFINITY } else { error.max(off.abs()) };
         }
         Outcome {

@@ -1,4 +1,4 @@
-//! Matrices of whole meshes from those of their elements.
+//! Assembly of the matrices of whole meshes from those of elements.
 
 use super::axisymmetric::{QuadrilateralMatrices, Rectangle};
 use super::hexahedron::HexahedronMatrices;
@@ -8,7 +8,7 @@ use crate::math::stencil_matrix::{Reach, StencilMatrix};
 use crate::method::mesh::{Geometry, Mesh};
 use crate::runtime::parallel;
 
-/// What a matrix makes forces of.
+/// Nodal field that a matrix maps to forces.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Part {
     /// Displacements.
@@ -17,8 +17,8 @@ pub enum Part {
     Thermal,
 }
 
-/// The matrix of a mesh whose layers have these laws from the lowest on, with blocks of so many rows and columns a
-/// pair of nodes.
+/// Assembles the matrix of a mesh whose layers have these laws, from the lowest on. `block` has the numbers of rows and
+/// columns per pair of nodes.
 pub fn assemble(
     mesh: &Mesh,
     laws: &[Thermoelastic],
@@ -54,7 +54,7 @@ fn assemble_box(
     let n = order + 1;
     for ez in 0..nz {
         let law = &laws[mesh.layering.layer_of(ez)];
-        // A slab of element matrices at a time: computed in parallel, added in fixed order.
+        // One slab of element matrices at a time: computed in parallel, added in fixed order.
         let slab = parallel::map(threads, nx * ny, |e| {
             let size = [length(0, e % nx), length(1, e / nx), length(2, ez)];
             HexahedronMatrices::new(order, size, law)
@@ -112,8 +112,8 @@ fn add(target: &mut [f64], values: &[f64]) {
     }
 }
 
-/// The lower triangle of the free part of a symmetric stencil matrix; by symmetry the columns are
-/// read from the rows.
+/// Returns the lower triangle of the free part of a symmetric stencil matrix; by symmetry the columns are read from the
+/// rows.
 pub fn lower_triangle(matrix: &StencilMatrix, degrees: usize, number: &[usize]) -> LowerTriangle {
     let mut triangle = LowerTriangle { column_start: vec![0], ..Default::default() };
     for node in 0..matrix.nodes() {

@@ -32,7 +32,7 @@ pub struct QuadrilateralMatrices {
     locking: LockingTreatment,
 }
 
-/// What keeps the element from locking.
+/// Treatment that keeps the element from locking.
 enum LockingTreatment {
     Enhanced(Enhanced),
     Projected(Projected),
@@ -104,7 +104,7 @@ impl QuadrilateralMatrices {
         element
     }
 
-    /// Strains rr, tt, zz and rz at a local place, as the element's stress follows from them.
+    /// Returns the strains rr, tt, zz and rz at a local place that determine the element's stress.
     pub fn strain(&self, xi: f64, eta: f64, displacement: &[f64], temperature: &[f64]) -> [f64; 4] {
         let point = point_at(self.order, self.rectangle, xi, eta, 0.0);
         let u = DVector::from_column_slice(displacement);
@@ -313,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn a_shift_along_the_axis_costs_no_force() {
+    fn axial_translation_is_force_free() {
         let rectangle = Rectangle { r: [0.0, 0.7], z: [-0.4, -0.1] };
         for order in [1, 2] {
             let element = QuadrilateralMatrices::new(order, rectangle, &law());

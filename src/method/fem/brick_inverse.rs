@@ -1,4 +1,4 @@
-//! The preconditioner of a box: its stiffness without what couples different components of displacement.
+//! Preconditioner of a box: its stiffness without the coupling between displacement components.
 //!
 //! Each diagonal block is a sum of products of matrices of the three axes, nearly `(λ + 2µ) K⊗M⊗M + µ (M⊗K⊗M + M⊗M⊗K)`.
 //! The eigenvectors of K and M along x and y leave one banded system along z for each pair of them (after R. E. Lynch,
@@ -23,7 +23,7 @@ use crate::method::mesh::Axis;
 use crate::method::mesh::Mesh;
 use crate::runtime::parallel::Team;
 
-/// Eigenvectors of the axes for each component, and the factors of what is left along z.
+/// Eigenvectors of the axes for each component, and the factors of the remaining systems along z.
 pub struct BrickInverse {
     nodes: [usize; 3],
     blocks: Blocks,
@@ -38,26 +38,25 @@ enum Blocks {
 struct Block<T> {
     /// Eigenvectors along x and y, over their largest entries.
     shapes: [Mat<T>; 2],
-    /// What that takes from the inverse.
+    /// Factor that restores the scale of the inverse.
     scale: f64,
-    /// Nodes along z that are solved for.
+    /// Free nodes along z.
     free: Range<usize>,
     /// For each mode along y, those of all modes along x.
     columns: Vec<Columns<T>>,
 }
 
-/// `A = L D Lᵀ` for systems along z that stand side by side, a row of `1/D` and one of each diagonal of L a node.
+/// Factors `A = L D Lᵀ` of adjacent systems along z: for each node a row of `1/D` and one of each diagonal of L.
 struct Columns<T> {
     inverse: Vec<T>,
     lower: Vec<Vec<T>>,
 }
 
-/// Ratio of the smallest to the largest number up to which single precision is used: residuals and their modes have
-/// their own range beside it.
+/// Ratio of the smallest to the largest number down to which single precision is used; residuals and their modes have a
+/// separate range.
 const SINGLE_RANGE: f64 = 1e-15;
 
-/// Integrals over an axis of squares of parts of degree l in Legendre's polynomials, of functions and of their
-/// derivatives.
+/// Integrals over an axis of the squares of Legendre parts of degree l, of functions and of their derivatives.
 struct Parts<T> {
     values: Vec<T>,
     slopes: Vec<T>,
@@ -103,7 +102,7 @@ impl BrickInverse {
         Self { nodes: mesh.node_counts(), blocks }
     }
 
-    /// Numbers that are kept of all systems along z.
+    /// Number of stored entries of all systems along z.
     pub fn entries(&self) -> usize {
         match &self.blocks {
             Blocks::Single(blocks) => blocks.iter().map(Block::entries).sum(),
@@ -116,7 +115,7 @@ impl BrickInverse {
         matches!(self.blocks, Blocks::Single(_))
     }
 
-    /// `out ≈ K⁻¹ residual`, zero where nothing is solved for.
+    /// Computes `out ≈ K⁻¹ residual`, zero at held nodes.
     pub fn apply(&self, residual: &[f64], out: &mut [f64], team: &Team) {
         match &self.blocks {
             Blocks::Single(blocks) => apply(blocks, self.nodes, residual, out, team),
@@ -147,7 +146,7 @@ trait Real: Float + AsPrimitive<f64> + Send + Sync {}
 impl<T: Float + AsPrimitive<f64> + Send + Sync> Real for T {}
 
 impl Block<f64> {
-    /// The same with numbers about one.
+    /// Scales the numbers to about one.
     fn normalized(mut self) -> Self {
         for shapes in &mut self.shapes {
             let largest = shapes.norm_max();
@@ -164,7 +163,7 @@ impl Block<f64> {
         self
     }
 
-    /// Whether single precision has the range for it.
+    /// Returns true if the numbers fit the range of single precision.
     fn fits_single(&self) -> bool {
         let is_in_range = |d: &f64| *d > SINGLE_RANGE && d.is_finite();
         self.columns.iter().all(|columns| columns.inverse.iter().all(is_in_range))
@@ -289,7 +288,7 @@ impl Columns<f64> {
 }
 
 impl<T: Float> Columns<T> {
-    /// Replaces what is given of each node, ascending, by the solution.
+    /// Replaces the values of each node, in ascending order, by the solution.
     fn solve_in_place(&self, rows: &mut [&mut [T]]) {
         let modes = rows.first().map_or(0, |row| row.len());
         for n in 0..rows.len() {
@@ -348,7 +347,7 @@ fn weights(
     weights
 }
 
-/// Coefficients of each element's shape functions, times what makes their squares integrals: `of(l, a)` for functions
+/// Coefficients of each element's shape functions, scaled so that their squares are integrals: `of(l, a)` for functions
 /// and for derivatives.
 fn element_parts(order: usize, [a, b]: [f64; 2]) -> Parts<[f64; 3]> {
     let matrix = legendre(order);
@@ -361,7 +360,7 @@ fn element_parts(order: usize, [a, b]: [f64; 2]) -> Parts<[f64; 3]> {
     Parts { values: (0..=order).map(value).collect(), slopes: (0..=order).map(slope).collect() }
 }
 
-/// The integrals of each mode of an axis.
+/// Returns the integrals of each mode of an axis.
 fn rayleigh(axis: &Axis, shapes: &Mat<f64>) -> Parts<Vec<f64>> {
     let zeros = || vec![vec![0.0; shapes.ncols()]; axis.order + 1];
     let mut sums = Parts { values: zeros(), slopes: zeros() };
@@ -381,7 +380,7 @@ fn rayleigh(axis: &Axis, shapes: &Mat<f64>) -> Parts<Vec<f64>> {
     sums
 }
 
-/// The integrals between nodes of an axis over some of its elements.
+/// Returns the integrals between nodes of an axis over some of its elements.
 fn bands(axis: &Axis, elements: Range<usize>) -> Parts<Band> {
     let zeros = || vec![vec![vec![0.0; axis.len()]; axis.order + 1]; axis.order + 1];
     let mut sums = Parts { values: zeros(), slopes: zeros() };

@@ -24,7 +24,7 @@ pub struct PolynomialModuli {
     pub lame: f64,
     /// µ_l of the shears xy, yz, xz [Pa].
     pub shear: [f64; 3],
-    /// Normal stress that holds back a degree of heating [Pa/K].
+    /// Normal stress of one kelvin of heating at constant strain [Pa/K].
     pub thermal: f64,
 }
 
@@ -51,7 +51,7 @@ pub fn moduli(order: usize, law: &Thermoelastic) -> Vec<PolynomialModuli> {
             norm: degrees.iter().map(|&l| 1.0 / (2 * l + 1) as f64).product(),
             lame,
             shear: SHEARS.map(|pair| if relieved(pair) { 0.0 } else { shear }),
-            // Of linear bricks, those along axes whose strains are free are relieved.
+            // In linear bricks, free enhanced strains along an axis relieve the stress.
             thermal: law.expansion
                 * (2.0 * shear + lame * if linear { 3.0 - total as f64 } else { 3.0 }),
         }

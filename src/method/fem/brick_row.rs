@@ -1,15 +1,15 @@
-//! A row of bricks along x: from values at the nodes to what acts on them.
+//! Forces of a row of bricks along x from nodal values.
 //!
-//! Coefficients of Legendre polynomials stand in vectors of [`WIDTH`] elements. Elements beyond the last one have no
-//! length and no volume, so that nothing acts on them.
+//! Coefficients of Legendre polynomials are stored in vectors of [`WIDTH`] elements. Padding elements beyond the last
+//! one have neither length nor volume, so they contribute no forces.
 
 use super::brick_polynomials::{PolynomialModuli, legendre, slope_factor};
 use crate::math::eight::Eight;
 
-/// Elements that are worked on at once.
+/// Number of elements processed at once.
 const WIDTH: usize = 8;
 
-/// A value of so many elements.
+/// One value for each of these elements.
 type Lanes = [f64; WIDTH];
 
 /// The elements of every row of a box.
@@ -30,7 +30,7 @@ impl RowLengths {
         Self { inverse: lanes(f64::recip), length: lanes(|h| h) }
     }
 
-    /// Room for the values of the nodes of one kind, corners or middles, along the row.
+    /// Length of the nodal values of one kind, corners or middles, along the row.
     pub fn strand(&self) -> usize {
         (self.length.len() + 1) * WIDTH
     }
@@ -43,7 +43,7 @@ pub struct Row {
     forces: Vec<Lanes>,
 }
 
-/// What all elements of a row have in common.
+/// Data common to all elements of a row.
 #[derive(Clone, Copy)]
 pub struct RowPlace<'a> {
     pub lengths: &'a RowLengths,
@@ -110,7 +110,7 @@ impl Row {
         }
     }
 
-    /// Forces of displacements.
+    /// Computes the forces of displacements.
     #[inline(always)]
     pub fn stress<E: Eight, const N: usize>(&mut self, place: RowPlace) {
         let RowPlace { lengths, across, moduli, two_shear } = place;
@@ -143,7 +143,7 @@ impl Row {
         }
     }
 
-    /// Forces of temperatures, the only component, that are held back.
+    /// Computes the thermal forces at constant strain; temperature is the only component.
     #[inline(always)]
     pub fn thermal_stress<E: Eight, const N: usize>(&mut self, place: RowPlace) {
         let RowPlace { lengths, across, moduli, .. } = place;
@@ -164,7 +164,7 @@ impl Row {
     }
 }
 
-/// Where values of a node of the first element of a block begin: corners stand before middles.
+/// Position of the values of a node of the first element of a block: corners come before middles.
 const fn at<const N: usize>(node: usize, block: usize, strand: usize) -> usize {
     node % (N - 1) * strand + node / (N - 1) + block * WIDTH
 }
@@ -184,13 +184,13 @@ const fn index<const N: usize>([x, y, z]: [usize; 3]) -> usize {
     x + N * (y + N * z)
 }
 
-/// The coefficients whose derivatives have the degrees of a product of polynomials.
+/// Coefficients whose derivatives have the degrees of a product of polynomials.
 struct Slopes<const N: usize> {
-    /// Along x, y and z; nothing where the degree is the highest that there is.
+    /// Along x, y and z; `None` where the degree is the highest.
     along: [Option<Along<N>>; 3],
 }
 
-/// Those along an axis.
+/// Coefficients along an axis.
 struct Along<const N: usize> {
     /// Row of the first component.
     row: usize,
@@ -199,7 +199,7 @@ struct Along<const N: usize> {
 }
 
 impl<const N: usize> Along<N> {
-    /// Where a component of a block of elements stands.
+    /// Position of a component of a block of elements.
     const fn place(&self, (blocks, block): (usize, usize), component: usize) -> usize {
         (self.row + N * N * N * component) * blocks + block
     }

@@ -1,4 +1,4 @@
-//! Displacements of a box by conjugate gradients: nothing is factored, nothing grows faster than the nodes.
+//! Displacements of a box by conjugate gradients: without factorisation, at memory proportional to the number of nodes.
 
 use std::ops::Range;
 
@@ -9,18 +9,18 @@ use crate::math::conjugate_gradients::{self, NotConverged, Operator};
 use crate::method::mesh::Mesh;
 use crate::runtime::parallel::Team;
 
-/// Stiffness of one symmetry class and what is nearly its inverse.
+/// Stiffness of one symmetry class and its preconditioner.
 pub struct BrickSolver {
     stiffness: BrickStiffness,
     inverse: BrickInverse,
     threads: usize,
 }
 
-/// What is left of the load, in the norm of energy: stresses are then those of a factorisation to nine digits.
+/// Residual relative to the load in the energy norm; stresses then agree with those of a factorisation to nine digits.
 pub const TOLERANCE: f64 = 1e-12;
 
 impl BrickSolver {
-    /// `free` are the nodes along each axis that are solved for, of each component; each must be held somewhere.
+    /// `free` holds the free nodes along each axis for each component; each component must be held somewhere.
     pub fn new(
         mesh: &Mesh,
         laws: &[Thermoelastic],
@@ -31,22 +31,22 @@ impl BrickSolver {
         Self { stiffness: BrickStiffness::new(mesh, laws, free), inverse, threads }
     }
 
-    /// Numbers that are kept.
+    /// Number of stored entries.
     pub fn entries(&self) -> usize {
         self.inverse.entries()
     }
 
-    /// What it takes for so many unknowns, to solve for them and to read stresses [B].
+    /// Memory to solve for this many unknowns and to read stresses [B].
     pub fn memory(order: usize, unknowns: usize) -> f64 {
-        // Load, solution, residual, direction, product, its improvement, the load by components and modes of one;
-        // then strains, stresses and their recovery at all nodes, as measured with 10⁶ and 10⁷ nodes.
+        // Load, solution, residual, direction, product, preconditioned residual, the load by components and modes of
+        // one; then strains, stresses and their recovery at all nodes, as measured with 10⁶ and 10⁷ nodes.
         const VECTORS: f64 = 25.0;
         8.0 * (VECTORS + (order + 1) as f64) * unknowns as f64
     }
 
-    /// Replaces nodal forces, x, y and z of each node together, by the displacements under these and under
-    /// temperatures above that without stress [K], an empty list for none; how many iterations it took until no more
-    /// than a part of the load was left.
+    /// Replaces nodal forces, with x, y and z of each node together, by displacements. Temperatures above the
+    /// stress-free one act too [K]; an empty list means none. Returns the number of iterations until the residual is
+    /// below a share of the load.
     pub fn solve_in_place(
         &self,
         load: &mut [f64],
@@ -103,7 +103,7 @@ mod tests {
         Mesh { axes, mirrored: [false; 2], geometry: Geometry::Box, layering: Layering::default() }
     }
 
-    /// With interfaces below these elements.
+    /// The mesh with interfaces below these elements.
     fn layered(mesh: Mesh, starts: &[usize]) -> Mesh {
         let layering = Layering::new(starts.to_vec(), vec![0.0; starts.len()]);
         Mesh { layering, ..mesh }
@@ -125,7 +125,7 @@ mod tests {
         }
     }
 
-    /// Forces by the matrices of single elements, of displacements or of temperatures.
+    /// Forces of displacements or of temperatures from the matrices of single elements.
     fn assembled(mesh: &Mesh, laws: &[Thermoelastic], x: &[f64], columns_of: usize) -> Vec<f64> {
         let [nx, ny, nz] = mesh.element_counts();
         let [columns, rows, _] = mesh.node_counts();
@@ -140,7 +140,7 @@ mod tests {
             });
             let layer = mesh.layering.layer_of(element[2]);
             let matrices = HexahedronMatrices::new(order, size, &laws[layer]);
-            // Of temperatures, nodes on interfaces are there twice.
+            // Nodal temperatures on interfaces are stored twice.
             let sided = if columns_of == 1 { layer * columns * rows } else { 0 };
             let node = |a: usize| {
                 let at = [a % n, a / n % n, a / (n * n)];
@@ -242,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn the_number_of_threads_changes_no_bit() {
+    fn displacements_are_bitwise_independent_of_threads() {
         let law = Thermoelastic { young: 200.0, poisson: 0.3, expansion: 1e-3 };
         for order in [1, 2] {
             let mesh = graded(order, [5, 6, 7], 1.2);

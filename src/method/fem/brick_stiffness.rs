@@ -1,8 +1,8 @@
-//! Stiffness of all bricks of a box at once, without a matrix: a few hundred operations an element (see
-//! [`super::brick_polynomials`]), and nothing is stored.
+//! Matrix-free stiffness of all bricks of a box: a few hundred operations per element (see
+//! [`super::brick_polynomials`]), and no stored matrix.
 //!
-//! Sums over nodes go along one axis after another: along z for a layer of elements, along y for a row of them, along
-//! x within the row.
+//! Sums over nodes are factorised by axis: along z for a layer of elements, along y for a row of them, along x within
+//! the row.
 
 use std::ops::Range;
 
@@ -14,15 +14,15 @@ use crate::method::mesh::Layering;
 use crate::method::mesh::Mesh;
 use crate::runtime::parallel::Team;
 
-/// What acts on the nodes: the stress of strains or of temperatures.
+/// Source of nodal forces: the stress of strains or of temperatures.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Cause {
     Displacement,
     Temperature,
 }
 
-/// The stiffness of a box. Vectors have all displacements along x, then along y, then along z, the x index of nodes
-/// fastest.
+/// The stiffness of a box. Vectors hold all displacements along x, then along y, then along z, with the x index of
+/// nodes fastest.
 pub struct BrickStiffness {
     order: usize,
     /// Lengths of elements along each axis [m].
@@ -31,13 +31,13 @@ pub struct BrickStiffness {
     layering: Layering,
     /// Moduli and 2µ of each layer, from the lowest on.
     moduli: Vec<(Vec<PolynomialModuli>, f64)>,
-    /// Nodes along each axis that are solved for, of each component.
+    /// Free nodes along each axis, for each component.
     free: [[Range<usize>; 3]; 3],
 }
 
-/// Room for what one layer of elements comes to.
+/// Work space for one layer of elements.
 struct Scratch {
-    /// Values of rows of nodes along x that stand above each other, and a sum of such.
+    /// Values of rows of nodes along x, stacked, and a weighted sum of such rows.
     nodes: Vec<f64>,
     sums: Vec<f64>,
     /// Coefficients along z of each component and forces on them: `3 n` planes of rows, corners before middles.
@@ -48,7 +48,7 @@ struct Scratch {
     row: Row,
 }
 
-/// One layer of elements to add the forces of.
+/// One layer of elements whose forces are added.
 struct Layer<'a, 'b> {
     cause: Cause,
     /// Counted from the lowest.
@@ -79,14 +79,14 @@ impl BrickStiffness {
         self.lengths.each_ref().map(|lengths| lengths.len() * self.order + 1)
     }
 
-    /// `out = K x`, zero where nothing is solved for.
+    /// Computes `out = K x`, zero at held nodes.
     pub fn apply(&self, x: &[f64], out: &mut [f64], team: &Team) {
         self.add_forces(Cause::Displacement, x, out, team);
         self.hold(out, team);
     }
 
-    /// Nodal forces of heated material that is held back, from temperatures above that without stress [K], on
-    /// interfaces those of both layers; zero where nothing is solved for.
+    /// Computes nodal thermal forces at constant strain from temperatures above the stress-free one [K], with separate
+    /// values for both layers on interfaces. They are zero at held nodes.
     pub fn thermal_forces(&self, temperature: &[f64], out: &mut [f64], team: &Team) {
         self.add_forces(Cause::Temperature, temperature, out, team);
         self.hold(out, team);
@@ -143,7 +143,7 @@ impl BrickStiffness {
         }
     }
 
-    /// As [`Self::apply`], without the instructions of a certain processor.
+    /// Applies the stiffness like [`Self::apply`], without processor-specific instructions.
     #[cfg(test)]
     pub fn apply_plainly(&self, x: &[f64]) -> Vec<f64> {
         let [columns, rows, _] = self.nodes();
@@ -162,11 +162,11 @@ impl BrickStiffness {
         #[cfg(target_arch = "x86_64")]
         {
             if is_x86_feature_detected!("avx512f") {
-                // SAFETY: the processor has what the function asks for.
+                // SAFETY: the processor has the function's instructions.
                 return unsafe { self.layer_avx512(layer, scratch) };
             }
             if is_x86_feature_detected!("avx2") {
-                // SAFETY: the processor has what the function asks for.
+                // SAFETY: the processor has the function's instructions.
                 return unsafe { self.layer_avx2(layer, scratch) };
             }
         }
@@ -200,7 +200,7 @@ impl BrickStiffness {
         let [columns, rows, _] = self.nodes();
         let (component, plane) = (self.nodes().iter().product::<usize>(), columns * rows);
         let below = self.layering.layer_of(number);
-        // Of temperatures, nodes on interfaces are there twice.
+        // Nodal temperatures on interfaces are stored twice.
         let (components, doubled) = match cause {
             Cause::Displacement => (3, 0),
             Cause::Temperature => (1, below),
@@ -263,7 +263,7 @@ impl BrickStiffness {
         }
     }
 
-    /// Sets what is not solved for to zero.
+    /// Sets held unknowns to zero.
     pub fn hold(&self, out: &mut [f64], team: &Team) {
         let [columns, rows, layers] = self.nodes();
         let mut planes: Vec<&mut [f64]> = out.chunks_exact_mut(columns * rows).collect();

@@ -1,6 +1,6 @@
 //! Modes of heat along z through layers that conduct and store it differently.
 //!
-//! For a mode along the surface, of eigenvalue Λ = λ_x + λ_y, what is left of the heat equation is
+//! For a mode along the surface, of eigenvalue Λ = λ_x + λ_y, the heat equation reduces to
 //! `M(c) θ̇ + [K(k) + Λ M(k)] θ = f` along z, with the mass matrices M of c = ρc(z) and k(z) and the stiffness
 //! matrix K, which holds the conductances 1/R of contacts between the two nodes of an interface, and heat transfer
 //! at the ends. Each Λ has an eigenproblem of its own.
@@ -16,12 +16,12 @@ use crate::math::eigenvectors::eigenvectors;
 use crate::math::gauss::gauss_on;
 use crate::method::mesh::Mesh;
 
-/// A contact that resists less than this part of the thinner layer beside it is none: the layers' temperatures
-/// there differ by no more than that.
+/// Contact resistance over that of the thinner adjacent layer below which the contact is perfect: the relative
+/// temperature jump is no larger.
 const PERFECT: f64 = 1e-9;
-/// Ratio of eigenvalues from which on modes are made orthogonal to more digits than matrices of them tell.
+/// Ratio of eigenvalues from which on modes are orthogonalised more accurately than matrices resolve.
 const WIDE: f64 = 1e4;
-/// Cosine of the angle between gradients of modes that counts as none, and sweeps to get there.
+/// Cosine of the angle between gradients of modes that counts as orthogonal, and largest number of sweeps.
 const ORTHOGONAL: f64 = 1e-13;
 const SWEEPS: usize = 8;
 
@@ -40,7 +40,7 @@ pub struct DepthProblem {
     lower: Mat<f64>,
     stiffness: Mat<f64>,
     spread: Mat<f64>,
-    /// Whether no end is prescribed or convective.
+    /// True if no end is prescribed or convective.
     insulated: bool,
 }
 
@@ -150,12 +150,12 @@ impl DepthProblem {
         }
     }
 
-    /// Nodes, those on interfaces twice.
+    /// Number of nodes, with those on interfaces counted twice.
     pub fn nodes(&self) -> usize {
         self.unknowns.len()
     }
 
-    /// Modes of each column.
+    /// Number of modes of each column.
     pub fn count(&self) -> usize {
         self.count
     }
@@ -173,8 +173,7 @@ impl DepthProblem {
         out
     }
 
-    /// The modes of an eigenvalue Λ [1/m²] along the surface; `uniform` where it is that of a field that is the
-    /// same all along it.
+    /// Computes the modes of an eigenvalue Λ [1/m²] along the surface; `uniform` is set for the uniform field along it.
     pub fn column(&self, along: f64, uniform: bool) -> Column {
         let m = self.count;
         let symmetric =
@@ -188,7 +187,7 @@ impl DepthProblem {
         let at = |node: usize, k: usize| self.unknowns[node].map_or(0.0, |i| vectors[(i, k)]);
         let mut shapes = Mat::from_fn(self.nodes(), m, at);
         if keeps_all {
-            // Equal to the bit, so that its gradient is nothing.
+            // Bitwise equal, so that its gradient is zero.
             let mean = shapes[(0, 0)];
             (0..self.nodes()).for_each(|node| shapes[(node, 0)] = mean);
         }
@@ -204,7 +203,7 @@ impl DepthProblem {
         Column { decay: squares(&gradients), shapes }
     }
 
-    /// Whose square is the energy of a mode.
+    /// Vector whose squared norm is the energy of a mode.
     fn gradient(&self, shapes: &Mat<f64>, k: usize, along: f64) -> Vec<f64> {
         let root = along.max(0.0).sqrt();
         let slopes = self.slopes.iter().map(|row| row.of(|node| shapes[(node, k)]));
@@ -213,8 +212,8 @@ impl DepthProblem {
     }
 }
 
-/// The unknown of each node, and how many there are: nodes of a perfect contact share one, prescribed ones
-/// have none.
+/// Returns the unknown of each node, and their number: nodes of a perfect contact share one, prescribed nodes have
+/// none.
 fn numbered(
     mesh: &Mesh,
     ends: [EndCondition; 2],
@@ -237,7 +236,7 @@ fn numbered(
     (unknowns, count)
 }
 
-/// Conductance of the contact above a layer [W/(m² K)]; none where it is perfect.
+/// Conductance of the contact above a layer [W/(m² K)]; `None` if it is perfect.
 fn contact(mesh: &Mesh, constants: &[Constants], below: usize) -> Option<f64> {
     let resistance = mesh.layering.resistance_above(below);
     let own = |layer: usize| {
@@ -247,9 +246,9 @@ fn contact(mesh: &Mesh, constants: &[Constants], below: usize) -> Option<f64> {
     (resistance > PERFECT * own(below).min(own(below + 1))).then(|| resistance.recip())
 }
 
-/// Turns pairs of modes until the gradients of all are orthogonal, by one-sided rotations (M. R. Hestenes 1958,
-/// doi 10.1137/0106005): slow modes then have the digits that eigenvectors of a matrix with much faster ones lack
-/// (J. Demmel and K. Veselić 1992, doi 10.1137/0613074).
+/// Rotates pairs of modes until the gradients of all are orthogonal, by one-sided rotations (M. R. Hestenes 1958, doi
+/// 10.1137/0106005). Slow modes then have the digits that eigenvectors of a matrix with much faster modes lack (J.
+/// Demmel and K. Veselić 1992, doi 10.1137/0613074).
 fn orthogonalise(gradients: &mut [Vec<f64>], shapes: &mut Mat<f64>) {
     for _ in 0..SWEEPS {
         let mut turned = false;
@@ -258,7 +257,7 @@ fn orthogonalise(gradients: &mut [Vec<f64>], shapes: &mut Mat<f64>) {
                 let (before, after) = gradients.split_at_mut(q);
                 let (a, b) = (&mut before[p], &mut after[0]);
                 let (aa, bb, ab) = (dot(a, a), dot(b, b), dot(a, b));
-                // Nothing is orthogonal to all.
+                // The zero vector is orthogonal to all.
                 if ab.abs() <= ORTHOGONAL * (aa * bb).sqrt() {
                     continue;
                 }
@@ -299,7 +298,7 @@ fn add_square(out: &mut Mat<f64>, row: &Row) {
     }
 }
 
-/// Between unknowns.
+/// Restricts a matrix to the unknowns.
 fn restricted(full: &Mat<f64>, unknowns: &[Option<usize>], count: usize) -> Mat<f64> {
     let mut out = Mat::zeros(count, count);
     for (i, row) in unknowns.iter().enumerate() {
@@ -388,7 +387,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_insulated_keeps_its_heat_for_ever() {
+    fn insulated_columns_conserve_heat() {
         let layers = [constants(2e3, 2.0), constants(0.2, 3.0)];
         let depth = DepthProblem::new(&mesh(2, 1e-3), &layers, [EndCondition::Natural; 2]);
         let column = depth.column(0.0, true);

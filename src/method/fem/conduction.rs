@@ -1,4 +1,4 @@
-//! The heat of a solid, whatever the method that gives it.
+//! Heat conduction of a solid behind one interface for all methods.
 
 mod modal;
 mod nonlinear;
@@ -18,8 +18,8 @@ use crate::runtime::allowance::{Allowance, Halt};
 use crate::state::Layout;
 pub use particles::particle_cost;
 
-/// The temperature of a solid and how it advances. Whatever changes is a flat vector, its state; temperatures count from
-/// the initial one, class by class of the planes of symmetry.
+/// Temperature of a solid and its advance in time. The state is a flat vector. Temperatures are relative to the initial
+/// one, class by class of the planes of symmetry.
 pub trait Heat: Send + Sync {
     /// The fields of a state.
     fn layout(&self) -> Layout;
@@ -29,9 +29,8 @@ pub trait Heat: Send + Sync {
         vec![0.0; self.layout().len()]
     }
 
-    /// Advances `state` by `dt` [s] under loads that are polynomials in time, at most quadratic: one
-    /// entry of `loads` for their values at the beginning and one for each derivative. What a halt leaves in
-    /// `state` is of no use.
+    /// Advances `state` by `dt` [s] under loads that are polynomials in time, at most quadratic: one entry of `loads`
+    /// for their values at the beginning and one for each derivative. After a halt `state` is unusable.
     fn advance(
         &self,
         state: &mut [f64],
@@ -40,12 +39,12 @@ pub trait Heat: Send + Sync {
         allowance: &Allowance,
     ) -> Result<(), HeatFailure>;
 
-    /// Temperature above the initial one at all nodes, those on interfaces between layers twice, class by class
-    /// [K]; empty for a class that is zero. `faces` holds the present face values of each class.
+    /// Returns the temperature above the initial one at all nodes, class by class [K]; empty for a class that is zero.
+    /// Nodes on interfaces between layers are listed twice. `faces` holds the present face values of each class.
     fn nodal(&self, state: &[f64], faces: &[Vec<f64>]) -> Vec<Vec<f64>>;
 
-    /// The same after a matrix was applied along z, of which each row weights the nodes there: as many planes of nodes
-    /// as the matrix has rows. Much less work than all nodes where these are few.
+    /// Returns nodal temperatures multiplied by a matrix along z, each of whose rows weights the nodes there. The
+    /// result has one plane of nodes per row; with few rows it is much cheaper than all nodes.
     fn along_depth(&self, state: &[f64], faces: &[Vec<f64>], rows: &Mat<f64>) -> Vec<Vec<f64>> {
         let nodal = self.nodal(state, faces);
         let of_class = |part: &Vec<f64>| match part.is_empty() {
@@ -60,31 +59,31 @@ pub trait Heat: Send + Sync {
 
     fn totals(&self, state: &[f64]) -> HeatTotals;
 
-    /// Time derivative of a state, laid out like the state, where heat obeys a linear equation; `loads` acts now and
-    /// `rates` is its time derivative.
+    /// Returns the time derivative of a state, laid out like the state, if heat obeys a linear equation. `loads` acts
+    /// now, and `rates` is its time derivative.
     fn rates(&self, state: &[f64], loads: &HeatLoads, rates: &HeatLoads) -> Option<Vec<f64>>;
 
-    /// Whether heat obeys a linear equation.
+    /// Returns true if heat obeys a linear equation.
     fn is_linear(&self) -> bool {
         true
     }
 
-    /// Its modes, where it has any.
+    /// Returns the modes, if there are any.
     fn modal(&self) -> Option<&dyn ModalHeat> {
         None
     }
 
-    /// What temperatures may err by from step to step [K]; nothing where they are exact.
+    /// Error of temperatures from step to step [K]; zero where they are exact.
     fn tolerance(&self) -> f64 {
         0.0
     }
 
-    /// Volume that is liquid, of so many copies of the mesh [m³]; nothing where nothing melts.
+    /// Liquid volume of all copies of the mesh [m³]; zero if nothing melts.
     fn liquid_volume(&self, _state: &[f64], _copies: f64) -> f64 {
         0.0
     }
 
-    /// By how much that scatters, about, as fronts go from node to node [m³].
+    /// Approximate scatter of that volume as fronts move from node to node [m³].
     fn liquid_scatter(&self, _state: &[f64], _copies: f64) -> f64 {
         0.0
     }
@@ -95,7 +94,7 @@ pub trait Heat: Send + Sync {
     }
 }
 
-/// Heat as a sum of modes, each of which decays at a rate of its own.
+/// Heat as a sum of modes, each with a decay rate of its own.
 pub trait ModalHeat {
     /// Temperature above the initial one at a point of the mesh and its `image` [K] without that of all nodes;
     /// `faces` holds the present face values of each class.
@@ -107,30 +106,30 @@ pub trait ModalHeat {
         place: ([f64; 3], [bool; 2]),
     ) -> f64;
 
-    /// Of each class the part of a state that is modal.
+    /// Returns the modal part of a state for each class.
     fn contents<'s>(&'s self, state: &'s [f64]) -> Vec<&'s [f64]>;
 
-    /// From derivatives of a reading by nodal temperatures of a class those by its modal part of a state and by face
-    /// values.
+    /// Converts derivatives of a reading by nodal temperatures of a class to those by its modal part of a state and by
+    /// face values.
     fn row(&self, class: usize, nodal: &[f64]) -> [Vec<f64>; 2];
 
-    /// Which classes loads drive.
+    /// Returns for each class whether loads drive it.
     fn driven(&self, loads: &HeatLoads) -> Vec<bool>;
 
-    /// Rates of decay of the modes of the classes that take part [1/s].
+    /// Decay rates of the modes of the classes in `take` [1/s].
     fn decay_rates(&self, take: &[bool]) -> Vec<f64>;
 
     /// Rate of change of the content of these modes under loads.
     fn sources(&self, take: &[bool], loads: &HeatLoads) -> Vec<f64>;
 
-    /// Heat that loads bring in [W].
+    /// Heat flow supplied by loads [W].
     fn brought_in_by(&self, loads: &HeatLoads) -> f64;
 
     /// A value as a sum over modes and face values.
     fn value_row(&self, mesh: &Mesh, take: &[bool], of: &HeatValue) -> ModalRow;
 }
 
-/// What is linear in the temperatures.
+/// A value that is linear in the temperatures.
 #[derive(Debug, Clone, PartialEq)]
 pub enum HeatValue {
     /// Temperature above the initial one at a point of the mesh and its image [K].
@@ -141,7 +140,7 @@ pub enum HeatValue {
     Stored,
 }
 
-/// Why heat did not advance.
+/// Reasons why heat did not advance.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum HeatFailure {
     #[error(transparent)]
@@ -159,7 +158,7 @@ impl From<NonlinearFailure> for HeatFailure {
     }
 }
 
-/// The heat of a plan by the method that it names.
+/// Creates the heat problem of a plan with the plan's method.
 pub fn heat_of(plan: &Plan, threads: usize) -> Box<dyn Heat> {
     if let Some(newton) = &plan.newton {
         return Box::new(NonlinearHeat::new(plan, newton));

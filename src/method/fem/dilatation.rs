@@ -92,7 +92,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_linear_dilatation_is_its_own_projection() {
+    fn linear_dilatation_is_projected_exactly() {
         // u_x = x²/2 + x y, u_y = u_z = 0 has the dilatation x + y.
         let size = [0.5, 0.3, 0.2];
         let projection = DilatationProjection::new(2, size);

@@ -1,4 +1,4 @@
-//! Quasi-static thermo-elasticity on a structured mesh: what solves it serves all time.
+//! Quasi-static thermo-elasticity on a structured mesh: one solver serves all times.
 
 mod influence;
 mod strain_row;
@@ -32,7 +32,7 @@ pub use influence::{
 };
 pub use strain_row::StrainWeights;
 
-/// Mechanical condition on an end of an axis; free where nothing is said.
+/// Mechanical condition on an end of an axis; ends without one are free.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Support {
     /// No displacement.
@@ -41,30 +41,30 @@ pub enum Support {
     Roller,
 }
 
-/// What an elastic problem follows from.
+/// Data that determine an elastic problem.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ElasticSetup {
     pub mesh: Mesh,
-    /// Of the layers, from the lowest on.
+    /// Laws of the layers, from the lowest on.
     pub laws: Vec<Thermoelastic>,
     pub supports: Vec<(MeshFace, Support)>,
     pub threads: usize,
 }
 
-/// Bodies of one process that differ in what concerns heat alone share what solves their mechanics.
+/// Bodies of one process that differ only in thermal data share their elastic problem.
 static PROBLEMS: SharedValues<ElasticSetup, ElasticProblem> = SharedValues::new();
 
-/// Forgets problems that nobody holds any more.
+/// Drops all problems that are no longer held.
 pub fn forget_unused_stiffness() {
     PROBLEMS.forget_unused();
 }
 
-/// The elastic problem of a body: everything known before time starts.
+/// Elastic problem of a body: everything known before time starts.
 ///
 /// The solver of a symmetry class is made when that class is first loaded.
 pub struct ElasticProblem {
     mesh: Mesh,
-    /// Of the layers, from the lowest on.
+    /// Laws of the layers, from the lowest on.
     laws: Vec<Thermoelastic>,
     threads: usize,
     supports: Vec<(MeshFace, Support)>,
@@ -74,7 +74,7 @@ pub struct ElasticProblem {
     rows: ForkLock<KeptRows>,
 }
 
-/// How displacements of one symmetry class are found.
+/// Solver for the displacements of one symmetry class.
 enum Solver {
     Factor(Box<Factor>),
     Bricks(Box<BrickSolver>),
@@ -82,16 +82,16 @@ enum Solver {
 
 /// Factorised stiffness.
 struct Factor {
-    /// Degrees of freedom that are solved for, ascending.
+    /// Free degrees of freedom, ascending.
     free: Vec<usize>,
     cholesky: SparseCholesky,
 }
 
-/// Memory of a solution and of the stress from it per node, at most [B].
+/// Largest memory per node of a solution and the stress from it [B].
 const SOLUTION: usize = 1 << 10;
 
 impl Factor {
-    /// Replaces forces by displacements, zero where those are held.
+    /// Replaces forces by displacements, which are zero where held.
     fn solve_in_place(&self, load: &mut [f64]) {
         let mut solution: Vec<f64> = self.free.iter().map(|&i| load[i]).collect();
         self.cholesky.solve_in_place(&mut solution);
@@ -102,12 +102,11 @@ impl Factor {
     }
 }
 
-/// What [`ElasticProblem::strains`] gives of one class: 6 a point in a box, 4 (rr, tt, zz, rz) in
-/// axisymmetry.
+/// Result of [`ElasticProblem::strains`] for one class: 6 values per point in a box, 4 (rr, tt, zz, rz) in axisymmetry.
 pub type Strains = Vec<f64>;
 
 impl ElasticProblem {
-    /// The problem of a setup, made unless another body of this process has it.
+    /// Returns the problem of a setup, which is made unless another body of this process has it.
     pub fn shared(setup: &ElasticSetup) -> Arc<Self> {
         let make = || Ok::<_, Infallible>(Self::new(setup.clone()));
         let Ok(problem) = PROBLEMS.get_or_make(setup, make);
@@ -128,7 +127,7 @@ impl ElasticProblem {
         }
     }
 
-    /// That of a layer, counted from the lowest.
+    /// Returns the law of a layer, counted from the lowest.
     pub fn law(&self, layer: usize) -> &Thermoelastic {
         &self.laws[layer]
     }
@@ -141,7 +140,7 @@ impl ElasticProblem {
         self.thermal.get_or_make(|| self.laws.iter().enumerate().map(of_layer).collect())
     }
 
-    /// Adds the forces of heated material that is held back. Each layer has temperatures of its own on interfaces.
+    /// Adds the thermal forces at constant strain. Each layer has temperatures of its own on interfaces.
     fn add_thermal_forces(&self, temperature: &[f64], load: &mut [f64]) {
         let [nx, ny, _] = self.mesh.node_counts();
         let mut rest = temperature;
@@ -154,12 +153,12 @@ impl ElasticProblem {
         }
     }
 
-    /// Displacements a node: 3 in a box, 2 (r, z) in axisymmetry.
+    /// Number of displacement components per node: 3 in a box, 2 (r, z) in axisymmetry.
     pub fn degrees(&self) -> usize {
         self.mesh.geometry.degrees()
     }
 
-    /// Makes the solver of the even class, so that the first step is no slower than the others.
+    /// Creates the solver of the even class, so that the first step takes no longer than the others.
     pub fn prepare(&self) -> Result<(), SolverError> {
         if let Solver::Factor(_) = self.solver(0)? {
             self.thermal();
@@ -167,7 +166,7 @@ impl ElasticProblem {
         Ok(())
     }
 
-    /// Numbers that all solvers made so far keep.
+    /// Number of stored entries of all solvers made so far.
     pub fn factor_entries(&self) -> usize {
         let made = self.classes.iter().filter_map(|(_, lock)| lock.get()?.as_ref().ok());
         let entries = |solver: &Solver| match solver {
@@ -177,10 +176,10 @@ impl ElasticProblem {
         made.map(entries).sum()
     }
 
-    /// Nodal displacements of a class [m], empty if nothing drives it.
+    /// Returns the nodal displacements of a class [m]; empty if nothing drives it.
     ///
-    /// `temperature` is the nodal temperature above the stress-free one [K], on interfaces that of both layers, `forces` the nodal
-    /// forces on the bottom and the top of the mesh [N], a list for each displacement component.
+    /// `temperature` is the nodal temperature above the stress-free one [K], with values of both layers on interfaces.
+    /// `forces` has the nodal forces on the bottom and the top of the mesh [N], a list for each displacement component.
     pub fn displacement(
         &self,
         class: usize,
@@ -215,9 +214,9 @@ impl ElasticProblem {
         Ok(load)
     }
 
-    /// Strains of a class at the sampling points, which run like nodes, x fastest; of the strain
-    /// along z, what a heated layer would have by itself ([`Thermoelastic::layer_strain`]) is left
-    /// out, so that all of them vary slowly through the depth.
+    /// Returns the strains of a class at the sampling points, ordered like nodes, x fastest. The strain along z
+    /// excludes that of a free heated layer ([`Thermoelastic::layer_strain`]), so that all strains vary slowly through
+    /// the depth.
     pub fn strains(&self, displacement: &[f64], temperature: &[f64]) -> Strains {
         match self.mesh.geometry {
             Geometry::Box => self.box_strains(displacement, temperature),
@@ -245,8 +244,8 @@ impl ElasticProblem {
         }
     }
 
-    /// Nodes of a box along each axis where a component of displacement is solved for; nothing where one is held
-    /// nowhere, so that the body may move.
+    /// Returns the free nodes of a box along each axis for each displacement component; `None` if one component is held
+    /// nowhere, so that the body can move.
     pub fn free_nodes(&self, parity: Parity) -> Option<[[Range<usize>; 3]; 3]> {
         let mut free = [(); 3].map(|()| self.mesh.node_counts().map(|count| 0..count));
         let mut hold = |component: usize, MeshFace { axis, high }: MeshFace| {
@@ -292,7 +291,7 @@ impl ElasticProblem {
         Ok(Factor { free, cholesky })
     }
 
-    /// Which degrees of freedom supports and symmetry planes hold.
+    /// Returns which degrees of freedom are held by supports and symmetry planes.
     pub fn held(&self, parity: Parity) -> Vec<bool> {
         let degrees = self.degrees();
         let mut held = vec![false; self.mesh.nodes() * degrees];
@@ -309,7 +308,7 @@ impl ElasticProblem {
             }
         }
         for axis in (0..2).filter(|&a| self.mesh.mirrored[a]) {
-            // On the plane an even field has no normal, an odd one no tangential displacement.
+            // On the plane an even field has no normal displacement, and an odd one no tangential displacement.
             for node in self.face_nodes(MeshFace { axis, high: false }) {
                 for c in 0..degrees {
                     held[node * degrees + c] |= (c == axis) != parity.odd[axis];

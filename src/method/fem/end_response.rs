@@ -1,4 +1,4 @@
-//! How the top or the bottom of a solid answers to heat, by its modes along z.
+//! Thermal response of the top or the bottom of a solid, by its modes along z.
 
 use faer::Mat;
 
@@ -7,7 +7,7 @@ use super::heat::{depth_ends, end_conditions};
 use super::modes::AxisModes;
 use super::plan::Plan;
 
-/// The answer of that end to an impulse of heat per area, uniform along it: `Σ g e^{−λt}`.
+/// Response of that end to an impulse of heat per area, uniform along it: `Σ g e^{−λt}`.
 pub struct EndResponse {
     /// λ [1/s]
     pub rates: Vec<f64>,

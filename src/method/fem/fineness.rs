@@ -1,4 +1,4 @@
-//! How fine the mesh of a solid is, and where: below the faces that heat passes, and under loads.
+//! Mesh sizes of a solid below heated faces and under loads.
 
 mod layers;
 
@@ -7,62 +7,61 @@ use super::plan::Refinement;
 use crate::method::mesh::{Layering, Mesh};
 use crate::scene::{Face, FaceName, HeatMethod, Mesh as MeshKeys, Shape, Solid, Stratum};
 
-/// Nodes across a feature of a load, where the scene names no spacing.
+/// Nodes across a feature of a load, unless the scene sets a spacing.
 const NODES_PER_FEATURE: f64 = 10.0;
-/// Nodes across the depth that heat reaches in the shortest time of interest, where the scene names
-/// no spacing.
+/// Nodes across the heat penetration depth at the shortest time of interest, unless the scene sets a spacing.
 const NODES_PER_DIFFUSION_LENGTH: f64 = 5.0;
-/// Growth of elements away from loads, and across the layers that heat passes one after another: a
-/// layer as deep as √(at) varies over its own depth alone, so the latter is free to be larger. Growth by
-/// 1.4 keeps surface temperatures and heat within 1e-4 at all times.
+/// Growth of elements away from loads, and of the layers of elements that heat crosses. A thermal layer as deep as
+/// √(at) varies only over its own depth, so the second growth may be larger. A growth of 1.4 keeps surface temperatures
+/// and heat within 1e-4 at all times.
 const DEFAULT_GROWTH: f64 = 1.2;
 const LAYER_GROWTH: f64 = 1.4;
 const DEFAULT_ORDER: usize = 2;
-/// Time over h²/a after which nodes h apart below a heated face tell its temperature to a few per cent.
+/// Time over h²/a from which on nodes h apart below a heated face resolve its temperature to a few per cent.
 const RESOLVED: f64 = 0.4;
-/// Fewest elements through the thickness.
+/// Smallest number of elements through the thickness.
 const THICKNESS_ELEMENTS: f64 = 6.0;
-/// Finest chosen distance of nodes over the thickness: coordinates still tell nodes apart.
+/// Smallest chosen node spacing over the thickness at which coordinates still distinguish nodes.
 const FINEST: f64 = 1e-6;
 
-/// Of a body that is one element along the surface.
+/// Note on a body that is one element along the surface.
 const COLUMN: &str = "a column, one element along the surface: faces are uniform there, no load acts on a part of one, \
                       and what holds the sides, where stress is asked for, are rollers; this is exact";
 
-/// Distances of nodes and growth of elements.
+/// Node spacings and growth of elements.
 pub struct Fineness<'a> {
     solid: &'a Solid,
-    /// From the lowest on.
+    /// Layers, from the lowest on.
     strata: &'a [Stratum],
     refinements: &'a [Refinement],
-    /// Along the surface, at loads [m].
+    /// Node spacing along the surface at loads [m].
     lateral: f64,
-    /// Along the normal of faces that heat passes, where the scene names no spacing [m].
+    /// Node spacing along the normal of heated faces, unless the scene sets a spacing [m].
     layer: f64,
     pub order: usize,
     /// Shortest time of interest [s].
     shortest: f64,
-    /// Numbers of elements along the surface and through the thickness over those that follow from all this.
+    /// Numbers of elements along the surface and through the thickness over those from the rules above.
     factors: [f64; 2],
-    /// Whether nothing varies along the surface, so that one element spans it.
+    /// True if nothing varies along the surface, so that one element spans it.
     is_column: bool,
 }
 
-/// What a mesh is to resolve.
+/// Loads and times that a mesh has to resolve.
 #[derive(Debug, Clone, Copy)]
 pub struct Resolution<'a> {
-    /// Where loads act.
+    /// Areas where loads act.
     pub refinements: &'a [Refinement],
     /// Shortest time of interest [s].
     pub shortest: f64,
     /// Numbers of elements along the surface and through the thickness over the usual ones.
     pub factors: [f64; 2],
-    /// Whether nothing varies along the surface.
+    /// True if nothing varies along the surface.
     pub is_column: bool,
 }
 
 impl<'a> Fineness<'a> {
-    /// Chooses what the scene leaves open.
+    /// Chooses the values that the scene does not set.
     pub fn choose(
         solid: &'a Solid,
         strata: &'a [Stratum],
@@ -96,8 +95,8 @@ impl<'a> Fineness<'a> {
         chosen
     }
 
-    /// What temperatures beside the edge of a heated footprint do before heat has gone half a node's distance
-    /// along the surface: there the flux of an element's whole side spreads over nodes as a parabola, which
+    /// Notes the overshoot of temperatures near the edge of a heated footprint before heat has spread half a node
+    /// spacing along the surface. There the flux of an element's whole side spreads over nodes as a parabola, which
     /// overshoots.
     fn note_on_edges(&self, diffusivity: f64, shortest: f64) -> Option<String> {
         let resolved = (0.5 * self.lateral).powi(2) / diffusivity;
@@ -112,7 +111,7 @@ impl<'a> Fineness<'a> {
         })
     }
 
-    /// What a distance of nodes that the scene names does below heated faces while heat has not come as far.
+    /// Notes the effect of a node spacing set by the scene below heated faces while heat has not penetrated as far.
     fn note_on_depth(&self, diffusivity: f64, shortest: f64) -> Option<String> {
         let keys = self.keys();
         let mut heated = self.solid.shape.faces().iter().filter(|face| self.is_heated(**face));
@@ -132,7 +131,7 @@ impl<'a> Fineness<'a> {
         })
     }
 
-    /// What was chosen, and why.
+    /// Returns notes on the choices, with reasons.
     fn notes(&self, reach: f64, shortest: f64) -> Vec<String> {
         let Self { lateral, layer, .. } = self;
         if self.is_column {
@@ -172,7 +171,7 @@ impl<'a> Fineness<'a> {
         notes
     }
 
-    /// Whether the scene leaves a distance of nodes below some heated face open.
+    /// Returns true if the scene does not set the node spacing below some heated face.
     fn chooses_layers(&self) -> bool {
         let keys = self.keys();
         let faces = self.solid.shape.faces().iter();
@@ -181,7 +180,7 @@ impl<'a> Fineness<'a> {
             && heated.any(|face| face.normal().unwrap_or(0) < 2 || keys.depth_spacing.is_none())
     }
 
-    /// Ends of the elements along x (0) or y (1) on `[start, end]`; a mesh that begins at a plane of
+    /// Returns the ends of the elements along x (0) or y (1) on `[start, end]`; a mesh that begins at a plane of
     /// symmetry begins at 0.
     pub fn lateral_ends(&self, axis: usize, [start, end]: [f64; 2]) -> Vec<f64> {
         if self.is_column {
@@ -204,7 +203,7 @@ impl<'a> Fineness<'a> {
         ends_through(&breaks, &finer(&fine, factor), coarsest / factor)
     }
 
-    /// Ends of the elements along z, and where layers meet.
+    /// Returns the ends of the elements along z, and the interfaces between layers.
     pub fn depth(&self) -> (Vec<f64>, Layering) {
         match self.strata {
             [_] => (self.depth_ends(), Layering::default()),
@@ -228,8 +227,8 @@ impl<'a> Fineness<'a> {
         graded_ends(-thickness, 0.0, &finer(&fine, self.factors[1]), coarsest / self.factors[1])
     }
 
-    /// Where elements along z are to be fine for loads on the top and the bottom, and, as `heated` says for the one or
-    /// the other at z, for heat that comes through.
+    /// Stretches along z with fine elements for loads on the top and the bottom; `heated` returns those for heat that
+    /// enters through either at z.
     fn fine_at_ends(&self, size: f64, heated: impl Fn(bool, f64) -> Fine) -> Vec<Fine> {
         let thickness = self.solid.shape.thickness();
         let mut fine = Vec::new();
@@ -247,7 +246,7 @@ impl<'a> Fineness<'a> {
     /// Stretches of an axis that loads may act on, with a margin.
     fn loads(&self, axis: usize, start: f64) -> Vec<Fine> {
         let stretch = |r: &Refinement| {
-            // A wide load beside a small one is no reason for small elements all over it.
+            // A wide load next to a small one needs no small elements over its whole area.
             let own = (r.feature / NODES_PER_FEATURE).max(self.lateral);
             let distance = self.keys().spacing.unwrap_or(own);
             let [from, to] = fold([r.x, r.y][axis], start);
@@ -257,8 +256,8 @@ impl<'a> Fineness<'a> {
         self.refinements.iter().map(stretch).collect()
     }
 
-    /// The ends of an axis, and between them places of sharp edges of loads, on which ends of elements are to stand where
-    /// the program chooses them; none nearer to the next than `least` [m].
+    /// Returns the ends of an axis and, between them, places of sharp edges of loads. Ends of elements coincide with
+    /// these if the program chooses them. None is nearer to the next than `least` [m].
     fn edges(&self, axis: usize, [start, end]: [f64; 2], least: f64) -> Vec<f64> {
         let mut places = vec![start, end];
         if self.keys().spacing.is_some() || self.solid.heat == HeatMethod::Sph {
@@ -281,15 +280,16 @@ impl<'a> Fineness<'a> {
         places
     }
 
-    /// Whether loads or heated sides say where along the surface the mesh is fine; if not, what the
-    /// scene asks for holds everywhere.
+    /// Returns true if loads or heated sides determine where the mesh is fine along the surface; otherwise the scene's
+    /// settings apply everywhere.
     fn has_lateral_places(&self) -> bool {
         let mut faces = self.solid.shape.faces().iter();
         let is_side = |face: &FaceName| !matches!(face, FaceName::Top | FaceName::Bottom);
         !self.refinements.is_empty() || faces.any(|face| is_side(face) && self.is_heated(*face))
     }
 
-    /// From when on after a jump nodes below all heated faces tell their temperature [s]; zero where none is heated.
+    /// Time after a jump from which on the mesh resolves the temperature of all heated faces [s]; zero if none is
+    /// heated.
     pub fn resolved_from(&self, mesh: &Mesh) -> f64 {
         let heated = self.solid.shape.faces().iter().filter(|face| self.is_heated(**face));
         let time = |face: &FaceName| {
@@ -310,7 +310,7 @@ impl<'a> Fineness<'a> {
         heated.map(time).fold(0.0, f64::max)
     }
 
-    /// Whether heat passes a face, by a condition or a load.
+    /// Returns true if heat passes a face, by a condition or a load.
     fn is_heated(&self, face: FaceName) -> bool {
         let Face { temperature, flux, convection, radiation, .. } = self.solid.face(face);
         let loaded = |r: &Refinement| {
@@ -323,7 +323,7 @@ impl<'a> Fineness<'a> {
             || self.refinements.iter().any(loaded)
     }
 
-    /// The faces at the ends of an axis that are meshed; the low one is where `whole`.
+    /// Faces at the meshed ends of an axis; the low one is included if `whole` is set.
     fn sides(&self, axis: usize, whole: bool) -> Vec<FaceName> {
         let all = match (&self.solid.shape, axis) {
             (Shape::Disc(_), _) => return vec![FaceName::Sides],
@@ -337,12 +337,11 @@ impl<'a> Fineness<'a> {
         &self.solid.mesh
     }
 
-    /// The first element below a heated face at a coordinate: of the distance that the scene `named`,
-    /// or of the chosen one.
+    /// The first element below a heated face at a coordinate, of the spacing `named` by the scene or of the chosen one.
     fn layer_at(&self, at: f64, named: Option<f64>) -> Fine {
         let size = self.order as f64 * named.unwrap_or(self.layer);
         let fine = self.stretch([at - size, at + size], size);
-        // Particles want distances that change little.
+        // Particles need spacings that change little.
         let layered = named.is_none() && self.solid.heat == HeatMethod::Fem;
         let growth = self.keys().growth.unwrap_or(LAYER_GROWTH);
         if layered { Fine { growth, ..fine } } else { fine }
@@ -352,13 +351,13 @@ impl<'a> Fineness<'a> {
         Fine { from, to, size, growth: self.keys().growth.unwrap_or(DEFAULT_GROWTH) }
     }
 
-    /// Largest element where `usual` would do: without growth all are of one `size`.
+    /// Size of the largest element, in general `usual`: without growth all are of one `size`.
     fn coarsest(&self, usual: f64, size: f64) -> f64 {
         if self.keys().growth == Some(1.0) { size } else { usual }
     }
 }
 
-/// Ends of elements that pass through given places, the first and the last of which are the ends of the axis.
+/// Ends of elements through given places, of which the first and the last are the ends of the axis.
 fn ends_through(places: &[f64], fine: &[Fine], coarsest: f64) -> Vec<f64> {
     let mut ends = vec![places[0]];
     for piece in places.windows(2) {
@@ -367,16 +366,15 @@ fn ends_through(places: &[f64], fine: &[Fine], coarsest: f64) -> Vec<f64> {
     ends
 }
 
-/// The same stretches for so many times as many elements: sizes and their growth fall alike, so that each element is
-/// divided into as many equal ones, about.
+/// Refines stretches for a multiple of the number of elements: sizes and growth decrease alike, so that each element is
+/// divided into about as many equal ones.
 fn finer(fine: &[Fine], factor: f64) -> Vec<Fine> {
     let divide =
         |f: &Fine| Fine { size: f.size / factor, growth: 1.0 + (f.growth - 1.0) / factor, ..*f };
     fine.iter().map(divide).collect()
 }
 
-/// Whether a side lies at the high end of its axis.
-/// The diffusivity of the layer that heat goes slowest in [m²/s].
+/// Diffusivity of the layer with the slowest diffusion [m²/s].
 fn slowest(strata: &[Stratum]) -> f64 {
     strata.iter().map(|layer| layer.constants.diffusivity()).fold(f64::INFINITY, f64::min)
 }
@@ -392,7 +390,7 @@ pub fn lateral_extents(shape: &Shape) -> Vec<f64> {
     }
 }
 
-/// A stretch brought to the meshed half, where the mesh begins at the symmetry plane.
+/// Maps a stretch to the meshed half, if the mesh begins at the symmetry plane.
 fn fold([from, to]: [f64; 2], start: f64) -> [f64; 2] {
     if start != 0.0 {
         return [from, to];

@@ -1,4 +1,4 @@
-//! Faces of a body that nothing supports: equilibrium prescribes their traction.
+//! Unsupported faces of a body: equilibrium prescribes their traction.
 
 use super::elastic::Support;
 use crate::method::mesh::{Geometry, Mesh, MeshFace};
@@ -21,13 +21,14 @@ impl FreeFaces {
         Self { ends: [0, 1, 2].map(|axis| [false, true].map(|high| end(axis, high))) }
     }
 
-    /// The axis normal to the free face on which a place of the mesh lies, top and bottom before sides.
+    /// Returns the axis normal to the free face that contains a place of the mesh; top and bottom take precedence over
+    /// sides.
     pub fn normal_at(&self, place: [f64; 3]) -> Option<usize> {
         [2, 0, 1].into_iter().find(|&axis| self.ends[axis].contains(&Some(place[axis])))
     }
 }
 
-/// Whether the low end of an axis is a plane or axis of symmetry.
+/// Returns true if the low end of an axis is a plane or axis of symmetry.
 fn is_inside(mesh: &Mesh, axis: usize) -> bool {
     match mesh.geometry {
         Geometry::Box => axis < 2 && mesh.mirrored[axis],

@@ -1,4 +1,4 @@
-//! Ends of elements along an axis: fine where asked, growing geometrically elsewhere.
+//! Ends of elements along an axis: fine on given stretches, with geometric growth elsewhere.
 
 /// A stretch of an axis that wants elements no larger than `size` [m], and beyond it neighbours that
 /// differ by no more than about the factor `growth`.
@@ -10,11 +10,11 @@ pub struct Fine {
     pub growth: f64,
 }
 
-/// Ends of elements on `[start, end]`.
+/// Returns the ends of elements on `[start, end]`.
 ///
-/// The wanted size at x is `min over stretches of size + (growth − 1) · distance`, which makes
-/// neighbours differ by about that factor, and never more than `coarsest`. Ends stand at
-/// equal steps of `∫ dx / size(x)`, so that all sizes shrink by one common factor to fit.
+/// The desired size at x is `min over stretches of size + (growth − 1) · distance`, which makes neighbours differ by
+/// about that factor, and never more than `coarsest`. Ends are at equal steps of `∫ dx / size(x)`, so that all sizes
+/// shrink by one common factor to fit.
 pub fn graded_ends(start: f64, end: f64, fine: &[Fine], coarsest: f64) -> Vec<f64> {
     let size = |x: f64| {
         fine.iter()
@@ -28,7 +28,7 @@ pub fn graded_ends(start: f64, end: f64, fine: &[Fine], coarsest: f64) -> Vec<f6
     samples.dedup();
     let table = cumulated_density(&samples, size);
     let total = table[table.len() - 1].1;
-    // A hair below a whole number is that number.
+    // A total just above a whole number counts as that number.
     let count = ((total - 1e-9).ceil() as usize).max(1);
     let mut ends: Vec<f64> =
         (0..=count).map(|i| place_of(&table, total * i as f64 / count as f64)).collect();
@@ -44,7 +44,7 @@ fn cumulated_density(samples: &[f64], size: impl Fn(f64) -> f64) -> Vec<(f64, f6
     for piece in samples.windows(2) {
         let mut x = piece[0];
         while x < piece[1] {
-            // A small part of the local size resolves its change.
+            // Steps that are a small share of the local size resolve its change.
             let step = (size(x) / 16.0).min(piece[1] - x).max((piece[1] - piece[0]) * 1e-6);
             let next = if piece[1] - x - step < 1e-3 * step { piece[1] } else { x + step };
             sum += (next - x) / size(0.5 * (x + next));
@@ -76,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn no_fine_stretch_gives_equal_elements() {
+    fn equal_elements_without_fine_stretches() {
         let ends = graded_ends(-1.0, 1.0, &[], 0.5);
         assert_eq!(ends.len(), 5);
         assert!((ends[2]).abs() < 1e-12);

@@ -1,4 +1,4 @@
-//! Conduction of heat on a structured mesh, solved exactly in time.
+//! Heat conduction on a structured mesh, solved exactly in time.
 //!
 //! The Galerkin equations `M(ρc) θ̇ + K(k) θ = F` of a box or a meridian section with uniform conditions on each face
 //! are separable where ρc and k vary along z alone: M and K are sums of Kronecker products of the matrices of the axes.
@@ -50,7 +50,7 @@ pub struct HeatProblem<D: DepthModes> {
     classes: Vec<Class<D::Columns>>,
 }
 
-/// What drives the heat problem, or a time derivative of it.
+/// Loads of the heat problem, or a time derivative of them.
 pub struct HeatLoads<'a> {
     /// For each class, heat into the nodes of the bottom and the top of the mesh [W]; empty for none.
     pub surface: &'a [[Vec<f64>; 2]],
@@ -58,7 +58,7 @@ pub struct HeatLoads<'a> {
     pub faces: &'a [Vec<f64>],
 }
 
-/// What happened during a step to the even part; or, as rates, what happens at a moment.
+/// Integrals over a step of the even part; or, as rates, its values at a moment.
 struct Passage {
     /// Change of the modal amplitudes of the free nodes, and their integral over the step.
     change: Vec<f64>,
@@ -71,7 +71,7 @@ struct Passage {
 }
 
 impl HeatLoads<'_> {
-    /// Whether a class is driven.
+    /// Returns true if loads drive a class.
     fn drive(&self, class: usize) -> bool {
         let mut values = self.faces[class].iter().chain(self.surface[class].iter().flatten());
         values.any(|&value| value != 0.0)
@@ -79,7 +79,7 @@ impl HeatLoads<'_> {
 }
 
 impl<D: DepthModes> HeatProblem<D> {
-    /// `lateral_conductivity` is that of the layers where lateral faces are convective.
+    /// `lateral_conductivity` is that of the layers if lateral faces are convective.
     fn new(
         mesh: &Mesh,
         depth: D,
@@ -91,7 +91,7 @@ impl<D: DepthModes> HeatProblem<D> {
         Self { depth, copies: mesh.copies(), faces, classes }
     }
 
-    /// The fields of a state: modes class after class, then what the last step had at the faces, then totals.
+    /// Returns the fields of a state: modes class by class, then the face values of the last step, then totals.
     pub fn layout(&self) -> Layout {
         let field = |name, words, per| Field { name, words, per, width: 1 };
         let content = field("content", "amplitude of a mode of heat [K m^(3/2)]", Per::Mode);
@@ -117,7 +117,7 @@ impl<D: DepthModes> HeatProblem<D> {
                 |part: &HeatLoads| self.source(class, &part.surface[index], &part.faces[index]);
             let sources: Vec<Vec<f64>> = loads[..=last.unwrap_or(0)].iter().map(source).collect();
             if !class.parity.is_even() {
-                // Parts that are odd carry no heat in sum.
+                // Antisymmetric parts carry no net heat.
                 self.advance_modes(class, content, &sources, dt);
                 continue;
             }
@@ -151,12 +151,12 @@ impl<D: DepthModes> HeatProblem<D> {
         (0..self.faces.len()).filter(|&f| self.faces[f].1 == ThermalFace::Prescribed)
     }
 
-    /// Modes of a class.
+    /// Number of modes of a class.
     fn len(&self, class: &Class<D::Columns>) -> usize {
         class.plane() * self.depth.count()
     }
 
-    /// Length of what stands behind the modes in a state.
+    /// Length of the part of a state after the modes.
     fn tail(&self) -> usize {
         self.faces.len() + 2
     }
@@ -170,7 +170,7 @@ impl<D: DepthModes> HeatProblem<D> {
         })
     }
 
-    /// Modal amplitudes of the free nodes: the heat content less what the prescribed nodes hold.
+    /// Modal amplitudes of the free nodes: the heat content without that of the prescribed nodes.
     fn effective(&self, class: &Class<D::Columns>, content: &[f64], values: &[f64]) -> Vec<f64> {
         let mut out = content.to_vec();
         if let Some(held) = self.held(class, values) {
@@ -230,8 +230,8 @@ impl<D: DepthModes> HeatProblem<D> {
         out
     }
 
-    /// Replaces the content of a class by its value a time `dt` later and returns its integral over the step, as
-    /// [`exponential::weights`] say; `sources` holds the source at the beginning and its time derivatives.
+    /// Replaces the content of a class by its value a time `dt` later and returns its integral over the step (see
+    /// [`exponential::weights`]). `sources` holds the source at the beginning and its time derivatives.
     fn advance_modes(
         &self,
         class: &Class<D::Columns>,
@@ -256,7 +256,7 @@ impl<D: DepthModes> HeatProblem<D> {
         integral
     }
 
-    /// What passed the faces of the whole body.
+    /// Returns the heat that passed the faces of the whole body.
     fn passed(&self, class: &Class<D::Columns>, passage: &Passage) -> HeatTotals {
         let integral = self.depth.to_mixed(class, &passage.integral);
         let change = self.depth.to_mixed(class, &passage.change);
@@ -284,7 +284,7 @@ impl<D: DepthModes> HeatProblem<D> {
                     0.0
                 }
             };
-            // What a flux or an ambient brings straight into prescribed nodes.
+            // Heat that a flux or a convective face supplies directly to prescribed nodes.
             lost += self.prescribed().map(|g| coefficient * value * overlap(g)).sum::<f64>();
         }
         HeatTotals { brought_in: self.copies * brought, lost: self.copies * lost }
@@ -334,8 +334,8 @@ pub fn end_conditions(
     ends
 }
 
-/// `Σ a_k t^{k + shift}/(k + shift)!` of lists that are one as long as the other or empty: the value
-/// at `t` of a polynomial with these derivatives at zero, or its integral with a `shift` of one.
+/// Returns `Σ a_k t^{k + shift}/(k + shift)!` of lists that are empty or of equal length: the value at `t` of a
+/// polynomial with these derivatives at zero, or its integral with a `shift` of one.
 fn taylor<'a>(lists: impl Iterator<Item = &'a [f64]>, shift: usize, t: f64) -> Vec<f64> {
     let mut sum: Vec<f64> = Vec::new();
     let mut weight = if shift == 0 { 1.0 } else { t };

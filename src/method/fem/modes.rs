@@ -105,15 +105,15 @@ fn eigenpairs(
     }
     let mut decay: Vec<f64> = (0..m).map(|k| rayleigh_quotient(axis, ends, &shapes, k)).collect();
     if insulated {
-        // Rounding of the constant would let all heat go in steps of 1e30 s.
+        // Rounding of the constant mode would lose all heat in steps of 1e30 s.
         decay[0] = 0.0;
     }
     (decay, shapes)
 }
 
-/// The lower triangle L of M = L Lᵀ.
+/// Returns the lower triangle L of M = L Lᵀ.
 ///
-/// Like all of this file it works on the thread that calls, whatever number of them a scene allows.
+/// Like all of this file it works on the calling thread, whatever number of threads a scene allows.
 pub(super) fn cholesky_factor(mut mass: Mat<f64>) -> Mat<f64> {
     let m = mass.nrows();
     let parameters: LltParams = Auto::<f64>::auto();
@@ -129,8 +129,8 @@ pub(super) fn cholesky_factor(mut mass: Mat<f64>) -> Mat<f64> {
     Mat::from_fn(m, m, |i, j| if i < j { 0.0 } else { mass[(i, j)] })
 }
 
-/// Makes the first mode of an insulated axis the constant, to rounding, and the others orthogonal
-/// to it, so that conduction neither makes nor loses heat however long a run is.
+/// Makes the first mode of an insulated axis constant, to rounding, and the others orthogonal to it. Conduction then
+/// conserves heat however long a run is.
 pub(super) fn deflate_constant(vectors: &mut Mat<f64>, lower: &Mat<f64>, m: usize) {
     let mut constant: Vec<f64> = (0..m).map(|i| (i..m).map(|j| lower[(j, i)]).sum()).collect();
     let norm = constant.iter().map(|v| v * v).sum::<f64>().sqrt();
@@ -146,8 +146,8 @@ pub(super) fn deflate_constant(vectors: &mut Mat<f64>, lower: &Mat<f64>, m: usiz
     }
 }
 
-/// `μ = ∫ (φ')² w dx + h/k φ(end)²` of a mass-normal mode: its error is quadratic in the mode's,
-/// and slow modes do not suffer from the rounding of the fast ones.
+/// Returns `μ = ∫ (φ')² w dx + h/k φ(end)²` of a mass-normal mode. Its error is quadratic in that of the mode, and slow
+/// modes are unaffected by the rounding of fast ones.
 fn rayleigh_quotient(axis: &Axis, ends: &[EndCondition; 2], shapes: &Mat<f64>, k: usize) -> f64 {
     let mut sum = 0.0;
     for element in 0..axis.elements() {
@@ -193,14 +193,14 @@ mod tests {
     }
 
     #[test]
-    fn an_insulated_axis_keeps_a_constant_for_ever() {
+    fn insulated_axis_has_a_constant_mode() {
         let modes = AxisModes::of(&line(40, 2), [EndCondition::Natural; 2]);
         assert_eq!(modes.decay[0], 0.0);
         assert!(modes.decay[1] > 9.0);
     }
 
     #[test]
-    fn a_convective_end_satisfies_the_transcendental_equation() {
+    fn convective_end_satisfies_the_transcendental_equation() {
         // φ' = −B φ at x = 1 and φ' = 0 at 0: b tan b = B, decay b².
         let modes =
             AxisModes::of(&line(40, 2), [EndCondition::Natural, EndCondition::Convective(2.0)]);

@@ -12,25 +12,25 @@ use crate::method::mesh::Mesh;
 use crate::runtime::allowance::Allowance;
 use crate::state::{Field, Layout, Per};
 
-/// Heat by enthalpies as that of a solid: temperatures above the initial one, nodes on interfaces between layers twice,
-/// parts that are odd about a plane of symmetry refused.
+/// Enthalpy method behind the interface of a solid's heat: temperatures above the initial one, with nodes on interfaces
+/// between layers listed twice. Parts that are odd about a plane of symmetry are refused.
 pub struct NonlinearHeat {
     heat: EnthalpyHeat,
     initial_temperature: f64,
     /// Conditions of the plan's thermal faces.
     faces: Vec<ThermalFace>,
-    /// Temperatures of what radiating faces see [K].
+    /// Ambient temperatures of radiating faces [K].
     ambients: Vec<f64>,
-    /// What a step in time may err by [K].
+    /// Error tolerance of a time step [K].
     tolerance: f64,
-    /// For each level along z of those that stand twice on every interface, that of the heat's own.
+    /// Level of the heat's own mesh for each level along z of the mesh with doubled interfaces.
     levels: Vec<usize>,
-    /// Nodes of a level.
+    /// Number of nodes of a level.
     plane: usize,
     classes: usize,
 }
 
-/// Why nonlinear heat did not advance.
+/// Reasons why nonlinear heat did not advance.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NonlinearFailure {
     #[error(transparent)]
@@ -76,7 +76,7 @@ impl NonlinearHeat {
         self.heat.initial_state(self.initial_temperature)
     }
 
-    /// What a step in time may err by [K].
+    /// Error tolerance of a time step [K].
     pub fn tolerance(&self) -> f64 {
         self.tolerance
     }
@@ -105,7 +105,7 @@ impl NonlinearHeat {
         Ok(self.heat.advance(state, &loads, dt, self.tolerance, allowance)?)
     }
 
-    /// Values of all faces, or a time derivative of them: temperatures from absolute zero on.
+    /// Values of all faces, or a time derivative of them; temperatures are absolute.
     fn values(&self, derivative: usize, faces: &[Vec<f64>]) -> Vec<f64> {
         let is_value = if derivative == 0 { 1.0 } else { 0.0 };
         let base = |kind: &ThermalFace| match kind {
@@ -136,20 +136,20 @@ impl NonlinearHeat {
         self.heat.totals(state)
     }
 
-    /// Volume that is liquid [m³].
+    /// Liquid volume [m³].
     pub fn liquid_volume(&self, state: &[f64], copies: f64) -> f64 {
         let fractions = self.heat.liquid_fractions(state);
         let parts = fractions.iter().zip(self.heat.volumes());
         copies * parts.map(|(fraction, volume)| fraction * volume).sum::<f64>()
     }
 
-    /// By how much the volume that is liquid scatters about the truth, about, as fronts go from node to node [m³].
+    /// Approximate scatter of the liquid volume about the exact value as fronts move from node to node [m³].
     ///
-    /// A node that melts keeps the temperature of melting whatever part of it is liquid, so the gradient that feeds a
-    /// front does not see where it stands in the node. Against Neumann's front (Carslaw & Jaeger 1959, § 11.2) that makes
-    /// 0.05 to 0.25 of a node's volume, at Stefan numbers of 0.05 to 5. Nodes that melt at different times make up for
-    /// each other: with fractions f, `|Σ V e^{2πif}|` is what of them goes together. Where a body stands at its melting
-    /// point, rounding melts traces everywhere, which are no front.
+    /// A melting node keeps the melting temperature whatever its liquid fraction, so the gradient at a front does not
+    /// depend on the front's position within the node. Compared with Neumann's front (Carslaw & Jaeger 1959, § 11.2)
+    /// the error is 0.05 to 0.25 of a node's volume, at Stefan numbers of 0.05 to 5. Errors of nodes that melt at
+    /// different times cancel: with fractions f, `|Σ V e^{2πif}|` is the coherent part. In a body at its melting point,
+    /// rounding melts traces everywhere, which are no front.
     pub fn liquid_scatter(&self, state: &[f64], copies: f64) -> f64 {
         let fractions = self.heat.liquid_fractions(state);
         let melting = fractions
@@ -164,13 +164,13 @@ impl NonlinearHeat {
     }
 }
 
-/// Part of its volume by which a node that melts puts what is liquid wrong, about.
+/// Typical error of the liquid volume of a melting node, as a share of its volume.
 const SCATTER: f64 = 0.1;
 
-/// Part of a node that counts as neither solid nor liquid.
+/// Liquid fraction below which a node counts as solid, and above whose complement it counts as liquid.
 const TRACE: f64 = 1e-2;
 
-/// The mesh on which heat is brought into the nodes.
+/// Returns the mesh on which heat enters the nodes.
 pub fn heat_mesh(plan: &Plan) -> Mesh {
     if plan.linear_heat { linear_mesh(&plan.mesh) } else { plan.mesh.clone() }
 }
@@ -205,7 +205,7 @@ fn setup(plan: &Plan, newton: &NewtonPlan) -> Setup {
     }
 }
 
-/// Levels of the heat, which stand twice at contacts that resist alone, for those that do on every interface.
+/// Maps levels with doubled interfaces to those of the heat, which are doubled at resistive contacts alone.
 fn levels(mesh: &Mesh) -> Vec<usize> {
     let resists = |layer: &usize| mesh.layering.resistance_above(*layer) > 0.0;
     let of_layer = |layer: usize| {

@@ -1,4 +1,4 @@
-//! What will be modelled of a solid, decided before any heavy work: symmetry, mesh, physics.
+//! Model of a solid, decided before any heavy work: symmetry, mesh, physics.
 
 use std::sync::Arc;
 
@@ -14,61 +14,61 @@ use crate::scene::{
     Symmetry,
 };
 
-/// Everything that a solid's model is built from.
+/// Everything from which a solid's model is built.
 #[derive(Clone)]
 pub struct Plan {
     pub mesh: Mesh,
-    /// The layers, from the lowest on; one of a body of one material.
+    /// The layers, from the lowest on; a single one for a body of one material.
     pub strata: Vec<Stratum>,
-    /// Of the top layer.
+    /// Constants of the top layer.
     pub constants: Constants,
-    /// The law of deformation of each layer, from the lowest on; none where mechanics is not modelled.
+    /// The law of deformation of each layer, from the lowest on; `None` if mechanics is not modelled.
     pub law: Option<Vec<Thermoelastic>>,
     pub initial_temperature: f64,
-    /// From when on after a jump the mesh tells the temperatures of heated faces [s].
+    /// Time after a jump from which on the mesh resolves the temperatures of heated faces [s].
     pub resolved_from: f64,
-    /// How particles conduct the heat; `None` where finite elements do.
+    /// Settings of particles that conduct the heat; `None` if finite elements do.
     pub sph: Option<SphSettings>,
     /// Conditions other than insulation.
     pub thermal_faces: Vec<(MeshFace, ThermalFace)>,
-    /// For each thermal face, the face of the body that lies there and the one whose image does.
+    /// For each thermal face, the face of the body at that place and the one with its image there.
     pub face_sources: Vec<(FaceName, Option<FaceName>)>,
-    /// What Newton's method advances the heat by; `None` where modes or particles do.
+    /// Settings of Newton's method for the heat; `None` if modes or particles advance it.
     pub newton: Option<NewtonPlan>,
-    /// Whether heat goes through linear elements.
+    /// True if heat uses linear elements.
     pub linear_heat: bool,
-    /// What each layer of elements along z deforms by where that is not linear, from the lowest on.
+    /// Flow law of each layer of elements along z, from the lowest on; `None` if deformation is linear.
     pub inelastic: Option<Vec<Arc<dyn FlowLaw>>>,
-    /// Temperature without thermal stress above the initial one [K].
+    /// Stress-free temperature above the initial one [K].
     pub stress_free_rise: f64,
     pub supports: Vec<(MeshFace, Support)>,
-    /// What was chosen or left out, and why: a sentence each.
+    /// Notes on choices and simplifications, with reasons: one sentence each.
     pub notes: Vec<String>,
 }
 
-/// What nonlinear heat takes beside the rest of a plan.
+/// Additional data of a plan for nonlinear heat.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NewtonPlan {
-    /// What each layer is made of, from the lowest on.
+    /// Material of each layer, from the lowest on.
     pub materials: Vec<Conduction>,
     pub radiation: Vec<(MeshFace, Radiation)>,
-    /// What a step in time may err by [K].
+    /// Error tolerance of a time step [K].
     pub tolerance: f64,
 }
 
-/// What a scene asks of a solid's plan.
+/// Requirements of a scene on a solid's plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlanRequest<'a> {
     pub mechanics: Mechanics,
-    /// Where loads act.
+    /// Areas where loads act.
     pub refinements: &'a [Refinement],
-    /// Shortest time after which results are wanted [s].
+    /// Shortest time after which results are needed [s].
     pub shortest: f64,
-    /// What a step in time of nonlinear heat may err by [K]; nothing where heat is linear.
+    /// Error tolerance of a time step of nonlinear heat [K]; `None` if heat is linear.
     pub newton: Option<f64>,
     /// Numbers of elements along the surface and through the thickness over the usual ones.
     pub factors: [f64; 2],
-    /// Whether heat that is linear goes through linear elements.
+    /// True if linear heat uses linear elements.
     pub linear_heat: bool,
 }
 
@@ -80,20 +80,20 @@ pub struct Refinement {
     pub top: bool,
     /// Length over which the load changes [m].
     pub feature: f64,
-    /// Whether it brings heat.
+    /// True if the load brings heat.
     pub heats: bool,
-    /// Distances of sharp edges from the centre, where these stay [m].
+    /// Distances of sharp edges from the centre if they are constant [m].
     pub edges: [Option<f64>; 2],
 }
 
-/// How much of a solid's mechanics a scene needs.
+/// Extent of a solid's mechanics that a scene needs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mechanics {
     /// No stress or displacement can be read.
     Absent,
-    /// They can be read but need not be, as of a plate under a droplet.
+    /// They can be read but are not requested, as for a plate under a droplet.
     Offered,
-    /// A probe or field gives them.
+    /// A probe or field reads them.
     Wanted,
 }
 
@@ -171,14 +171,14 @@ impl Plan {
         self.strata.iter().map(|layer| layer.constants).collect()
     }
 
-    /// Numbers that the modes along z of one symmetry class are, at most: through layers each pair of modes
-    /// along the surface has its own.
+    /// Largest number of entries of the modes along z of one symmetry class: through layers, each pair of modes along
+    /// the surface has its own.
     pub fn entries_of_columns(&self) -> f64 {
         let [nx, ny, nz] = self.mesh.sided_counts().map(|count| count as f64);
         if self.strata.len() > 1 { nx * ny * nz * (nz + 1.0) } else { 0.0 }
     }
 
-    /// Unknowns of heat and of displacement, symmetry used.
+    /// Numbers of unknowns of heat and of displacement, reduced by symmetry.
     pub fn unknowns(&self) -> [usize; 2] {
         let nodes = self.mesh.nodes();
         let degrees = self.mesh.geometry.degrees();
@@ -226,7 +226,7 @@ fn particle_note(settings: &SphSettings, mesh: &Mesh) -> String {
     )
 }
 
-/// Along which axes half the body stands for the whole.
+/// Returns the axes along which half the body represents the whole.
 fn mirrored(solid: &Solid, is_nonlinear: bool, notes: &mut Vec<String>) -> [bool; 2] {
     if matches!(solid.shape, Shape::Disc(_)) {
         notes.push("axisymmetric: a meridian section stands for the disc".into());
@@ -261,7 +261,8 @@ fn mirrored(solid: &Solid, is_nonlinear: bool, notes: &mut Vec<String>) -> [bool
     })
 }
 
-/// Whether nothing varies along the surface of a body without loads on parts of faces, with mechanics or without.
+/// Returns true if nothing varies along the surface of a body without loads on parts of faces, with or without
+/// mechanics.
 fn is_column(solid: &Solid, has_mechanics: bool) -> bool {
     let mut sides = solid.shape.faces().iter().filter(|face| face.normal() != Some(2));
     solid.heat == HeatMethod::Fem
@@ -274,7 +275,7 @@ fn is_column(solid: &Solid, has_mechanics: bool) -> bool {
         })
 }
 
-/// Whether two faces differ at most in the values of inputs.
+/// Returns true if two faces differ at most in the values of inputs.
 fn alike(a: &Face, b: &Face) -> bool {
     a.temperature.is_some() == b.temperature.is_some()
         && a.flux.is_some() == b.flux.is_some()
@@ -315,7 +316,7 @@ fn thermal_faces(solid: &Solid, mesh: &Mesh) -> ThermalFaces {
     for &name in solid.shape.faces() {
         let Some(condition) = thermal_condition(&solid.face(name)) else { continue };
         let (place, image) = mesh.place(name);
-        // The own face of a mirrored axis is always there: its conditions are like the image's.
+        // The meshed face of a mirrored axis is always listed: its conditions equal those of the image.
         if image {
             continue;
         }
@@ -325,7 +326,7 @@ fn thermal_faces(solid: &Solid, mesh: &Mesh) -> ThermalFaces {
     (faces, sources)
 }
 
-/// The face across the box.
+/// Returns the opposite face of the box.
 fn opposite(face: FaceName) -> Option<FaceName> {
     match face {
         FaceName::Right => Some(FaceName::Left),
@@ -356,7 +357,7 @@ fn newton_plan(solid: &Solid, mesh: &Mesh, tolerance: f64) -> NewtonPlan {
     NewtonPlan { materials, radiation: radiating.collect(), tolerance }
 }
 
-/// Of what follows from the deformation's history.
+/// Note on history-dependent stress.
 const NOTE_ON_HISTORY: &str = "stress depends on what the body went through: equilibrium is found at the end of every \
                                communication step, between which each place deforms straight on";
 

@@ -1,4 +1,4 @@
-//! Recovery of strains: from the points where they are most accurate to a continuous field.
+//! Recovery of strains: from their most accurate points to a continuous field.
 //!
 //! Strains of Lagrange elements of order p are one order more accurate at the p Gauss points along
 //! each axis (J. Barlow 1976, doi 10.1002/nme.1620100202). On a structured mesh these form a grid of
@@ -6,14 +6,14 @@
 //! axis, and values between nodes follow the shape functions, so the field is continuous
 //! (cf. O. C. Zienkiewicz and J. Z. Zhu 1992, doi 10.1002/nme.1620330702).
 //!
-//! Where heat has come only little way, temperature and the strain along z vary much from one
-//! sampling point to the next and nearly cancel in σ_zz. So not the strains xx, …, xz are recovered but
-//! xx, yy, xy and the stresses zz, yz, xz, which all vary slowly through the depth; the temperature of the
-//! place then gives the rest. On a top or bottom these stresses are the traction there, known from the
-//! loads unless a support holds it, and the polynomials take that value.
+//! While heat has penetrated only a little, temperature and the strain along z vary strongly between sampling points
+//! and nearly cancel in σ_zz. Therefore not the strains xx, …, xz are recovered but xx, yy, xy and the stresses zz, yz,
+//! xz, which all vary slowly through the depth. The local temperature then determines the remaining components. On a
+//! top or bottom these stresses are the traction there. It is known from the loads unless a support holds the face, and
+//! the polynomials take that value.
 //!
-//! A plane of symmetry is no end: the sampling points go on behind it as images, so half a body recovers
-//! what the whole does. On the axis of a disc the strains rr and tt are one: their mean is recovered as an even
+//! A plane of symmetry is no end: the sampling points continue behind it as images, so half a body recovers the same
+//! values as the whole. On the axis of a disc the strains rr and tt are equal. Their mean is recovered as an even
 //! function of the radius, half their difference as one that vanishes on the axis.
 
 use faer::Mat;
@@ -23,7 +23,7 @@ use crate::math::lagrange::interpolation_weights;
 use crate::method::mesh::Axis;
 use crate::method::mesh::Mesh;
 
-/// Sampling points inside: cubic; at an end, where the polynomial is extrapolated: quadratic.
+/// Number of sampling points: cubic inside; quadratic at an end, where the polynomial is extrapolated.
 const INSIDE: usize = 4;
 const AT_END: usize = 3;
 
@@ -42,7 +42,7 @@ pub fn sampling_places(axis: &Axis) -> Vec<(usize, f64)> {
         .collect()
 }
 
-/// What lies beyond the low end of an axis.
+/// Continuation of values beyond the low end of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Beyond {
     /// The end of the body.
@@ -55,16 +55,15 @@ pub enum Beyond {
     Vanishing,
 }
 
-/// From values at the sampling points of an axis, and at ends where they are known, to its nodes.
+/// Recovery from values at the sampling points of an axis, and from known values at its ends, to its nodes.
 #[derive(Debug, Clone)]
 pub struct Recovery {
     pub samples: Mat<f64>,
-    /// Weights of the known values at the low and the high end, a list with an entry a node; empty where
-    /// none is known.
+    /// Weights of the known values at the low and the high end, a list with an entry per node; empty if none is known.
     pub ends: [Vec<f64>; 2],
 }
 
-/// What stands at a place that a polynomial goes through.
+/// Value at a place through which a polynomial passes.
 #[derive(Clone, Copy)]
 enum Source {
     Sample(usize, f64),
@@ -73,7 +72,7 @@ enum Source {
 }
 
 impl Recovery {
-    /// Of an axis on which values are known at the low and high end where `known` says so.
+    /// Creates the recovery of an axis; `known` is set for ends with known values.
     pub fn new(axis: &Axis, beyond: Beyond, known: [bool; 2]) -> Self {
         let own: Vec<f64> = sampling_places(axis).into_iter().map(|(_, x)| x).collect();
         let sources = sources(axis, &own, beyond, known);
@@ -98,8 +97,8 @@ impl Recovery {
 }
 
 impl Recovery {
-    /// Along z, from the samples of each layer to its own nodes: those on interfaces are there twice. Strains
-    /// along interfaces and stresses on them are continuous, but their slopes are not.
+    /// Creates the recovery along z from the samples of each layer to its own nodes, with nodes on interfaces listed
+    /// twice. Strains along interfaces and stresses on them are continuous, but their slopes are not.
     pub fn of_layers(mesh: &Mesh, known: [bool; 2]) -> Self {
         let count = mesh.layering.count();
         let [.., nodes] = mesh.sided_counts();
@@ -127,7 +126,7 @@ impl Recovery {
     }
 }
 
-/// Places in ascending order, and what stands there.
+/// Returns the places in ascending order with their values.
 fn sources(axis: &Axis, own: &[f64], beyond: Beyond, known: [bool; 2]) -> Vec<(f64, Source)> {
     let sign = if beyond == Beyond::Odd { -1.0 } else { 1.0 };
     let image = |(i, x): (usize, &f64)| (2.0 * axis.start() - x, Source::Sample(i, sign));
@@ -145,7 +144,7 @@ fn sources(axis: &Axis, own: &[f64], beyond: Beyond, known: [bool; 2]) -> Vec<(f
     all
 }
 
-/// First of the `count` consecutive points that surround `x` best.
+/// Index of the first of the `count` consecutive points that best surround `x`.
 fn nearest(points: &[f64], x: f64, count: usize) -> usize {
     let above = points.partition_point(|&p| p < x);
     above.saturating_sub(count / 2).min(points.len() - count)
@@ -175,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn a_single_linear_element_has_one_value() {
+    fn single_linear_element_has_one_value() {
         let axis = Axis::from_element_ends(&[0.0, 1.0], 1, Weight::Uniform);
         let matrix = Recovery::new(&axis, Beyond::Nothing, [false; 2]).samples;
         assert_eq!((matrix[(0, 0)], matrix[(1, 0)]), (1.0, 1.0));
@@ -200,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn what_vanishes_on_an_axis_does_so() {
+    fn vanishing_quantities_are_recovered_on_the_axis() {
         let axis = Axis::from_element_ends(&[0.0, 1.0, 1.8, 3.0], 2, Weight::Radial);
         let matrix = Recovery::new(&axis, Beyond::Vanishing, [false; 2]).samples;
         for (node, &x) in axis.nodes.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! A solid: heat and elasticity on one mesh, and what can be read from their solution.
+//! A solid: heat and elasticity on one mesh, and readings of their solution.
 
 mod extremes;
 mod influence;
@@ -31,26 +31,26 @@ pub use modal::SolidModes;
 use recovered::{FaceStresses, Recoveries};
 pub use remembered::Remembered;
 
-/// Everything known of a solid before time starts.
+/// Everything that is known of a solid before time starts.
 pub struct SolidFem {
     mesh: Mesh,
     initial_temperature: f64,
-    /// Temperature without stress above the initial one [K].
+    /// Stress-free temperature above the initial one [K].
     stress_free_rise: f64,
     heat: Box<dyn Heat>,
-    /// Of the bottom and the top.
+    /// Responses of the bottom and the top.
     ends: [EndResponse; 2],
-    /// Node along z of each of those that are there twice on interfaces.
+    /// Node along z of each node of the list with doubled interfaces.
     nodes_of_sided: Vec<usize>,
     elastic: Option<Arc<ElasticProblem>>,
     recoveries: Recoveries,
     parities: Vec<Parity>,
-    /// Of each element along z; empty where stress follows from deformation alone.
+    /// Flow law of each element along z; empty if stress follows from deformation alone.
     flow_laws: Vec<Arc<dyn FlowLaw>>,
     free_faces: FreeFaces,
 }
 
-/// What acts on a solid, or a derivative of it; every list has an entry for each symmetry class.
+/// Loads on a solid, or a derivative of them; every list has an entry for each symmetry class.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SolidLoads {
     /// Heat into the nodes of the bottom and the top of the mesh [W]; empty for none.
@@ -62,29 +62,29 @@ pub struct SolidLoads {
     pub faces: Vec<Vec<f64>>,
 }
 
-/// Nodal temperature above the initial one [K], class by class; empty where a class is zero. Nodes on
-/// interfaces between layers are there twice, first for the layer below.
+/// Nodal temperature above the initial one [K], class by class; empty for a class that is zero. Nodes on interfaces
+/// between layers are listed twice, first for the layer below.
 pub type Temperatures = Vec<Vec<f64>>;
 
-/// Displacements [m] and what stress is recovered from, class by class; empty where a class is zero.
+/// Displacements [m] and the data for stress recovery, class by class; empty for a class that is zero.
 #[derive(Debug, Clone, Default)]
 pub struct Deformation {
     pub displacement: Vec<Vec<f64>>,
     /// The recovered quantities at the sampling points.
     strains: Vec<Strains>,
     tractions: Vec<FaceStresses>,
-    /// Of a body whose stress depends on its history.
+    /// Set for a body whose stress depends on its history.
     remembered: Option<Remembered>,
 }
 
 impl Deformation {
-    /// Displacements and stress that are known at the nodes, even about planes of symmetry.
+    /// Displacements and stress known at the nodes, even about planes of symmetry.
     pub fn of_nodes(displacement: Vec<f64>, remembered: Remembered) -> Self {
         let (displacement, remembered) = (vec![displacement], Some(remembered));
         Self { displacement, remembered, ..Self::default() }
     }
 
-    /// Accumulated plastic strain at the nodes [1]; empty where nothing yields.
+    /// Accumulated plastic strain at the nodes [1]; empty without yielding.
     fn plastic_strain(&self) -> &[f64] {
         let flow = self.remembered.as_ref().and_then(|remembered| remembered.flow.as_ref());
         flow.map_or(&[], |flow| &flow.plastic_strain)
@@ -94,17 +94,16 @@ impl Deformation {
 /// Values at all nodes of the whole body, images included: a rectilinear grid.
 #[derive(Debug, Clone, Default)]
 pub struct NodalFields {
-    /// Coordinates along x, y, z [m]; the x index runs fastest. In axisymmetry x is the radius and
-    /// y the single value 0. Interfaces between layers stand twice along z, first for the layer below.
+    /// Coordinates along x, y, z [m]; the x index runs fastest. In axisymmetry x is the radius and y the single value
+    /// 0. Interfaces between layers are listed twice along z, first for the layer below.
     pub axes: [Vec<f64>; 3],
     /// [K]
     pub temperature: Vec<f64>,
-    /// [m]; empty where mechanics is not modelled.
+    /// [m]; empty if mechanics is not modelled.
     pub displacement: Vec<[f64; 3]>,
-    /// xx, yy, zz, xy, yz, xz [Pa] (axisymmetry: rr, tt, zz, 0, 0, rz); empty where mechanics is not
-    /// modelled.
+    /// xx, yy, zz, xy, yz, xz [Pa] (axisymmetry: rr, tt, zz, 0, 0, rz); empty if mechanics is not modelled.
     pub stress: Vec<[f64; 6]>,
-    /// Accumulated plastic strain [1]; empty where nothing yields.
+    /// Accumulated plastic strain [1]; empty without yielding.
     pub plastic_strain: Vec<f64>,
 }
 
@@ -123,7 +122,7 @@ struct Weights {
 }
 
 impl SolidLoads {
-    /// As many lists of nothing.
+    /// Returns loads of the same shape that are zero.
     pub fn zero(&self) -> Self {
         let empty =
             |lists: &[Vec<Vec<f64>>; 2]| lists.each_ref().map(|l| vec![Vec::new(); l.len()]);
@@ -134,7 +133,8 @@ impl SolidLoads {
         }
     }
 
-    /// Whether what acts without delay is the same to the bit: face values, among them prescribed temperatures, and forces.
+    /// Returns true if instantaneous loads are bitwise equal: face values, including prescribed temperatures, and
+    /// forces.
     pub fn acts_at_once_as(&self, other: &Self) -> bool {
         let same = |a: &[f64], b: &[f64]| {
             a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
@@ -152,8 +152,8 @@ impl SolidLoads {
 }
 
 impl SolidFem {
-    /// Builds what heat takes of a plan, on at most `threads` threads; what solves for displacements waits until these
-    /// are first asked for.
+    /// Builds the heat problem of a plan on at most `threads` threads; the solver for displacements is made when these
+    /// are first read.
     pub fn new(plan: &Plan, threads: usize) -> Self {
         let mesh = plan.mesh.clone();
         let heat = heat_of(plan, threads);
@@ -193,22 +193,22 @@ impl SolidFem {
         self.heat.initial_state()
     }
 
-    /// Whether heat obeys a linear equation.
+    /// Returns true if heat obeys a linear equation.
     pub fn conducts_linearly(&self) -> bool {
         self.heat.is_linear()
     }
 
-    /// What temperatures may err by from step to step [K]; nothing where they are exact.
+    /// Error of temperatures from step to step [K]; zero where they are exact.
     pub fn tolerance(&self) -> f64 {
         self.heat.tolerance()
     }
 
-    /// Volume that is liquid [m³].
+    /// Liquid volume [m³].
     pub fn liquid_volume(&self, state: &[f64]) -> f64 {
         self.heat.liquid_volume(state, self.mesh.copies())
     }
 
-    /// By how much that scatters, about, as fronts go from node to node [m³].
+    /// Approximate scatter of that volume as fronts move from node to node [m³].
     pub fn liquid_scatter(&self, state: &[f64]) -> f64 {
         self.heat.liquid_scatter(state, self.mesh.copies())
     }
@@ -227,14 +227,13 @@ impl SolidFem {
         self.elastic.as_ref().map_or(0, |elastic| elastic.factor_entries())
     }
 
-    /// What solves its mechanics, which bodies that differ in what concerns heat alone share.
+    /// Returns the elastic problem, shared by bodies that differ only in thermal data.
     pub fn stiffness(&self) -> Option<Arc<ElasticProblem>> {
         self.elastic.clone()
     }
 
-    /// Advances `state` by `dt` [s] under loads that are polynomials in time, at most quadratic: one
-    /// entry of `loads` for their values at the beginning and one for each derivative. What a halt leaves in
-    /// `state` is of no use.
+    /// Advances `state` by `dt` [s] under loads that are polynomials in time, at most quadratic: one entry of `loads`
+    /// for their values at the beginning and one for each derivative. After a halt `state` is unusable.
     pub fn advance(
         &self,
         state: &mut [f64],
@@ -255,7 +254,7 @@ impl SolidFem {
         self.heat.totals(state)
     }
 
-    /// Heat stored less what came in and was not lost [J].
+    /// Heat stored minus heat supplied plus heat lost [J].
     pub fn heat_drift(&self, state: &[f64]) -> f64 {
         let totals = self.heat_totals(state);
         self.heat_stored(state) - (totals.brought_in - totals.lost)
@@ -266,14 +265,13 @@ impl SolidFem {
         self.initial_temperature
     }
 
-    /// Number of particles without a corrected operator of their own; `None` where finite elements
-    /// conduct the heat.
+    /// Number of particles without a corrected operator of their own; `None` if finite elements conduct the heat.
     pub fn fallback_particles(&self) -> Option<usize> {
         self.heat.fallback()
     }
 
-    /// Temperature above the initial one at one point [K], without computing the whole field where
-    /// the modes give it.
+    /// Temperature above the initial one at one point [K], computed from the modes if there are any, without the whole
+    /// field.
     pub fn rise_at(&self, state: &[f64], loads: &SolidLoads, point: [f64; 3]) -> f64 {
         let place = self.mesh.locate(point);
         let modal = self.heat.modal();
@@ -281,15 +279,15 @@ impl SolidFem {
         found.unwrap_or_else(|| self.rise_from(&self.temperatures(state, loads), point))
     }
 
-    /// How the top, or the bottom, answers to an impulse of heat per area, uniform along it: rates λ [1/s] and gains g
+    /// Response of the top, or the bottom, to an impulse of heat per area, uniform along it: rates λ [1/s] and gains g
     /// [K m²/J] of `Σ g e^{−λt}`.
     pub fn end_modes(&self, high: bool) -> [Vec<f64>; 2] {
         let end = &self.ends[usize::from(high)];
         [end.rates.clone(), end.gains.clone()]
     }
 
-    /// Temperature above the initial one at the nodes of that end [K], then the contribution of each of these modes to
-    /// it, class by class; empty for a class that is zero.
+    /// Temperature above the initial one at the nodes of that end [K], followed by the contribution of each of these
+    /// modes to it, class by class; empty for a class that is zero.
     pub fn end_parts(&self, state: &[f64], loads: &SolidLoads, high: bool) -> Vec<Vec<f64>> {
         self.heat.along_depth(state, &loads.faces, &self.ends[usize::from(high)].rows)
     }
@@ -308,7 +306,7 @@ impl SolidFem {
 
     /// Solves for the deformation under temperatures and loads.
     ///
-    /// Temperatures are those above the one without stress, see [`Self::above_stress_free`].
+    /// Temperatures are relative to the stress-free one, see [`Self::above_stress_free`].
     pub fn deformation(
         &self,
         temperatures: &Temperatures,
@@ -316,7 +314,8 @@ impl SolidFem {
     ) -> Result<Deformation, SolverError> {
         let mut result = Deformation::default();
         let Some(elastic) = &self.elastic else { return Ok(result) };
-        // At rest, too: hosts read initial values before the first step, which is then as fast as the others.
+        // This is done even at rest: hosts read initial values before the first step, which then takes no longer than
+        // the others.
         elastic.prepare()?;
         for (class, temperature) in temperatures.iter().enumerate() {
             let displacement = elastic.displacement(class, temperature, &loads.force[class])?;
@@ -331,7 +330,7 @@ impl SolidFem {
         Ok(result)
     }
 
-    /// Temperatures above the one without stress from those above the initial one.
+    /// Converts temperatures above the initial one to those above the stress-free one.
     pub fn above_stress_free(&self, mut temperatures: Temperatures) -> Temperatures {
         if self.stress_free_rise != 0.0 {
             temperatures[0].resize(self.mesh.sided_nodes(), 0.0);
@@ -376,13 +375,13 @@ impl SolidFem {
         total
     }
 
-    /// Accumulated plastic strain at a point [1]; zero where nothing yields.
+    /// Accumulated plastic strain at a point [1]; zero without yielding.
     pub fn plastic_strain_at(&self, deformation: &Deformation, point: [f64; 3]) -> f64 {
         let flow = deformation.remembered.as_ref().and_then(|remembered| remembered.flow.as_ref());
         flow.map_or(0.0, |flow| self.flowed_at(flow, self.mesh.locate(point).0))
     }
 
-    /// Values at all nodes of the whole body, from temperatures above the initial one, those above the one without stress
+    /// Values at all nodes of the whole body, from temperatures above the initial one, those above the stress-free one,
     /// and the deformation under these.
     pub fn fields(
         &self,
@@ -448,7 +447,7 @@ impl SolidFem {
         NodalFields { temperature, displacement, stress, ..Default::default() }
     }
 
-    /// Stress at the nodes of an image, those on interfaces twice.
+    /// Stress at the nodes of an image, with nodes on interfaces listed twice.
     fn stress_in(
         &self,
         thermal: &Temperatures,
@@ -484,7 +483,7 @@ impl SolidFem {
         out
     }
 
-    /// Images that differ: all four only if an odd part is present.
+    /// Distinct images: all four only if an odd part is present.
     fn images(&self, classes: &[Vec<f64>]) -> Vec<[bool; 2]> {
         let odd = |axis: usize| {
             let parts = self.parities.iter().zip(classes);
@@ -506,7 +505,7 @@ impl SolidFem {
         rise
     }
 
-    /// The same of the nodes that are there twice on interfaces.
+    /// Weights of the nodes around a place, with nodes on interfaces listed twice.
     fn sided_weights(&self, place: [f64; 3]) -> [Weights; 3] {
         let [x, y, _] = self.node_weights(place);
         let shape = self.mesh.sided_shape_at(place[2]);
@@ -522,8 +521,7 @@ impl SolidFem {
     }
 }
 
-/// Weighted sum over a grid of one component of `(component, of how many per point)`; zero for an
-/// empty field.
+/// Weighted sum over a grid of one component of `(component, number per point)`; zero for an empty field.
 fn weighted(
     field: &[f64],
     [x, y, z]: [&Weights; 3],

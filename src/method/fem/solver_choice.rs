@@ -1,4 +1,4 @@
-//! How displacements are found: by a factor of stiffness or by conjugate gradients, and what that takes.
+//! Choice between a factorised stiffness and conjugate gradients, with the memory of each.
 
 use super::brick_solver::BrickSolver;
 use crate::laws::Thermoelastic;
@@ -9,7 +9,7 @@ use crate::method::mesh::{Geometry, Mesh};
 const ENTRIES_3D: f64 = 21.0;
 const ENTRIES_2D: f64 = 3.1;
 
-/// About how many entries the factor of so many unknowns has.
+/// Estimates the number of entries of a factor of this many unknowns.
 pub fn expected_entries(geometry: Geometry, unknowns: usize) -> f64 {
     let n = unknowns as f64;
     match geometry {
@@ -19,35 +19,36 @@ pub fn expected_entries(geometry: Geometry, unknowns: usize) -> f64 {
     }
 }
 
-/// Memory that it takes to factor so many unknowns, most of which the factor keeps [B].
+/// Memory to factor this many unknowns, most of which the factor keeps [B].
 pub fn factor_memory(geometry: Geometry, unknowns: usize) -> f64 {
     8.0 * (1.2 * expected_entries(geometry, unknowns) + 60.0 * unknowns as f64)
 }
 
-/// Unknowns of a box from which on conjugate gradients are taken: there a factor takes half a second more to make and a
-/// sixtieth less a reading, and both are slower from twice as many on.
+/// Number of unknowns of a box from which on conjugate gradients are used. There a factor takes half a second longer to
+/// make, and a reading a sixtieth less; with twice as many unknowns both are slower.
 const MANY: usize = 20_000;
-/// Poisson's ratio up to which they need few iterations.
+/// Poisson's ratio up to which conjugate gradients need few iterations.
 const MOST_POISSON: f64 = 0.45;
-/// Ratio of Young's moduli of layers up to which they need up to half as many more: the preconditioner knows the layers
-/// of each component, not how they couple.
+/// Ratio of Young's moduli of layers up to which they need at most half as many more: the preconditioner includes the
+/// layers of each component, but not their coupling.
 const MOST_CONTRAST: f64 = 1e4;
 /// Ratio of lengths along x and y that are equal to rounding.
 const EQUAL: f64 = 1.0 + 1e-6;
-/// Length along x or y over the least length up to which linear bricks on unequal lengths need few: the preconditioner
-/// knows their enhanced strains on equal lengths only, and misses more the flatter they are. At that ratio they need 130,
-/// at ten times that 700, which is still less than a factor of so many unknowns.
+/// Length along x or y over the least length up to which linear bricks of unequal lengths need few iterations. The
+/// preconditioner includes their enhanced strains only for equal lengths, and misses more the flatter they are. At that
+/// ratio they need 130 iterations, at ten times that 700, which is still less than a factor of so many unknowns.
 const FLATTEST: f64 = 50.0;
 const FLATTEST_OF_MANY: f64 = 500.0;
 const TOO_MANY_TO_FACTOR: usize = 400_000;
 const FLAT: &str = "linear elements of unequal lengths along the surface and many times as long as thick (few with `order = 2`)";
 
-/// Whether a body is one for conjugate gradients.
+/// Returns true if conjugate gradients suit a body.
 pub fn suits_conjugate_gradients(mesh: &Mesh, laws: &[Thermoelastic]) -> bool {
     is_large_box(mesh) && reason_for_factor(mesh, laws).is_none()
 }
 
-/// How the displacements of a large box are found, and why; nothing of other bodies, whose factors take little.
+/// Notes the solver for the displacements of a large box, with the reason; `None` for other bodies, whose factors are
+/// cheap.
 pub fn note_on_solver(mesh: &Mesh, laws: &[Thermoelastic]) -> Option<String> {
     is_large_box(mesh).then(|| match reason_for_factor(mesh, laws) {
         None if mesh.order() == 1 && is_unequal_and_flat(mesh, FLATTEST) => format!(
@@ -80,7 +81,7 @@ fn reason_for_factor(mesh: &Mesh, laws: &[Thermoelastic]) -> Option<&'static str
     (mesh.order() == 1 && is_unequal_and_flat(mesh, flattest)).then_some(FLAT)
 }
 
-/// Whether elements have unequal lengths along x or y, the longest so many times the least length of all.
+/// Returns true if elements have unequal lengths along x or y, the longest this many times the least length of all.
 fn is_unequal_and_flat(mesh: &Mesh, flattest: f64) -> bool {
     let lengths = mesh.axes.each_ref().map(|axis| {
         let lengths = axis.nodes.windows(2).map(|pair| pair[1] - pair[0]);
@@ -92,7 +93,7 @@ fn is_unequal_and_flat(mesh: &Mesh, flattest: f64) -> bool {
     is_unequal && longest > flattest * x[0].min(y[0]).min(z[0])
 }
 
-/// Memory that the solver of one symmetry class takes [B].
+/// Memory of the solver of one symmetry class [B].
 pub fn solver_memory(mesh: &Mesh, laws: &[Thermoelastic]) -> f64 {
     let unknowns = mesh.nodes().saturating_mul(mesh.geometry.degrees());
     match suits_conjugate_gradients(mesh, laws) {

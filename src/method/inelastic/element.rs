@@ -1,53 +1,52 @@
-//! One element: what its points answer to displacements, and how that changes.
+//! One element: the response of its points to displacements, and its tangent.
 
 use super::locking::{LockingTreatment, MOST_MODES, SmallFactor};
 use super::problem::PointState;
 use super::shapes::{Scratch, Shapes};
 use crate::laws::{PlasticHistory, PointConstants, PointTangent};
 
-/// Tables that all elements share.
+/// Tables shared by all elements.
 pub struct Kit {
     pub shapes: Shapes,
     pub treatment: LockingTreatment,
 }
 
-/// What elements are given, one after another.
+/// Input of the element loop.
 pub struct Given<'a> {
     pub elements: &'a [[usize; 3]],
-    /// Displacements, as [`Shapes`] has them.
+    /// Displacements, in the order of [`Shapes`].
     pub displacement: &'a [f64],
     /// Amplitudes of enhanced modes.
     pub amplitudes: &'a [f64],
     pub constants: &'a [PointConstants],
-    /// Histories of the points at the last accepted step.
+    /// Histories of the points after the last accepted step.
     pub old: &'a [f64],
 }
 
-/// What elements answer.
+/// Response of elements.
 pub struct Answer<'a> {
     pub new: &'a mut [f64],
     pub tangents: &'a mut [PointTangent],
-    /// Nodal forces, as [`Shapes`] has them, and forces on the amplitudes.
+    /// Nodal forces, in the order of [`Shapes`], and forces on the amplitudes.
     pub forces: &'a mut [f64],
     pub mode_forces: &'a mut [f64],
-    /// What forces of an element, and those on its amplitudes, are small beside: moduli times strains times area, and
-    /// times volume.
+    /// Scales of the forces on an element's nodes and amplitudes: moduli times strains times area, and times volume.
     pub scales: &'a mut [[f64; 2]],
 }
 
-/// What one element's change needs: its volumes and the factor that eliminates its enhanced modes.
+/// Data for linearised changes of an element: its volumes and the factor that eliminates its enhanced modes.
 pub struct Prepared {
     volumes: Vec<f64>,
     means: [f64; MOST_MODES],
     modes: Option<SmallFactor>,
 }
 
-/// What the last element whose points were all elastic alike needed: those beside it often need the same.
+/// Data of the last element whose points were all equally elastic: neighbours often need the same.
 #[derive(Default)]
 pub struct Known(Option<([f64; 3], PointTangent, Prepared)>);
 
-/// How much stiffness tangents keep where a point flows: with none, enhanced modes could run away, with more, Newton's
-/// method would slow down.
+/// Fraction of stiffness that tangents keep where a point flows. With none, enhanced modes could diverge; with more,
+/// Newton's method would slow down.
 const LEAST: f64 = 1e-5;
 
 /// A tangent for strains, by columns.
@@ -66,8 +65,7 @@ fn matrix(tangent: &PointTangent) -> [[f64; 6]; 6] {
     d
 }
 
-/// Strain up to which rounding is allowed for: where a body gives way, strains grow without end, but what is left of
-/// the forces does not.
+/// Strain up to which rounding scales: in a collapsing body strains grow without bound, but the residual forces do not.
 const MOST_STRAIN: f64 = 0.1;
 
 /// The largest magnitude of a tensor's components.
@@ -76,12 +74,12 @@ fn largest(tensor: &[f64; 6]) -> f64 {
 }
 
 impl Kit {
-    /// Unknowns of an element.
+    /// Number of unknowns of an element.
     pub fn unknowns(&self) -> usize {
         self.shapes.degrees * self.shapes.nodes
     }
 
-    /// Strains of some elements, enhanced modes included.
+    /// Strains of some elements, including enhanced modes.
     fn strains(&self, given: &Given, scratch: &mut Scratch) -> Vec<[f64; 6]> {
         let (points, modes) = (self.shapes.points, self.treatment.modes());
         let mut strains = vec![[0.0; 6]; given.elements.len() * points];
@@ -108,7 +106,7 @@ impl Kit {
         }
     }
 
-    /// Work of stresses times volumes on the enhanced modes.
+    /// Computes the work of stresses times volumes on the enhanced modes.
     fn on_modes(&self, means: &[f64; MOST_MODES], stress: &[[f64; 6]], out: &mut [f64]) {
         out.fill(0.0);
         for (q, stress) in stress.iter().enumerate() {
@@ -118,8 +116,8 @@ impl Kit {
         }
     }
 
-    /// Takes strains apart: the elastic change of volume, projected where elements do so, is given back; what is left
-    /// are changes of shape.
+    /// Splits strains: returns the elastic volume change, projected in elements that do so, and leaves the shape
+    /// changes in place.
     fn split(
         &self,
         volumes: &[f64],
@@ -138,7 +136,7 @@ impl Kit {
         dilatation
     }
 
-    /// Stresses times volumes from those of shape and pressures: the adjoint of [`Self::split`].
+    /// Combines shape stresses and pressures to stresses times volumes: the adjoint of [`Self::split`].
     fn join(&self, volumes: &[f64], pressures: &[f64], stress: &mut [[f64; 6]]) {
         let rest = |((s, p), v): ((&[f64; 6], &f64), &f64)| v * (p - (s[0] + s[1] + s[2]) / 3.0);
         let mut rest: Vec<f64> = stress.iter().zip(pressures).zip(volumes).map(rest).collect();
@@ -151,7 +149,7 @@ impl Kit {
         }
     }
 
-    /// What elements answer to displacements and amplitudes.
+    /// Computes the response of elements to displacements and amplitudes.
     pub fn respond(&self, given: &Given, answer: &mut Answer, scratch: &mut Scratch) {
         let (points, modes) = (self.shapes.points, self.treatment.modes());
         let mut strains = self.strains(given, scratch);
@@ -193,7 +191,7 @@ impl Kit {
         self.shapes.forces(given.elements, &strains, answer.forces, scratch);
     }
 
-    /// Stress and energies at the points, with the histories that they have.
+    /// Computes stress and energies at the points, with their present histories.
     pub fn read(&self, given: &Given, scratch: &mut Scratch, out: &mut Vec<PointState>) {
         let points = self.shapes.points;
         let mut strains = self.strains(given, scratch);
@@ -240,7 +238,7 @@ impl Kit {
         if self.shapes.degrees == 2 { x.min(z) } else { x.min(y).min(z) }
     }
 
-    /// What changes of an element need.
+    /// Prepares the data for linearised changes of an element.
     pub fn prepare(&self, element: [usize; 3], tangents: &[PointTangent]) -> Prepared {
         let volumes = self.shapes.volumes(element);
         let means = self.treatment.means(&volumes);
@@ -263,7 +261,7 @@ impl Kit {
         Prepared { volumes, means, modes: SmallFactor::new(count, own) }
     }
 
-    /// The same as [`Self::prepare`], from the last element where that was alike.
+    /// Prepares the data like [`Self::prepare`], or reuses those of the last element if both are alike.
     pub fn prepare_after<'a>(
         &self,
         known: &'a mut Known,
@@ -272,12 +270,12 @@ impl Kit {
     ) -> &'a Prepared {
         let size = self.shapes.size(element);
         let is_alike = |(other, tangent, _): &([f64; 3], PointTangent, Prepared)| {
-            // Rings of one size differ in radius.
+            // Rings of equal size differ in radius.
             self.shapes.degrees == 3 && *other == size && tangents.iter().all(|t| t == tangent)
         };
         if !known.0.as_ref().is_some_and(is_alike) {
             known.0 = Some((size, tangents[0], self.prepare(element, tangents)));
-            // What is kept must be that of a tangent that all points have.
+            // Cached data must belong to a tangent that all points share.
             if tangents.iter().any(|t| *t != tangents[0])
                 && let Some((size, ..)) = &mut known.0
             {
@@ -287,7 +285,7 @@ impl Kit {
         &known.0.as_ref().expect("it has been found").2
     }
 
-    /// Replaces changes of strain by those of stress times volume, enhanced modes left as they are.
+    /// Replaces changes of strain by those of stress times volume, at constant enhanced modes.
     fn stresses(&self, prepared: &Prepared, tangents: &[PointTangent], strains: &mut [[f64; 6]]) {
         let dilatation = self.split(&prepared.volumes, |_| 0.0, strains);
         let pressure = |(t, d): (&PointTangent, f64)| t.bulk * d;
@@ -298,7 +296,7 @@ impl Kit {
         self.join(&prepared.volumes, &pressures, strains);
     }
 
-    /// Replaces changes of strain by those of stress times volume, enhanced modes following.
+    /// Replaces changes of strain by those of stress times volume, with enhanced modes condensed.
     pub fn relieved(
         &self,
         prepared: &Prepared,
@@ -313,7 +311,7 @@ impl Kit {
         self.stresses(prepared, tangents, strains);
     }
 
-    /// Changes of amplitudes that leave no force on them, from changes of strain and the forces that there are.
+    /// Changes of amplitudes that cancel the forces on them, from changes of strain and the present forces.
     pub fn following(
         &self,
         prepared: &Prepared,
@@ -339,7 +337,7 @@ impl Kit {
         }
     }
 
-    /// Stresses times volumes once amplitudes have given way to the forces on them.
+    /// Returns stresses times volumes after the amplitudes have cancelled the forces on them.
     pub fn given_way(
         &self,
         prepared: &Prepared,

@@ -1,4 +1,4 @@
-//! All elements of a mesh: loops over their layers along z on many threads, the same to the bit on any number.
+//! All elements of a mesh: loops over their layers along z on many threads, bitwise equal on any number.
 
 use super::element::{Answer, Given, Kit, Known};
 use super::locking::LockingTreatment;
@@ -7,20 +7,20 @@ use crate::laws::{PlasticHistory, PointConstants, PointTangent};
 use crate::method::fem::{Geometry, Mesh};
 use crate::runtime::parallel::Team;
 
-/// The elements of a mesh. Vectors have all displacements along x (r), then along y, then along z, the x index of
-/// nodes fastest; lists of elements and of their points run x fastest, too.
+/// The elements of a mesh. Vectors have all displacements along x (r), then along y, then along z, with the x index of
+/// nodes fastest. Lists of elements and of their points also run x fastest.
 pub struct Grid {
     pub kit: Kit,
     order: usize,
-    /// Nodes of the mesh, along x, and of a plane across z.
+    /// Numbers of nodes of the mesh, along x, and of a plane across z.
     pub nodes: usize,
     columns: usize,
     plane: usize,
-    /// From the first node of an element to each of its nodes.
+    /// Offsets from the first node of an element to each of its nodes.
     offsets: Vec<usize>,
 }
 
-/// Displacements, and what all points answer to them.
+/// Displacements, and the response of all points to them.
 #[derive(Default)]
 pub struct Iterate {
     pub displacement: Vec<f64>,
@@ -32,15 +32,15 @@ pub struct Iterate {
     pub scales: Vec<[f64; 2]>,
 }
 
-/// The elements of one layer and the planes of nodes that they have part in, a list for each component.
+/// The elements of one layer and the planes of nodes that they share, a list for each component.
 pub struct Layer<'a> {
     pub number: usize,
     pub out: Vec<&'a mut [f64]>,
 }
 
-/// Forces on amplitudes that are rounding, beside moduli times strains times volume.
+/// Rounding level of forces on amplitudes, relative to moduli times strains times volume.
 const NOTHING: f64 = 1e-15;
-/// Elements that are worked on at once.
+/// Number of elements processed at once.
 const BATCH: usize = 32;
 
 impl Grid {
@@ -75,25 +75,25 @@ impl Grid {
         self.kit.shapes.counts()[2]
     }
 
-    /// Elements of a layer.
+    /// Number of elements of a layer.
     pub fn per_layer(&self) -> usize {
         let [nx, ny, _] = self.kit.shapes.counts();
         nx * ny
     }
 
-    /// An element's place from its number within a layer.
+    /// Returns an element's place from its number within a layer.
     pub fn place(&self, layer: usize, number: usize) -> [usize; 3] {
         let nx = self.kit.shapes.counts()[0];
         [number % nx, number / nx, layer]
     }
 
-    /// Nodes of an element.
+    /// Returns the nodes of an element.
     pub fn nodes_of(&self, [ex, ey, ez]: [usize; 3]) -> impl Iterator<Item = usize> + '_ {
         let first = self.order * (ex + self.columns * ey + self.plane * ez);
         self.offsets.iter().map(move |offset| first + offset)
     }
 
-    /// The values of some elements' nodes.
+    /// Collects the values at the nodes of some elements.
     pub fn gather(&self, elements: &[[usize; 3]], x: &[f64], out: &mut Vec<f64>) {
         out.clear();
         for element in elements {
@@ -103,7 +103,7 @@ impl Grid {
         }
     }
 
-    /// Adds forces of elements of a layer.
+    /// Adds the forces of elements of a layer.
     pub fn scatter(&self, elements: &[[usize; 3]], forces: &[f64], layer: &mut Layer) {
         let first = layer.number * self.order * self.plane;
         let nodes = self.kit.shapes.nodes;
@@ -116,7 +116,7 @@ impl Grid {
         }
     }
 
-    /// The planes of nodes of every second layer of elements: those of one colour share none.
+    /// Returns the planes of nodes of every second layer of elements; layers of one colour share no nodes.
     pub fn coloured<'a>(&self, out: &'a mut [f64], colour: usize) -> Vec<Layer<'a>> {
         let height = self.order * self.plane;
         let numbers = (colour..self.layers()).step_by(2);
@@ -165,7 +165,7 @@ impl Grid {
         })
     }
 
-    /// Room for an iterate.
+    /// Allocates an iterate.
     pub fn iterate(&self) -> Iterate {
         let (elements, modes) = (self.elements(), self.kit.treatment.modes());
         let none = PointTangent { bulk: 0.0, all: 0.0, along: 0.0, direction: [0.0; 6] };
@@ -180,7 +180,7 @@ impl Grid {
         }
     }
 
-    /// Makes an iterate's answers those to its displacements and amplitudes.
+    /// Updates an iterate's response to its displacements and amplitudes.
     pub fn respond(
         &self,
         team: &Team,
@@ -236,7 +236,7 @@ impl Grid {
         );
     }
 
-    /// Adds to `load` what forces on amplitudes come to once these give way.
+    /// Adds to `load` the nodal forces of the forces on amplitudes after condensation.
     pub fn condense(&self, team: &Team, iterate: &Iterate, load: &mut [f64]) {
         let (modes, points) = (self.kit.treatment.modes(), self.kit.shapes.points);
         if iterate.mode_forces.iter().all(|force| *force == 0.0) {
@@ -266,7 +266,7 @@ impl Grid {
         });
     }
 
-    /// How amplitudes follow a change of displacement.
+    /// Changes of amplitudes that follow a change of displacement.
     pub fn following(&self, team: &Team, iterate: &Iterate, change: &[f64]) -> Vec<f64> {
         let (modes, points) = (self.kit.treatment.modes(), self.kit.shapes.points);
         if modes == 0 {

@@ -1,10 +1,10 @@
-//! What keeps elements from locking, in bending and where plastic flow keeps the volume.
+//! Treatment of locking, in bending and in volume-preserving plastic flow.
 //!
 //! Linear elements carry the enhanced strains of elasticity (`hexahedron` and `axisymmetric` of [`crate::method::fem`];
 //! with plastic flow: J. C. Simo and M. S. Rifai 1990, doi 10.1002/nme.1620290802). Quadratic ones project the elastic
-//! change of volume on linear polynomials (Q2/P₋₁). What that leaves over of the change of volume counts as a change of
-//! shape: where nothing yields this is the elasticity of the same elements, and where something does, it flows with the
-//! rest instead of holding it back.
+//! volume change on linear polynomials (Q2/P₋₁). The remainder of the volume change counts as a change of shape.
+//! Without yielding this is the elasticity of the same elements; with yielding, the remainder flows with the rest
+//! instead of constraining it.
 
 use nalgebra::DMatrix;
 
@@ -12,7 +12,7 @@ use super::shapes::Shapes;
 use crate::method::fem::axisymmetric::ENHANCED as RING_MODES;
 use crate::method::fem::hexahedron::ENHANCED as BRICK_MODES;
 
-/// Enhanced modes of any element, at most.
+/// Largest number of enhanced modes of any element.
 pub const MOST_MODES: usize = 15;
 
 /// Tables of local places.
@@ -21,10 +21,10 @@ pub struct LockingTreatment {
     components: Vec<usize>,
     /// Values of the modes at each point, point after point.
     modes: Vec<f64>,
-    /// Whether their means over an element vanish by themselves, as on a brick.
+    /// True if their means over an element vanish identically, as on a brick.
     is_balanced: bool,
-    /// Values of the polynomials that the change of volume is projected on: a row a point; no column where the change
-    /// at the point itself is taken.
+    /// Values of the polynomials on which the volume change is projected, a row per point; no column if the pointwise
+    /// change is used.
     polynomials: DMatrix<f64>,
 }
 
@@ -60,12 +60,12 @@ impl LockingTreatment {
         Self { components, modes, is_balanced: !is_ring, polynomials }
     }
 
-    /// Amplitudes of enhanced modes an element.
+    /// Number of amplitudes of enhanced modes per element.
     pub fn modes(&self) -> usize {
         self.components.len()
     }
 
-    /// Mean of each mode over an element's volume, which is taken off, so that uniform stress does no work on it.
+    /// Mean of each mode over an element's volume, which is subtracted so that uniform stress does no work on it.
     pub fn means(&self, volumes: &[f64]) -> [f64; MOST_MODES] {
         let mut means = [0.0; MOST_MODES];
         if !self.is_balanced {
@@ -93,7 +93,7 @@ impl LockingTreatment {
         self.polynomials.ncols() > 0
     }
 
-    /// Replaces a scalar at the points by its projection on linear polynomials, in the sense of least squares.
+    /// Replaces a scalar at the points by its least-squares projection on linear polynomials.
     pub fn project(&self, volumes: &[f64], values: &mut [f64]) {
         self.through(volumes, values, true);
     }
@@ -137,16 +137,16 @@ impl LockingTreatment {
     }
 }
 
-/// `A = L Lᵀ` of a system of enhanced modes.
+/// Factor `A = L Lᵀ` of a system of enhanced modes.
 #[derive(Clone)]
 pub struct SmallFactor {
     count: usize,
-    /// Rows of L, the inverse of the diagonal on it.
+    /// Rows of L, with the inverse of its diagonal entries.
     lower: [[f64; MOST_MODES]; MOST_MODES],
 }
 
 impl SmallFactor {
-    /// From the rows of the lower triangle; nothing where it is not positive definite.
+    /// Factors a matrix from the rows of its lower triangle; `None` if it is not positive definite.
     pub fn new(count: usize, mut lower: [[f64; MOST_MODES]; MOST_MODES]) -> Option<Self> {
         for i in 0..count {
             for j in 0..=i {

@@ -1,7 +1,7 @@
-//! Quasi-static equilibrium of bodies whose stress depends on what they went through, by Newton's method.
+//! Quasi-static equilibrium of bodies with history-dependent stress, by Newton's method.
 //!
-//! Meshes and elements are those of [`crate::method::fem`]; where nothing yields, so are displacements. What points
-//! remember is part of a flat state, and a step that finds no equilibrium leaves it as it was.
+//! Meshes and elements are those of [`crate::method::fem`], and so are displacements without yielding. The histories of
+//! points are part of a flat state, which a step without equilibrium leaves unchanged.
 
 mod element;
 mod grid;

@@ -1,9 +1,9 @@
 //! Newton's method with a line search: displacements and enhanced strains under which forces balance.
 //!
-//! Over a step, stress is the derivative of a convex energy, as the laws are associated ones that do not soften. So the
-//! work of what is left of the forces on a change of displacement falls along it, and a change is taken as far as
-//! that work has not turned much. Tangents are consistent, so the end is quadratic; linear systems are only solved as
-//! accurately as that needs (S. C. Eisenstat and H. F. Walker 1996, doi 10.1137/0917003).
+//! Over a step, stress is the derivative of a convex energy, because the laws are associated and do not soften. The
+//! work of the residual forces on a change of displacement therefore decreases along the change. A change is shortened
+//! if this work reverses its sign strongly. Tangents are consistent, so convergence is quadratic in the end. Linear
+//! systems are solved only as accurately as this requires (S. C. Eisenstat and H. F. Walker 1996, doi 10.1137/0917003).
 
 use super::grid::{Grid, Iterate};
 use super::problem::InelasticError;
@@ -13,29 +13,30 @@ use crate::math::separable::dot;
 use crate::runtime::allowance::Allowance;
 use crate::runtime::parallel::Team;
 
-/// How a step was found.
+/// Iterations and residual of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
     /// Linear systems solved.
     pub iterations: usize,
-    /// Iterations of conjugate gradients, all together; none where tangents are factored.
+    /// Total number of conjugate-gradient iterations; zero if tangents are factored.
     pub linear_iterations: usize,
-    /// What is left of the forces, beside those that elements would put on nodes without each other.
+    /// Residual forces, relative to the forces of single elements on nodes.
     pub residual: f64,
 }
 
-/// What is left of the forces at the end.
+/// Relative residual at which a step has converged.
 const TOLERANCE: f64 = 1e-12;
-/// What may be left where rounding lets nothing more be gained.
+/// Residual that is accepted where rounding prevents a smaller one.
 const ROUNDED: f64 = 1e-10;
-/// Linear systems that a step is given.
+/// Largest number of linear systems in a step.
 const MOST_ITERATIONS: usize = 60;
-/// Updates of unknowns that the response of all points to a change and the set-up of a linear system take, about.
+/// Approximate number of updates of unknowns for the response of all points to a change and the set-up of a linear
+/// system.
 const ROUNDS: f64 = 10.0;
-/// Looks along a change.
+/// Largest number of evaluations along a change.
 const MOST_LOOKS: usize = 8;
 
-/// One step: all that does not change while equilibrium is sought.
+/// One step: all data that are constant during the iterations.
 pub struct Step<'a> {
     pub grid: &'a Grid,
     pub solver: &'a TangentSolver,
@@ -81,7 +82,7 @@ impl Step<'_> {
             before = part;
             part = self.measure(iterate, &left);
             let gain: f64 = part / before;
-            // No more than what the quadratic end will gain, nor more than is wanted in the end.
+            // No more accurate than quadratic convergence will gain, or than the final tolerance requires.
             accuracy = (0.5 * gain * gain).max(0.1 * TOLERANCE / part).clamp(1e-10, 1e-2);
         }
         progress.residual = part;
@@ -92,7 +93,7 @@ impl Step<'_> {
         self.grid.respond(self.team, self.constants, self.old, iterate);
     }
 
-    /// Forces that displacements do not balance yet.
+    /// Returns the residual forces of the displacements.
     fn left(&self, iterate: &Iterate) -> Vec<f64> {
         let mut left: Vec<f64> =
             self.load.iter().zip(&iterate.forces).map(|(load, force)| load - force).collect();
@@ -100,7 +101,7 @@ impl Step<'_> {
         left
     }
 
-    /// What is left of the forces, on nodes and on amplitudes.
+    /// Norm of the residual forces, on nodes and on amplitudes.
     fn measure(&self, iterate: &Iterate, left: &[f64]) -> f64 {
         let elements: f64 = iterate.scales.iter().map(|[force, _]| force * force).sum();
         let scale = elements.sqrt().max(dot(self.load, self.load).sqrt());
@@ -119,7 +120,7 @@ impl Step<'_> {
         part
     }
 
-    /// Goes along a change as far as energy falls.
+    /// Moves along a change as far as energy decreases.
     fn advance(&self, iterate: &mut Iterate, change: &[f64]) {
         let amplitudes = self.grid.following(self.team, iterate, change);
         let base = (iterate.displacement.clone(), iterate.amplitudes.clone());

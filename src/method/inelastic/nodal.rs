@@ -1,8 +1,8 @@
-//! Values at points and, recovered, at nodes.
+//! Values at points and their recovery at nodes.
 //!
-//! Values at the quadrature points of an element are taken to its sampling points by the polynomial of one order less
-//! that fits them best, which leaves out the part in which strains of Lagrange elements are least accurate, and from
-//! there to the nodes as strains of elasticity are (see `recovery` of [`crate::method::fem`]).
+//! Values at the quadrature points of an element are fitted by a polynomial of one order less and evaluated at the
+//! sampling points. This omits the part in which strains of Lagrange elements are least accurate. From there they are
+//! recovered at the nodes like elastic strains (see `recovery` of [`crate::method::fem`]).
 
 use faer::Mat;
 
@@ -18,7 +18,7 @@ use crate::method::fem::{Geometry, Mesh};
 use crate::runtime::parallel::Team;
 
 impl Grid {
-    /// All points under the displacements of an iterate, with the histories that they have.
+    /// Returns all points under the displacements of an iterate, with their present histories.
     pub fn read(
         &self,
         team: &Team,
@@ -49,10 +49,11 @@ impl Grid {
 }
 
 impl InelasticProblem {
-    /// Values of a tensor at the nodes, those on interfaces between layers twice, from its values at the points.
+    /// Recovers a tensor at the nodes from its values at the points; nodes on interfaces between layers are listed
+    /// twice.
     pub(super) fn recover_tensor(&self, values: Vec<[f64; 6]>) -> Vec<[f64; 6]> {
         let is_ring = self.mesh.geometry == Geometry::Axisymmetric;
-        // On the axis rr and tt are one: their mean is even, half their difference vanishes.
+        // On the axis rr and tt are equal: their mean is even, half their difference vanishes.
         let parted = |values: [f64; 6]| match (is_ring, values) {
             (true, [a, b, zz, xy, yz, xz]) => [0.5 * (a + b), 0.5 * (a - b), zz, xy, yz, xz],
             (false, values) => values,
@@ -77,12 +78,12 @@ impl InelasticProblem {
         out
     }
 
-    /// The same of a scalar, even about planes of symmetry as xx is.
+    /// Recovers a scalar, even about planes of symmetry like xx.
     pub(super) fn recover_scalar(&self, values: &[f64]) -> Vec<f64> {
         recover(&self.mesh, values, [0, 1].map(|axis| self.beyond(axis, 0)))
     }
 
-    /// What lies beyond the low end of x or y for a component of stress.
+    /// Continuation of a stress component beyond the low end of x or y.
     fn beyond(&self, axis: usize, component: usize) -> Beyond {
         match self.mesh.geometry {
             Geometry::Axisymmetric if axis == 0 && self.mesh.axes[0].start() == 0.0 => {
@@ -101,7 +102,7 @@ impl InelasticProblem {
     }
 }
 
-/// From values at the points of all elements to the nodes, layer by layer: what is read jumps between them.
+/// Recovers values at the nodes from those at the points of all elements, layer by layer: readings jump between layers.
 fn recover(mesh: &Mesh, values: &[f64], beyond: [Beyond; 2]) -> Vec<f64> {
     let per_element = values.len() / mesh.element_counts()[2];
     let of_layer = |layer: usize| {
@@ -120,7 +121,7 @@ fn recover_layer(mesh: &Mesh, values: &[f64], beyond: [Beyond; 2]) -> Vec<f64> {
     let elements = mesh.element_counts();
     let points = elements.map(|count| if count == 0 { 1 } else { per_axis });
     let counts = [0, 1, 2].map(|a| points[a] * elements[a].max(1));
-    // Points of the whole mesh in one order along each axis.
+    // Points of the whole mesh in one sequence along each axis.
     let mut ordered = vec![0.0; values.len()];
     let of_element: usize = points.iter().product();
     for (e, values) in values.chunks_exact(of_element).enumerate() {
@@ -143,7 +144,7 @@ fn recover_layer(mesh: &Mesh, values: &[f64], beyond: [Beyond; 2]) -> Vec<f64> {
     transform(&ordered, matrices.each_ref(), Side::Direct)
 }
 
-/// Values at the Gauss points of an order from those at more: the polynomial that fits best.
+/// Values at the Gauss points of an order from those at more points, by the best-fitting polynomial.
 fn fit(order: usize, points: usize) -> Mat<f64> {
     let legendre = |degree: usize, x: f64| if degree == 0 { 1.0 } else { x };
     let (to, from) = (gauss_legendre(order), gauss_legendre(points));
@@ -153,7 +154,7 @@ fn fit(order: usize, points: usize) -> Mat<f64> {
     })
 }
 
-/// The recovery after the fit of every element.
+/// Product of the recovery and the fit of every element.
 fn through(recovery: &Mat<f64>, fit: &Mat<f64>, elements: usize) -> Mat<f64> {
     let (order, points) = (fit.nrows(), fit.ncols());
     Mat::from_fn(recovery.nrows(), elements * points, |node, p| {

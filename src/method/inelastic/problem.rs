@@ -1,4 +1,4 @@
-//! The problem of a body: what is known before time starts, and steps from one state to the next.
+//! The inelastic problem of a body: constant data, and steps from one state to the next.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use crate::runtime::allowance::{Allowance, Halt};
 use crate::runtime::parallel::Team;
 use crate::runtime::thread::aside;
 
-/// Why a step was not made; the state is then as it was before.
+/// Reasons why a step failed; the state is then unchanged.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum InelasticError {
     #[error("{what} has {given} entries, {wanted} are wanted")]
@@ -42,7 +42,7 @@ pub enum InelasticError {
     Solver(#[from] SolverError),
 }
 
-/// Where what stands in a state, a flat vector: displacements, then amplitudes, then histories.
+/// Ranges in a state, a flat vector: displacements, then amplitudes, then histories.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StateLayout {
     /// Displacements of each node [m], its components together (x, y, z or r, z), the x index of nodes fastest.
@@ -50,32 +50,32 @@ pub struct StateLayout {
     /// Amplitudes of enhanced strains of each element [1]: 15 of linear bricks, 7 of linear rings, 0 of quadratic
     /// elements.
     pub amplitudes: std::ops::Range<usize>,
-    /// Histories of each element's points, both x fastest: [`PlasticHistory::LEN`] numbers each, as [`PlasticHistory::read`] has
-    /// them.
+    /// Histories of each element's points, both x fastest: [`PlasticHistory::LEN`] numbers each, in the order of
+    /// [`PlasticHistory::read`].
     pub history: std::ops::Range<usize>,
     /// Points of an element: (p + 1)³ of a brick of order p, (p + 2)² of a ring.
     pub points: usize,
 }
 
-/// A quadrature point in some state.
+/// A quadrature point with its state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointState {
-    /// Volume that it stands for, mirror images left out [m³].
+    /// Volume that it represents, without mirror images [m³].
     pub volume: f64,
     /// Stress xx, yy, zz, xy, yz, xz, of a ring rr, tt, zz, 0, 0, rz [Pa].
     pub stress: [f64; 6],
-    /// Thermal strain in each direction [1], and what it works against [Pa]: the sum of normal stresses, in elements
-    /// that project their change of volume with the part of it that this leaves over.
+    /// Thermal strain in each direction [1], and the stress on which it does work [Pa]. That is the sum of normal
+    /// stresses. In elements that project their volume change it includes the part that the projection omits.
     pub thermal_strain: f64,
     pub tension: f64,
-    /// Energy per volume that elasticity and hardening keep [J/m³].
+    /// Elastic and hardening energy per volume [J/m³].
     pub stored: f64,
     pub history: PlasticHistory,
 }
 
-/// The equilibrium of a body with elastic–plastic layers.
+/// Equilibrium of a body with elastic–plastic layers.
 ///
-/// Where an axis of the mesh is mirrored, what drives the body must be even about that plane.
+/// If an axis of the mesh is mirrored, the loads must be even about that plane.
 pub struct InelasticProblem {
     pub(super) mesh: Mesh,
     laws: Vec<Arc<dyn FlowLaw>>,
@@ -86,7 +86,7 @@ pub struct InelasticProblem {
 }
 
 impl InelasticProblem {
-    /// `laws` are those of the layers of elements along z, from the bottom, or one for all of them.
+    /// `laws` holds a law for each layer of elements along z, from the bottom, or one law for all.
     pub fn new(
         mesh: &Mesh,
         laws: Vec<impl Into<Arc<dyn FlowLaw>>>,
@@ -106,7 +106,7 @@ impl InelasticProblem {
         Ok(Self { mesh: mesh.clone(), laws, grid, free_faces, solver, threads })
     }
 
-    /// Whether a part of the body creeps.
+    /// Returns true if a part of the body creeps.
     pub fn creeps(&self) -> bool {
         self.laws.iter().any(|law| law.creeps())
     }
@@ -123,14 +123,14 @@ impl InelasticProblem {
         }
     }
 
-    /// The state before anything happened: at rest, never yielded.
+    /// Returns the undeformed state, without yielding.
     pub fn initial_state(&self) -> Vec<f64> {
         vec![0.0; self.layout().history.end]
     }
 
-    /// What a step takes, at most, besides the state [B].
+    /// Largest memory of a step beyond the state [B].
     pub fn memory(&self) -> f64 {
-        // Constants, tangents twice, histories new and old; of linear bricks the triangle of a matrix.
+        // Constants, tangents twice, histories new and old; in linear bricks also the triangle of a matrix.
         const POINT: f64 = 8.0 * (8.0 + 2.0 * 9.0 + 2.0 * PlasticHistory::LEN as f64);
         // Vectors of Newton's method and of conjugate gradients.
         const VECTORS: f64 = 24.0;
@@ -148,7 +148,7 @@ impl InelasticProblem {
             + 8.0 * (VECTORS * unknowns + triangles * self.grid.elements() as f64 + factor)
     }
 
-    /// Advances a state to equilibrium at nodal temperatures [K] under nodal forces [N] at once, see
+    /// Advances a state instantaneously to equilibrium at nodal temperatures [K] under nodal forces [N], see
     /// [`Self::advance_over`].
     pub fn advance(
         &self,
@@ -159,11 +159,11 @@ impl InelasticProblem {
         self.advance_over(state, temperatures, forces, 0.0)
     }
 
-    /// Advances a state by a duration [s] to equilibrium at nodal temperatures [K] under nodal forces [N], laid out as
-    /// displacements are; an empty list of forces stands for none.
+    /// Advances a state by a duration [s] to equilibrium at nodal temperatures [K] under nodal forces [N], laid out
+    /// like displacements; an empty list of forces means none.
     ///
-    /// The path between the last state and this one is straight at every point. Where no equilibrium is found, as
-    /// under forces that a body cannot bear, the state is left as it was.
+    /// Strain varies linearly between the last state and this one at every point. If there is no equilibrium, as under
+    /// forces beyond the capacity of a body, the state is unchanged.
     pub fn advance_over(
         &self,
         state: &mut [f64],
@@ -174,7 +174,7 @@ impl InelasticProblem {
         self.advance_within(state, temperatures, forces, duration, &Allowance::default())
     }
 
-    /// As [`Self::advance_over`], as long as it is wanted and may take.
+    /// Advances like [`Self::advance_over`], within an allowance of work.
     pub(super) fn advance_within(
         &self,
         state: &mut [f64],
@@ -242,7 +242,7 @@ impl InelasticProblem {
         }
     }
 
-    /// Components one after another.
+    /// Reorders nodal values by components.
     fn apart(&self, nodal: &[f64]) -> Vec<f64> {
         let degrees = self.grid.kit.shapes.degrees;
         (0..degrees).flat_map(|c| nodal.iter().skip(c).step_by(degrees)).copied().collect()
@@ -290,7 +290,7 @@ impl InelasticProblem {
         Ok(all)
     }
 
-    /// The least rise of temperature that makes a layer yield at a temperature [K] if it is held along two directions,
+    /// Smallest temperature rise that makes a layer yield at a temperature [K] if it is held along two directions,
     /// `σ_y (1 − ν)/(E α)` [K].
     pub fn rise_to_yield(&self, temperature: f64) -> f64 {
         let rise = |law: &Arc<dyn FlowLaw>| {
@@ -302,7 +302,7 @@ impl InelasticProblem {
         self.laws.iter().filter_map(rise).fold(f64::INFINITY, f64::min)
     }
 
-    /// All quadrature points, as histories stand in a state.
+    /// Returns all quadrature points with the histories of a state.
     pub fn points(
         &self,
         state: &[f64],
@@ -316,7 +316,7 @@ impl InelasticProblem {
         Ok(self.grid.read(&team, &constants, history, &iterate))
     }
 
-    /// Displacements, the components of a node together [m].
+    /// Returns the displacements, with the components of a node together [m].
     pub fn displacement<'a>(&self, state: &'a [f64]) -> &'a [f64] {
         &state[self.layout().displacement]
     }
@@ -327,7 +327,7 @@ impl InelasticProblem {
         histories.map(|history| PlasticHistory::read(history).accumulated).fold(0.0, f64::max)
     }
 
-    /// Energy that the body has dissipated, mirror images included [J].
+    /// Returns the energy dissipated by the body, including mirror images [J].
     pub fn dissipated_energy(&self, state: &[f64]) -> f64 {
         let shapes = &self.grid.kit.shapes;
         let mut histories = state[self.layout().history].chunks_exact(PlasticHistory::LEN);
@@ -345,7 +345,7 @@ impl InelasticProblem {
     }
 }
 
-/// Constants that stand for those of all layers: their means at the temperatures without stress.
+/// Constants that represent all layers: their means at the stress-free temperatures.
 fn reference(laws: &[Arc<dyn FlowLaw>]) -> Result<PointConstants, InelasticError> {
     let mut sum: Option<PointConstants> = None;
     for (layer, law) in laws.iter().enumerate() {

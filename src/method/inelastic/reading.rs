@@ -1,35 +1,35 @@
 //! Stress and plastic strain at the nodes, within the law of the body.
 //!
-//! Stress recovered at nodes may exceed the values at the points; it is returned to what the law allows there.
-//! Plastic strain lies between zero and the largest of the points around a node, and the back strain is no longer than
-//! the path that the plastic strain took. Stress returns to the yield surface at the plastic strain and temperature of
-//! the node. A body that creeps bears stress beyond that surface, but an excess relaxes as it flows: a difference δq
-//! between two points falls as `e^{−3G n p/q}` while the strain p accumulates under the stress q. So a node keeps that
-//! part of the stress by which it would flow faster than the fastest of the points around it.
+//! Stress recovered at nodes may exceed the values at the points; it is returned to the limit of the law there. Plastic
+//! strain is between zero and the largest value of the points around a node, and the back strain is no longer than the
+//! accumulated plastic strain allows. Stress returns to the yield surface at the plastic strain and temperature of the
+//! node. In a creeping body stress may exceed that surface, but an excess relaxes by flow: a difference δq between two
+//! points decays as `e^{−3G n p/q}` while the strain p accumulates under the stress q. At a node this factor is
+//! therefore applied to the part of the stress that would flow faster than the fastest point around it.
 
 use super::problem::{InelasticError, InelasticProblem, PointState};
 use crate::laws::{Overstress, PlasticHistory, PointConstants, admissible};
 use crate::method::fem::Mesh;
 use crate::runtime::parallel::Team;
 
-/// Values at the nodes, those on interfaces between layers twice.
+/// Values at the nodes, with nodes on interfaces between layers listed twice.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NodalValues {
     /// xx, yy, zz, xy, yz, xz, of a section rr, tt, zz, 0, 0, rz [Pa].
     pub stress: Vec<[f64; 6]>,
     /// Accumulated plastic strain [1].
     pub plastic_strain: Vec<f64>,
-    /// Strain that the back stress follows from, engineering shears [1].
+    /// Strain that determines the back stress, with engineering shears [1].
     pub back_strain: Vec<[f64; 6]>,
 }
 
 /// `√(3/2)`
 const ROOT: f64 = 1.224_744_871_391_589;
-/// Time over which rates of flow are compared [s].
+/// Time over which flow rates are compared [s].
 const UNIT_TIME: f64 = 1.0;
 
 impl InelasticProblem {
-    /// Stress and history at the nodes of a state at nodal temperatures [K].
+    /// Computes stress and history at the nodes of a state at nodal temperatures [K].
     pub fn nodal_values(
         &self,
         state: &[f64],
@@ -90,7 +90,7 @@ impl InelasticProblem {
         self.recover_tensor(values).into_iter().zip(plastic_strain).map(limited).collect()
     }
 
-    /// Logarithms of the fastest flow of the points around each node; empty where nothing creeps.
+    /// Logarithms of the fastest flow of the points around each node; empty without creep.
     fn fastest_around(
         &self,
         points: &[PointState],
@@ -109,7 +109,7 @@ impl InelasticProblem {
 }
 
 impl NodalValues {
-    /// Takes the stress of a node back to what the law bears, on a free face with a normal.
+    /// Returns the stress of a node to the limit of the law, on a free face with a normal.
     fn keep_within(
         &mut self,
         own: &PointConstants,
@@ -138,7 +138,7 @@ fn length(strain: &[f64; 6]) -> f64 {
     (squares(&strain[..3]) + 0.5 * squares(&strain[3..])).sqrt()
 }
 
-/// The largest value of all points of the elements that meet at each node, layer by layer.
+/// Largest value of all points of the elements that meet at each node, layer by layer.
 fn largest_around(mesh: &Mesh, values: &[f64]) -> Vec<f64> {
     let [nx, ny, nz] = mesh.element_counts().map(|count| count.max(1));
     let points = values.len() / (nx * ny * nz);
@@ -170,7 +170,7 @@ fn largest_around(mesh: &Mesh, values: &[f64]) -> Vec<f64> {
     out
 }
 
-/// The elements along an axis of so many that meet at a node.
+/// Elements along an axis that meet at a node, given the number of all elements.
 fn around(node: usize, order: usize, elements: usize) -> std::ops::Range<usize> {
     let low = node.saturating_sub(1) / order;
     let high = (node / order).min(elements - 1);

@@ -6,7 +6,7 @@ use faer::Mat;
 
 use crate::method::fem::Mesh;
 
-/// Tables of shape functions with a row a point and a column a node, and where the points are.
+/// Tables of shape functions, with a row per point and a column per node, and the places of the points.
 pub struct Ring {
     values: Mat<f64>,
     /// Derivatives along the local r and z.
@@ -18,7 +18,7 @@ pub struct Ring {
 impl Ring {
     pub fn new(mesh: &Mesh, values: Mat<f64>, slopes: [Mat<f64>; 2]) -> Self {
         let axis = &mesh.axes[0];
-        // The radius at a point follows from the nodes', which stand at equal distances.
+        // The radius at a point follows from those of the nodes, which are equidistant.
         let order = axis.order;
         let radius = |element: usize, q: usize| {
             let node = |a: usize| axis.nodes[element * order + a % (order + 1)];

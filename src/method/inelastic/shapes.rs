@@ -1,5 +1,5 @@
-//! Elements of a structured mesh as this method needs them: from nodal displacements to strains at quadrature points
-//! and from stresses there back to nodal forces, for many elements of one row at once.
+//! Strains at quadrature points from nodal displacements, and nodal forces from stresses there, for many elements of
+//! one row at once.
 
 use faer::{Mat, MatRef};
 
@@ -13,18 +13,18 @@ use crate::method::fem::{Geometry, Mesh};
 ///
 /// Vectors of elements have all displacements along x (r), then along y, then along z, element after element.
 pub struct Shapes {
-    /// Displacements of a node.
+    /// Number of displacement components of a node.
     pub degrees: usize,
-    /// Nodes of an element.
+    /// Number of nodes of an element.
     pub nodes: usize,
-    /// Quadrature points of an element.
+    /// Number of quadrature points of an element.
     pub points: usize,
     /// Local coordinates and product of weights of each point.
     pub places: Vec<([f64; 3], f64)>,
-    /// Lengths of elements along each axis [m]; one of length 1 where there is none.
+    /// Lengths of elements along each axis [m]; one of length 1 for a missing axis.
     lengths: [Vec<f64>; 3],
     kind: Kind,
-    /// Values of shape functions: a row a point, a column a node.
+    /// Values of shape functions: a row per point, a column per node.
     values: Mat<f64>,
 }
 
@@ -33,12 +33,12 @@ enum Kind {
     Ring(Ring),
 }
 
-/// Derivatives of shape functions along the three local axes: rows 3 q + k of points q, a column a node.
+/// Derivatives of shape functions along the three local axes: rows 3 q + k of points q, a column per node.
 struct Brick {
     slopes: Mat<f64>,
 }
 
-/// Room for what strains and forces are made of.
+/// Work space for strains and forces.
 #[derive(Default)]
 pub struct Scratch {
     gradients: Vec<f64>,
@@ -53,7 +53,7 @@ impl Shapes {
             count => (0..count).map(|e| axis.bounds(e)).map(|[a, b]| b - a).collect(),
         });
         let is_box = mesh.geometry == Geometry::Box;
-        // For the weight r, a ring takes one more each way, as its elasticity does.
+        // Because of the weight r, a ring has one more point per direction, as in elasticity.
         let gauss = gauss_legendre(if is_box { n } else { n + 1 });
         let mut places = Vec::new();
         for &(zeta, wz) in &gauss {
@@ -92,7 +92,7 @@ impl Shapes {
         Self { degrees, nodes, points, places, lengths, kind, values }
     }
 
-    /// Elements along each axis.
+    /// Number of elements along each axis.
     pub fn counts(&self) -> [usize; 3] {
         self.lengths.each_ref().map(Vec::len)
     }
@@ -102,7 +102,7 @@ impl Shapes {
         [0, 1, 2].map(|axis| self.lengths[axis][element[axis]])
     }
 
-    /// Volume that each point of an element stands for, whole circles included [m³].
+    /// Volume that each point of an element represents, including whole circles [m³].
     pub fn volumes(&self, element: [usize; 3]) -> Vec<f64> {
         match &self.kind {
             Kind::Brick(_) => {

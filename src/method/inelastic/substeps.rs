@@ -1,8 +1,8 @@
-//! Bodies that creep: steps in time that are cut until each errs little.
+//! Creeping bodies: time steps that are cut until the error of each is small.
 //!
-//! Implicit Euler steps err by half of what the rate of flow changes over them times their length. A step is taken where
-//! that is at most a part of the largest elastic strain so far, and the next one is chosen by it. Over the whole,
-//! temperatures and forces vary linearly.
+//! The error of an implicit Euler step is half the change of the flow rate over the step times its length. A step is
+//! accepted if that is at most a fraction of the largest elastic strain so far, and it determines the length of the
+//! next step. Over the whole increment, temperatures and forces vary linearly.
 
 use super::newton::Progress;
 use super::problem::{InelasticError, InelasticProblem};
@@ -11,25 +11,25 @@ use crate::laws::stress::von_mises;
 use crate::runtime::allowance::Allowance;
 use crate::runtime::parallel::Team;
 
-/// What changes over a time.
+/// Change of temperatures and forces over a time.
 #[derive(Debug, Clone, Copy)]
 pub struct Increment<'a> {
-    /// Of nodes at the beginning and at the end [K].
+    /// Nodal temperatures at the beginning and at the end [K].
     pub temperatures: [&'a [f64]; 2],
-    /// On nodes at the beginning and at the end [N].
+    /// Nodal forces at the beginning and at the end [N].
     pub forces: [&'a [f64]; 2],
     /// [s]
     pub duration: f64,
-    /// What an inner step may err by, over the largest elastic strain.
+    /// Error tolerance of an inner step, relative to the largest elastic strain.
     pub tolerance: f64,
     pub allowance: &'a Allowance,
 }
 
-/// Inner steps that a step is given.
+/// Largest number of inner steps in a step.
 const MOST_STEPS: usize = 2_000;
-/// Shortest of them, over the whole.
+/// Length of the shortest inner step, over the whole.
 const LEAST_PART: f64 = 1e-24;
-/// Elastic strain below which there is no need to know it [1].
+/// Lower bound of the elastic strain to which errors are compared [1].
 const LEAST_STRAIN: f64 = 1e-6;
 /// Bounds of the ratio of lengths of two steps, and a margin.
 const LEAST_RATIO: f64 = 0.1;
@@ -37,8 +37,8 @@ const MOST_RATIO: f64 = 4.0;
 const MARGIN: f64 = 0.9;
 
 impl InelasticProblem {
-    /// Advances a state over an increment: bodies that do not creep at once to its end, others in as many inner steps as
-    /// the tolerance takes.
+    /// Advances a state over an increment: in a single step without creep, and otherwise in as many inner steps as the
+    /// tolerance requires.
     pub fn advance_increment(
         &self,
         state: &mut [f64],
@@ -51,7 +51,7 @@ impl InelasticProblem {
                 .map(drop);
         }
         let mut now = state.to_vec();
-        // What has changed since the last step does so at once.
+        // Changes since the last step are instantaneous.
         self.advance_to(&mut now, increment.temperatures[0], increment.forces[0], 0.0, increment)?;
         let (mut done, mut part) = (0.0, 1.0_f64);
         let mut rates = self.rates(&now, increment.temperatures[0])?;
@@ -77,7 +77,7 @@ impl InelasticProblem {
             strain = strain.max(ahead.strain);
             let error = self.error([&now, &next], &rates, length) / (increment.tolerance * strain);
             let ratio = if error > 0.0 { MARGIN / error.sqrt() } else { MOST_RATIO };
-            // An error that is no number is that of rates beyond numbers.
+            // A NaN error results from rates beyond the range of numbers.
             if error.is_nan() || error > 1.0 {
                 if part < LEAST_PART {
                     break;
@@ -106,7 +106,7 @@ impl InelasticProblem {
         self.advance_within(state, temperatures, forces, duration, increment.allowance)
     }
 
-    /// How fast all points flow.
+    /// Returns the flow rates of all points.
     fn rates(&self, state: &[f64], temperatures: &[f64]) -> Result<Rates, InelasticError> {
         let points = self.points(state, temperatures)?;
         let constants = self.constants(temperatures, 1.0, &Team::new(1))?;
@@ -130,9 +130,9 @@ impl InelasticProblem {
     }
 }
 
-/// Of all points.
+/// Rates of all points.
 struct Rates {
-    /// ṗ [1/s]; nothing of what flows at once.
+    /// ṗ [1/s]; `None` for rate-independent flow.
     flow: Vec<Option<f64>>,
     /// Largest elastic strain [1].
     strain: f64,

@@ -1,9 +1,10 @@
 //! Changes of displacement under changes of force: the linear systems of Newton's method.
 //!
-//! In a box, the tangent is the stiffness of elasticity, which needs no matrix, and corrections of the elements that
-//! flow or whose constants differ: of quadratic elements from their points, of linear ones, whose enhanced strains
-//! follow, as matrices of 24 rows. Conjugate gradients take the fast inverse of elasticity as preconditioner. Sections
-//! and bodies that are nearly incompressible have the tangent factored, and so does a box where these fail.
+//! In a box, the tangent is the matrix-free elastic stiffness plus corrections of the elements that flow or whose
+//! constants differ. Corrections of quadratic elements are computed from their points, those of linear ones, with
+//! condensed enhanced strains, are matrices of 24 rows. Conjugate gradients are preconditioned by the fast inverse of
+//! elasticity. In sections and in nearly incompressible bodies the tangent is factored, and also in a box where
+//! conjugate gradients fail.
 
 use super::element::Kit;
 use super::grid::{Grid, Iterate};
@@ -23,13 +24,13 @@ use crate::runtime::parallel::Team;
 /// Poisson's ratio up to which conjugate gradients need few iterations.
 const MOST_POISSON: f64 = 0.45;
 
-/// What solves for changes of displacement.
+/// Solver for changes of displacement.
 pub struct TangentSolver {
-    /// Elasticity without matrix and its fast inverse, where that serves.
+    /// Matrix-free elasticity and its fast inverse, if they are suitable.
     bricks: Option<Bricks>,
-    /// Whether each displacement is held, node after node.
+    /// Flags of held displacements, node after node.
     held: Vec<bool>,
-    /// Order of elimination of those that are not.
+    /// Elimination order of the free displacements.
     order: Vec<usize>,
     reach: [Reach; 3],
 }
@@ -37,17 +38,17 @@ pub struct TangentSolver {
 struct Bricks {
     stiffness: BrickStiffness,
     inverse: BrickInverse,
-    /// The tangent of elasticity that these have.
+    /// The elastic tangent of these.
     reference: PointTangent,
 }
 
-/// Elements of a layer whose tangent is not that of elasticity, and by what it differs.
+/// Elements of a layer whose tangent is not elastic, and the differences.
 #[derive(Default)]
 struct Corrections {
     elements: Vec<[usize; 3]>,
-    /// Of quadratic elements: at their points.
+    /// For quadratic elements: differences at their points.
     points: Vec<PointTangent>,
-    /// Of linear ones: the lower triangles of their matrices, row after row.
+    /// For linear elements: the lower triangles of their matrices, row after row.
     triangles: Vec<f64>,
 }
 
@@ -59,7 +60,7 @@ struct Corrected<'a> {
 }
 
 impl TangentSolver {
-    /// `reference` are constants that stand for the body's.
+    /// `reference` holds constants that represent the body.
     pub fn new(
         mesh: &Mesh,
         reference: &PointConstants,
@@ -100,12 +101,12 @@ impl TangentSolver {
         Self { bricks, held, order, reach }
     }
 
-    /// Whether the tangent is factored.
+    /// Returns true if the tangent is factored.
     pub fn is_factored(&self) -> bool {
         self.bricks.is_none()
     }
 
-    /// Sets what is held to zero.
+    /// Sets held displacements to zero.
     pub fn hold(&self, grid: &Grid, x: &mut [f64]) {
         let degrees = grid.kit.shapes.degrees;
         for (c, component) in x.chunks_exact_mut(grid.nodes).enumerate() {
@@ -117,7 +118,8 @@ impl TangentSolver {
         }
     }
 
-    /// Changes of displacement under a change of force, to a part of it, and how many iterations it took.
+    /// Solves for changes of displacement under a change of force, to a relative accuracy; returns the number of
+    /// iterations.
     pub fn solve(
         &self,
         grid: &Grid,
@@ -171,7 +173,7 @@ impl TangentSolver {
             |n: usize| [n % counts[0], n / counts[0] % counts[1], n / (counts[0] * counts[1])];
         let mut matrix = StencilMatrix::zeros(self.reach.clone(), [degrees; 2]);
         for layer in 0..grid.layers() {
-            // A layer of matrices at a time: computed on all threads, added in fixed order.
+            // One layer of matrices at a time: computed on all threads, added in fixed order.
             let all = team.map(grid.per_layer(), |e| {
                 let number = layer * grid.per_layer() + e;
                 let tangents = &iterate.tangents[number * points..][..points];
@@ -197,7 +199,7 @@ impl TangentSolver {
     }
 }
 
-/// Where the tangent differs from that of elasticity.
+/// Finds where the tangent differs from that of elasticity.
 fn corrections(grid: &Grid, bricks: &Bricks, iterate: &Iterate, team: &Team) -> Vec<Corrections> {
     let (points, reference) = (grid.kit.shapes.points, bricks.reference);
     let differs = |t: &PointTangent| {
@@ -208,7 +210,7 @@ fn corrections(grid: &Grid, bricks: &Bricks, iterate: &Iterate, team: &Team) -> 
     team.map(grid.layers(), |layer| {
         let mut found = Corrections::default();
         let mut scratch = Scratch::default();
-        // Elements of one size beside each other have one matrix of elasticity.
+        // Neighbouring elements of equal size share one matrix of elasticity.
         let mut known: Option<([f64; 3], Vec<f64>)> = None;
         for e in 0..grid.per_layer() {
             let number = layer * grid.per_layer() + e;
@@ -245,7 +247,7 @@ fn corrections(grid: &Grid, bricks: &Bricks, iterate: &Iterate, team: &Team) -> 
 }
 
 impl Corrections {
-    /// Elements that are worked on at once.
+    /// Number of elements processed at once.
     const BATCH: usize = 32;
 
     fn forces(

@@ -1,4 +1,4 @@
-//! Meshes that keep a tolerance: the usual one, made finer where estimates ask for it.
+//! Meshes that keep a tolerance: the usual mesh, refined where estimates require it.
 
 use std::collections::BTreeMap;
 
@@ -13,50 +13,51 @@ use crate::quantity::Quantity;
 use crate::scene::{Scene, Shape, Solid, takes_newton};
 use crate::variables::{Registry, Slot};
 
-/// Levels of fineness along the surface and through the thickness; each has √2 times as many elements as the one
-/// before, level 0 the usual ones.
+/// Levels of fineness along the surface and through the thickness. Each level has √2 times as many elements as the one
+/// before; level 0 is the usual mesh.
 pub type Levels = [i32; 2];
 
-/// Most nodes, times experiments, of meshes that are tried: of heat, and where stresses are solved for in sections, in
-/// boxes of one material, and in boxes of layers, whose stress takes many times as long.
+/// Largest number of nodes, times experiments, of trial meshes: for heat, and for stress in sections, in boxes of one
+/// material, and in boxes of layers, whose stress takes many times as long.
 const MOST_NODES: f64 = 2.5e5;
 const MOST_NODES_OF_SECTIONS: f64 = 3e4;
 const MOST_NODES_OF_BOXES: f64 = 5e4;
 const MOST_NODES_OF_LAYERS: f64 = 1.2e4;
-/// The same of bodies whose stress depends on their history, and part of these of bodies that creep: each moment takes
-/// Newton's method, and creep many inner steps.
+/// The same limit for bodies with history-dependent stress, and the fraction of it for bodies that creep: each moment
+/// needs Newton's method, and creep many inner steps.
 const MOST_NODES_WITH_HISTORY: f64 = 4e3;
 const PART_OF_CREEP: f64 = 0.25;
-/// Part of these that meshes may have that are far finer than the one to be judged: they tell of coarse ones.
+/// Fraction of these limits for meshes far finer than the one to be judged, which reveal coarse ones.
 const FEW: f64 = 0.15;
-/// Most nodes along any axis: all modes along it are found, which takes the cube of their number.
+/// Largest number of nodes along any axis: all modes along it are computed, at a cost of the cube of their number.
 const MOST_ALONG: usize = 1000;
-/// Nodes of meshes for stress that are taken without a trial, at most, and levels beyond the last trial.
+/// Largest number of nodes of meshes for stress that are used without a trial, and levels beyond the last trial.
 const MOST_NODES_UNTRIED: f64 = 1.5e5;
 const BEYOND: i32 = 4;
 /// Finest level.
 const FINEST: i32 = 10;
-/// Coarsest level of which what a finer mesh errs by is told.
+/// Coarsest level whose error a finer mesh estimates.
 pub const COARSEST_TRIED: i32 = -8;
-/// Meshes tried after the first.
+/// Largest number of meshes tried after the first.
 const MOST_TRIALS: usize = 16;
-/// Tolerance that usual meshes keep, mostly.
+/// Tolerance that usual meshes keep in most cases.
 const USUAL: f64 = 1e-2;
-/// Orders at which errors fall with the number of elements, of quadratic elements and of what melts or yields.
+/// Convergence orders in the number of elements, of quadratic elements and of bodies that melt or yield.
 const ORDER: f64 = 3.0;
 const ORDER_OF_NONLINEAR: f64 = 2.0;
-/// What errors of stress are taken to be over what coarser meshes tell: they fall less evenly than those of temperature.
+/// Safety factor on errors of stress estimated from coarser meshes: they decrease less evenly than those of
+/// temperature.
 const UNEVEN_STRESS: f64 = 1.15;
-/// Error of linear elements with integrals at the nodes, by which heat that is not linear goes, over that of the twin's, at
-/// most: 1.7 of temperature and 2.7 of stress were measured.
+/// Largest error of linear elements with nodal quadrature, which nonlinear heat uses, over that of the twin's elements;
+/// ratios of 1.7 for temperature and 2.7 for stress were measured.
 const INTEGRALS_AT_NODES: f64 = 3.0;
-/// The levels that the law gives without an estimate.
+/// Levels from the empirical law without an estimate.
 const LAW: [i32; 2] = [-3, 4];
-/// What a front scatters by in a column of level 0, over its depth: a tenth of the distance of nodes there, which is a fifth
-/// of the depth and more, as elements grow with that.
+/// Scatter of a front in a column of level 0, over its depth. It is a tenth of the local node spacing, which is a fifth
+/// of the depth and more, as elements grow with depth.
 const FRONT: f64 = 0.03;
 
-/// Numbers of elements over the usual ones.
+/// Returns the numbers of elements over the usual ones.
 pub fn factors(levels: Levels) -> [f64; 2] {
     levels.map(|level| 2f64.powf(0.5 * f64::from(level)))
 }
@@ -65,23 +66,23 @@ pub fn factors(levels: Levels) -> [f64; 2] {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
     pub factors: [f64; 2],
-    /// Of the outputs that were estimated.
+    /// Largest error of the outputs that were estimated.
     pub error: Option<f64>,
 }
 
-/// Whether a scene leaves the mesh of a solid open along its surface and through its thickness.
+/// Returns whether the scene leaves the mesh of a solid to be chosen, along its surface and through its thickness.
 pub fn open(solid: &Solid) -> [bool; 2] {
     let keys = &solid.mesh;
     [keys.spacing.is_none(), keys.spacing.is_none() && keys.depth_spacing.is_none()]
 }
 
-/// Whether the mesh of a solid of a scene is chosen.
+/// Returns true if the mesh of a scene's solid is chosen.
 pub fn is_chosen(scene: &Scene, name: &str) -> bool {
     let is_open = |solid: &Solid| open(solid) != [false; 2];
     !scene.refinement.contains_key(name) && scene.meshed(name).is_some_and(is_open)
 }
 
-/// Chooses the mesh of a solid of a scene that leaves it open.
+/// Chooses the mesh of a scene's solid if the scene does not set it.
 pub fn choose(scene: &Scene, name: &str) -> Choice {
     let Some(solid) = scene.meshed(name) else { return Choice { factors: [1.0; 2], error: None } };
     let open = open(solid);
@@ -112,7 +113,7 @@ pub fn choose(scene: &Scene, name: &str) -> Choice {
         let mut trials = Trials::new(&twin, Physics::Deformation);
         let of_stress;
         (levels, of_stress) = search(&mut trials, levels, open, tolerance);
-        // Beyond meshes that are tried, errors fall as those of second order: by a half with each level.
+        // Beyond trial meshes, errors are assumed to decrease with second order: by a half with each level.
         let (mut left, mut beyond) = (of_stress.unwrap_or(0.0), 0);
         while left > tolerance && beyond < BEYOND {
             let next = [0, 1].map(|way| levels[way] + i32::from(open[way]));
@@ -126,7 +127,7 @@ pub fn choose(scene: &Scene, name: &str) -> Choice {
     Choice { factors: factors(levels), error }
 }
 
-/// Where the search begins: what is coarser never kept a tolerance in sixty random scenes.
+/// Levels at which the search begins; coarser meshes never kept a tolerance in sixty random scenes.
 pub fn first_levels(tolerance: f64, open: [bool; 2]) -> Levels {
     let level = (FIRST - 2.0 * (tolerance / USUAL).log10()).round() as i32;
     open.map(|is_open| if is_open { level.clamp(-6, 0) } else { 0 })
@@ -135,7 +136,7 @@ pub fn first_levels(tolerance: f64, open: [bool; 2]) -> Levels {
 /// Level at which the search for the usual tolerance begins.
 const FIRST: f64 = -3.0;
 
-/// The order of the law for bodies of which too much would have to be computed to try meshes.
+/// Order of the empirical law, for bodies whose trial meshes would be too expensive.
 fn order_of_law(scene: &Scene, name: &str, solid: &Solid) -> Option<f64> {
     let is_nonlinear = takes_newton(scene, solid) || !solid.deforms_linearly();
     let touches = scene.coupling.iter().any(|coupling| {
@@ -151,7 +152,7 @@ fn order_of_law(scene: &Scene, name: &str, solid: &Solid) -> Option<f64> {
     }
 }
 
-/// Whether a front goes through all of a column at once, so that nothing makes up for where it stands among nodes.
+/// Returns true if a front crosses all of a column at once, so that its position between nodes does not average out.
 fn is_melting_column(scene: &Scene, name: &str, solid: &Solid) -> bool {
     let across = || {
         let bodies = forecast(scene).bodies;
@@ -160,8 +161,8 @@ fn is_melting_column(scene: &Scene, name: &str, solid: &Solid) -> bool {
     solid.melts() && across().is_some_and(|([x, y, _], order)| x.max(y) <= order + 1)
 }
 
-/// The level through the thickness on which a front scatters by no more than a tolerance, as distances of nodes fall;
-/// beyond the highest of the law inner steps, one after another as nodes melt, take too long.
+/// Level through the thickness on which the scatter of a front is within a tolerance, as node spacings decrease. Beyond
+/// the highest level of the law, inner steps take too long, because nodes melt one after another.
 fn level_of_front(tolerance: f64) -> i32 {
     ((2.0 * (FRONT / tolerance).log2()).round() as i32).clamp(LAW[0], LAW[1])
 }
@@ -170,13 +171,13 @@ fn is_layered_box(solid: &Solid) -> bool {
     solid.strata().len() > 1 && matches!(solid.shape, Shape::Box(_))
 }
 
-/// Experiments with a body on meshes of several levels, each made once.
+/// Experiments with a body on meshes of several levels, each computed once.
 pub struct Trials<'a> {
     twin: &'a Twin,
     pub watched: Vec<Watched>,
     solved: BTreeMap<Levels, Responses>,
     most_nodes: f64,
-    /// Error over what coarser meshes tell of it.
+    /// Safety factor on errors estimated from coarser meshes.
     margin: f64,
     order: &'static Order,
 }
@@ -214,17 +215,17 @@ impl<'a> Trials<'a> {
         }
     }
 
-    /// Whether nothing acts on the body by itself.
+    /// Returns true if nothing acts on the body alone.
     pub fn is_idle(&self) -> bool {
         experiments(self.twin.scene()).is_empty()
     }
 
-    /// Whether no output can be estimated.
+    /// Returns true if no output can be estimated.
     pub fn is_blind(&self) -> bool {
         !self.watched.iter().any(is_estimated)
     }
 
-    /// Whether the body flows under any of the inputs that were tried on a mesh.
+    /// Returns true if the body flows under any of the inputs that were tried on a mesh.
     pub fn flows(&self, levels: Levels) -> bool {
         let marks = self.watched.iter().enumerate().filter(|(_, one)| !is_estimated(one));
         let solved = self.solved.get(&levels).into_iter().flatten().flatten();
@@ -232,36 +233,36 @@ impl<'a> Trials<'a> {
         marks.any(|strain| strain > 0.0)
     }
 
-    /// Whether a mesh is too large to be tried.
+    /// Returns true if a mesh is too large to be tried.
     pub fn is_too_large(&self, levels: Levels) -> bool {
         let bodies = self.bodies(levels);
         let along = bodies.iter().flat_map(|body| body.nodes).max().unwrap_or(0);
         along > MOST_ALONG || nodes_of(&bodies) > self.most_nodes
     }
 
-    /// Nodes of a mesh.
+    /// Number of nodes of a mesh.
     pub fn nodes(&self, levels: Levels) -> f64 {
         nodes_of(&self.bodies(levels))
     }
 
-    /// What the twin comes to on a mesh.
+    /// Forecast of the twin on a mesh.
     fn bodies(&self, levels: Levels) -> Vec<BodyForecast> {
         forecast(&self.twin.on_mesh(factors(levels))).bodies
     }
 
-    /// Whether a mesh has so few elements that a coarser level is no coarser; columns are exact along the surface.
+    /// Returns true if a mesh has so few elements that the coarser level is equal; columns are exact along the surface.
     fn is_coarsest(&self, levels: Levels, coarser: Levels) -> bool {
         self.nodes(levels) == self.nodes(coarser)
     }
 
-    /// What outputs differ by from those on another mesh.
+    /// Differences of outputs from those on another mesh.
     fn beside(&mut self, levels: Levels, other: Levels) -> Result<Vec<f64>, ModelError> {
         self.solve(other)?;
         Ok(differences(&self.solved[&levels], &self.solved[&other], &self.watched))
     }
 
-    /// What outputs err by as those on meshes tell that are finer along the surface or through the thickness: one may be
-    /// too coarse by far itself, which one finer again tells. Nothing where all of these are too large.
+    /// Errors of outputs from meshes that are finer along the surface or through the thickness. One finer mesh may
+    /// itself be far too coarse, which a still finer one reveals. `None` if all of these are too large.
     fn beside_finer(&mut self, levels: Levels, way: usize) -> Result<Option<Vec<f64>>, ModelError> {
         let finer = |more: i32| {
             let mut finer = levels;
@@ -301,8 +302,8 @@ impl<'a> Trials<'a> {
         Ok(())
     }
 
-    /// What outputs err by on a mesh, from what they differ by on coarser ones; on finer ones where it is so coarse that
-    /// it does not get coarser.
+    /// Errors of outputs on a mesh, from differences to coarser ones, or to finer ones if the mesh cannot be made
+    /// coarser.
     pub fn estimate(&mut self, levels: Levels) -> Result<Estimate, ModelError> {
         let parts = [self.part(levels, 0)?, self.part(levels, 1)?];
         let mut estimate = self.joined(parts);
@@ -313,8 +314,8 @@ impl<'a> Trials<'a> {
         Ok(estimate)
     }
 
-    /// The same from finer ones, as far as these are not too large: a mesh may be so coarse that it and all coarser ones
-    /// are wrong alike, or right where those are not.
+    /// Errors from finer meshes, unless these are too large. A mesh may be so coarse that it and all coarser ones share
+    /// the same error, or be accurate where those are not.
     pub fn judge(&mut self, levels: Levels) -> Result<Estimate, ModelError> {
         self.solve(levels)?;
         let mut parts = [Vec::new(), Vec::new()];
@@ -327,7 +328,7 @@ impl<'a> Trials<'a> {
         Ok(self.joined(parts))
     }
 
-    /// What outputs err by along the surface (0) or through the thickness (1), from coarser meshes.
+    /// Errors of outputs along the surface (0) or through the thickness (1), from coarser meshes.
     fn part(&mut self, levels: Levels, way: usize) -> Result<Vec<f64>, ModelError> {
         let coarser = |less: i32| {
             let mut coarser = levels;
@@ -357,7 +358,7 @@ impl<'a> Trials<'a> {
     }
 }
 
-/// Whether errors of an output are estimated: flow only shows whether there is any.
+/// Returns true if errors of an output are estimated; flow only shows whether there is any.
 fn is_estimated(one: &Watched) -> bool {
     one.quantity != Quantity::Ratio
 }
@@ -375,14 +376,14 @@ fn nodes_of(bodies: &[BodyForecast]) -> f64 {
     bodies.iter().map(|body| body.unknowns[0] as f64).sum()
 }
 
-/// Most nodes of trials of a body whose stress depends on its history.
+/// Largest number of nodes of trials of a body with history-dependent stress.
 fn most_with_history(solid: &Solid) -> f64 {
     let materials = solid.materials_of_layers();
     let creeps = materials.iter().any(|own| own.law.deformation().creeps());
     MOST_NODES_WITH_HISTORY * if creeps { PART_OF_CREEP } else { 1.0 }
 }
 
-/// The first mesh, from some levels on, whose estimate keeps a tolerance; with the estimate, as far as there is one.
+/// First mesh, from some levels on, whose estimate keeps a tolerance, with the estimate if there is one.
 pub fn search(
     trials: &mut Trials,
     start: Levels,
@@ -407,7 +408,8 @@ pub fn search(
     }
 }
 
-/// The next meshes to try, the first that is not too large; none where the tolerance is kept or cannot be.
+/// Next meshes to try, in the order in which the first that is not too large is used; none if the tolerance is kept or
+/// out of reach.
 fn next(estimate: &Estimate, levels: Levels, open: [bool; 2], tolerance: f64) -> Vec<Levels> {
     if estimate.worst() <= tolerance {
         return Vec::new();
@@ -415,7 +417,7 @@ fn next(estimate: &Estimate, levels: Levels, open: [bool; 2], tolerance: f64) ->
     let over = [0, 1].map(|way| estimate.worst_of(way) / (0.5 * tolerance));
     let most = over[0].max(over[1]);
     let (mut far, mut near, mut least) = (levels, levels, levels);
-    // What the other direction errs by is mended by none of these.
+    // None of these reduces the error of the other direction.
     for way in [0, 1].into_iter().filter(|&way| open[way] && over[way] > 1.0) {
         far[way] += if over[way] > FAR { 2 } else { 1 };
         near[way] += 1;
@@ -425,5 +427,5 @@ fn next(estimate: &Estimate, levels: Levels, open: [bool; 2], tolerance: f64) ->
     [far, near, least].into_iter().filter(fits).collect()
 }
 
-/// Error over the tolerance from which on meshes are made twice as fine at once.
+/// Error over the tolerance from which on meshes are refined twofold at once.
 const FAR: f64 = 8.0;

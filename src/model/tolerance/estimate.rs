@@ -1,15 +1,15 @@
-//! What outputs err by, from the same experiments on coarser meshes.
+//! Errors of outputs, from the same experiments on coarser meshes.
 
 use std::collections::HashMap;
 
 use super::responses::{Responses, Watched};
 use crate::quantity::Quantity;
 
-/// Part of the largest range of a quantity over the body below which no output's own range counts.
+/// Fraction of the largest range of a quantity over the body below which an output's own range does not count.
 const FLOOR: f64 = 0.01;
 
-/// Largest differences between the outputs of an experiment on two meshes over their ranges [1], output by output:
-/// the ranges are those on the first.
+/// Largest differences between the outputs of an experiment on two meshes [1], output by output, relative to their
+/// ranges on the first mesh.
 pub fn differences(on: &Responses, other: &Responses, watched: &[Watched]) -> Vec<f64> {
     let mut all = vec![0.0_f64; watched.len()];
     for (rows, others) in on.iter().zip(other) {
@@ -26,9 +26,10 @@ pub fn differences(on: &Responses, other: &Responses, watched: &[Watched]) -> Ve
     all
 }
 
-/// What errors of outputs in an experiment are a part of: the largest range, rest included, of the same quantity at the
-/// same probe or over the same field, or a part of the largest of the quantity anywhere. A component that is next to
-/// nothing beside the others of its tensor, or a cell beside the others of its field, is not held to its own range.
+/// Scales of the errors of outputs in an experiment. A scale is the largest range, rest included, of the same quantity
+/// at the same probe or over the same field, or a fraction of the largest range of the quantity anywhere. A small
+/// component among others of its tensor, or a cell among others of its field, is therefore not compared with its own
+/// range.
 pub fn scales(rows: &[Vec<f64>], watched: &[Watched]) -> Vec<f64> {
     let range = |place: usize| {
         let [low, high] = rows.iter().fold([watched[place].rest; 2], |[low, high], row| {
@@ -46,7 +47,7 @@ pub fn scales(rows: &[Vec<f64>], watched: &[Watched]) -> Vec<f64> {
     let scale = |one: &Watched| {
         let largest = of_quantity[&one.quantity];
         match one.quantity {
-            // Heat that left is a part of what came.
+            // Heat that left is compared with heat that entered.
             Quantity::Energy => largest,
             quantity => of_group[&(one.group(), quantity)].max(FLOOR * largest),
         }
@@ -60,18 +61,18 @@ pub struct Estimate {
     pub outputs: Vec<OutputError>,
 }
 
-/// What an output errs by, of its range over the default experiment.
+/// Error of an output over its range in the default experiment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OutputError {
     pub name: String,
-    /// By elements along the surface [1].
+    /// Error due to elements along the surface [1].
     pub along: f64,
-    /// By elements through the thickness [1].
+    /// Error due to elements through the thickness [1].
     pub through: f64,
 }
 
 impl OutputError {
-    /// By both.
+    /// Sum of both.
     pub fn total(&self) -> f64 {
         self.along + self.through
     }

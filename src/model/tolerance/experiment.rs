@@ -1,5 +1,5 @@
-//! What a body is tried with: its start values, and each load and flux that these leave at rest, each with loads as small
-//! as their ranges let them get, too.
+//! Experiments with a body: its start values, and each load and flux that is zero at the start. Loads whose range
+//! allows a smaller radius are also tried at the smallest.
 
 use std::ops::Range;
 
@@ -7,12 +7,12 @@ use crate::inputs::{FaceInputKind, InputLayout, LoadInputs};
 use crate::model::initial_inputs;
 use crate::scene::{Load, Scene};
 
-/// Most experiments with a body.
+/// Largest number of experiments with a body.
 const MOST: usize = 8;
 
-/// Inputs of the experiments with a scene of one body: first its start values, if anything happens under these, then
-/// one of every input that is at rest at the start; temperatures of faces only where all is at rest. Where a load may get
-/// smaller than it is at the start, each of them stands twice.
+/// Returns the inputs of the experiments with a scene of one body. First come its start values, unless all are at rest,
+/// then a unit of every input that is zero at the start. Face temperatures are included only if everything is at rest.
+/// If the radius of a load may decrease from its start value, each experiment is listed twice.
 pub fn experiments(scene: &Scene) -> Vec<Vec<f64>> {
     let layout = InputLayout::of(scene);
     let start = initial_inputs(scene);
@@ -30,13 +30,13 @@ pub fn experiments(scene: &Scene) -> Vec<Vec<f64>> {
     for group in &groups {
         at_rest[group.range.clone()].fill(rest(group));
     }
-    // Faces whose temperature rests are no question where something else acts.
+    // Constant face temperatures need no experiment if something else acts.
     let is_asked = |group: &&Group| !group.is_temperature || resting.len() == groups.len();
     for group in resting.iter().copied().filter(is_asked) {
         let mut inputs = at_rest.clone();
         inputs[group.range.clone()].fill(rest(group) + 1.0);
         all.push(inputs);
-        // Of many cells, one by itself has the finest shape.
+        // Among many cells, a single one has the finest shape.
         if group.range.len() > 1 {
             let mut inputs = at_rest.clone();
             inputs[group.range.start + group.range.len() / 2] = rest(group) + 1.0;
@@ -51,12 +51,12 @@ pub fn experiments(scene: &Scene) -> Vec<Vec<f64>> {
     all
 }
 
-/// Whether loads are tried at the lower ends of their ranges of radius, too.
+/// Returns true if loads are also tried at the lower ends of their ranges of radius.
 pub fn tries_least_radii(scene: &Scene) -> bool {
     !least_radii(scene, &InputLayout::of(scene), &initial_inputs(scene)).is_empty()
 }
 
-/// Places of the radii that inputs may make smaller than they start, with the least values [m].
+/// Places of the radii that inputs may make smaller than at the start, with their lower limits [m].
 fn least_radii(scene: &Scene, layout: &InputLayout, start: &[f64]) -> Vec<(usize, f64)> {
     let loads = scene.load.iter().zip(&layout.loads);
     let least = |(load, places): (&Load, &LoadInputs)| {

@@ -1,4 +1,4 @@
-//! Which solids of a scene that leaves it open are reduced: those whose bound keeps the tolerance.
+//! Resolution of `level = "auto"`: solids whose error bound keeps the tolerance are reduced.
 
 use super::{Resolved, resolve};
 use crate::body::{BodyError, KeptReduction, reductions};
@@ -7,17 +7,17 @@ use crate::model::{Model, ModelError, check_memory, initial_inputs};
 use crate::runtime::thread::aside;
 use crate::scene::{ResolvedLevel, Scene, SolidLevel};
 
-/// A scene in which no level is left open.
+/// A scene in which every level is resolved.
 pub struct Levels {
     pub scene: Scene,
-    /// What the level of each solid came to that was left open, and why: a sentence each.
+    /// Notes on the chosen level of each solid, with reasons: one sentence each.
     pub notes: Vec<String>,
-    /// Reductions that were made to find out, for models that need them as long as this is held.
+    /// Reductions made for this choice; models reuse them while this is held.
     pub kept: Vec<KeptReduction>,
 }
 
-/// Finds the levels that a scene leaves open: a solid is reduced where that can be and its bound keeps the tolerance,
-/// else it is taken in full. Models that would take more memory than is `available` [B] are not tried.
+/// Resolves the open levels of a scene: a solid is reduced if this is possible and its bound keeps the tolerance;
+/// otherwise the full solid is used. Models that need more memory than is `available` [B] are not tried.
 pub fn levels(scene: &Scene, available: f64) -> Levels {
     let mut found = Levels { scene: scene.clone(), notes: Vec::new(), kept: Vec::new() };
     for name in scene.open_levels() {
@@ -31,7 +31,7 @@ pub fn levels(scene: &Scene, available: f64) -> Levels {
     found
 }
 
-/// What keeps a solid from being reduced within the tolerance.
+/// Returns what prevents the reduction of a solid within the tolerance.
 fn obstacle(
     (scene, available): (&Scene, f64),
     name: &str,
@@ -51,13 +51,13 @@ fn obstacle(
     beyond.map(|warning| warning.finding().to_string())
 }
 
-/// One solid of a scene, reduced, which nothing touches.
+/// Scene of one solid, reduced, without contacts.
 fn alone(scene: &Scene, name: &str) -> Scene {
     let resolved = ResolvedLevel { level: SolidLevel::Reduced };
     Scene { resolved: [(name.to_owned(), resolved)].into(), ..scene.alone(name) }
 }
 
-/// The model of a scene with solids that are reduced: only that tells their orders and bounds.
+/// Builds the model of a scene with reduced solids, which alone reports their orders and bounds.
 pub fn reduced_model(scene: &Scene, available: f64) -> Result<Option<Model>, ModelError> {
     let has_any = scene.reduced_bodies().next().is_some();
     has_any.then(|| model(scene, available)).transpose()
@@ -68,7 +68,7 @@ fn model(scene: &Scene, available: f64) -> Result<Model, ModelError> {
     Model::build(scene, scene.solver.threads)
 }
 
-/// The reductions of a scene, each with the name of its body, as bytes.
+/// Returns the reductions of a scene, as bytes, each with the name of its body.
 pub fn stored_reductions(scene: &Scene) -> Result<Vec<(String, Vec<u8>)>, BodyError> {
     let Resolved { scene, choices: _choices } = resolve(scene);
     let layout = InputLayout::of(&scene);

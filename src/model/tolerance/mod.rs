@@ -1,8 +1,8 @@
-//! Meshes that keep the tolerance of a scene, and estimates of what outputs err by.
+//! Meshes that keep the tolerance of a scene, and error estimates of outputs.
 //!
-//! A body is tried by itself over the default experiment, on meshes of several levels. What its outputs differ by on
-//! meshes that are coarser along the surface, and on such that are coarser through the thickness, tells what either
-//! costs in accuracy; the mesh is made finer where it costs too much.
+//! Each body is tried alone over the default experiment, on meshes of several levels. Differences to outputs on meshes
+//! that are coarser along the surface, or through the thickness, estimate the error of either direction. The mesh is
+//! refined where the error is too large.
 
 pub mod choice;
 pub mod estimate;
@@ -30,14 +30,14 @@ use twin::MOST_PROBES;
 /// Meshes by scene and name of the body.
 static CHOICES: SharedValues<(Scene, String), Choice> = SharedValues::new();
 
-/// A scene in which no mesh is left open that follows from the tolerance.
+/// A scene in which every mesh that follows from the tolerance is chosen.
 pub struct Resolved {
     pub scene: Scene,
-    /// What was chosen; others that ask for the same get it as long as this is held.
+    /// The choices made; other scenes with equal keys reuse them while this is held.
     pub choices: Vec<Arc<Choice>>,
 }
 
-/// Chooses the meshes that a scene leaves open, such that they keep its tolerance.
+/// Chooses the open meshes of a scene so that they keep its tolerance.
 pub fn resolve(scene: &Scene) -> Resolved {
     let mut resolved = Resolved { scene: scene.clone(), choices: Vec::new() };
     for name in scene.body.keys().filter(|name| is_chosen(scene, name)) {
@@ -52,7 +52,7 @@ pub fn resolve(scene: &Scene) -> Resolved {
     resolved
 }
 
-/// A note on a scene with more probes than are tried, before these trials.
+/// Notes, ahead of the trials, that a scene has more probes than are tried.
 pub fn note_on_sample(scene: &Scene) -> Option<String> {
     let probes = scene.probe.len();
     (probes > MOST_PROBES).then(|| {
@@ -60,7 +60,7 @@ pub fn note_on_sample(scene: &Scene) -> Option<String> {
     })
 }
 
-/// Forgets choices that nobody holds any more.
+/// Drops choices that are no longer held.
 pub fn forget_unused() {
     CHOICES.forget_unused();
 }

@@ -1,4 +1,4 @@
-//! What is told of estimates: per body, in warnings, and in scenes that are packed.
+//! Reports of estimates: per body, in warnings, and in packed scenes.
 
 use std::fmt::Write;
 
@@ -12,30 +12,30 @@ use crate::scene::{MeshFactors, Scene, Shape, Solid, SolidLevel, Stratum};
 use crate::variables::Registry;
 use crate::warning::{self, Warning};
 
-/// What the outputs of a body err by on its mesh.
+/// Estimated errors of the outputs of a body on its mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyEstimate {
     pub body: String,
     /// Relative to their ranges over the default experiment.
     pub outputs: Vec<OutputError>,
-    /// What the estimate leaves out, and what it could not be made for: a sentence each.
+    /// Notes on omissions of the estimate and on outputs without one: one sentence each.
     pub notes: Vec<String>,
 }
 
 impl BodyEstimate {
-    /// The largest error of any output; none without an estimate.
+    /// Returns the largest error of any output; `None` without an estimate.
     pub fn worst(&self) -> Option<f64> {
         let all = self.outputs.iter().map(OutputError::total);
         all.fold(None, |worst, error| Some(worst.map_or(error, |worst: f64| worst.max(error))))
     }
 
-    /// The same along the surface or through the thickness.
+    /// Returns the largest error along the surface or through the thickness.
     fn worst_of(&self, way: usize) -> f64 {
         Estimate { outputs: self.outputs.clone() }.worst_of(way)
     }
 }
 
-/// A scene with all its meshes chosen, and what the outputs of each solid err by on these, in it too.
+/// Returns a scene with all its meshes chosen and their errors included, and the error estimates of each solid.
 pub fn estimates(scene: &Scene) -> (Scene, Vec<BodyEstimate>) {
     let mut resolved = resolve(scene).scene;
     let estimates: Vec<_> =
@@ -48,7 +48,7 @@ pub fn estimates(scene: &Scene) -> (Scene, Vec<BodyEstimate>) {
     (resolved, estimates)
 }
 
-/// Estimates what the outputs of a solid err by, on the mesh that a scene has.
+/// Estimates the errors of the outputs of a solid on the mesh of a scene.
 pub fn estimate(scene: &Scene, name: &str) -> BodyEstimate {
     let mut found = BodyEstimate { body: name.to_owned(), outputs: Vec::new(), notes: Vec::new() };
     if scene.meshed(name).is_none() {
@@ -74,7 +74,7 @@ pub fn estimate(scene: &Scene, name: &str) -> BodyEstimate {
         of_physics(&twin, physics, &mut found);
     }
     if scene.is_reduced(name) {
-        // Of the full body more can be read.
+        // The full body offers more readings.
         let offered = Registry::structured(scene);
         found.outputs.retain(|one| offered.find(&one.name).is_some());
     }
@@ -117,7 +117,7 @@ fn of_physics(twin: &Twin, physics: Physics, found: &mut BodyEstimate) {
                 .to_owned(),
         );
     }
-    // An error of second order falls by a half with each level, one of first order by √½.
+    // An error of second order decreases by a half with each level, one of first order by √½.
     let (power, order) = if twin.has_history { (0.5, "that") } else { (1.0, "the square of that") };
     if down > 0 {
         found.notes.push(format!(
@@ -133,8 +133,8 @@ fn of_physics(twin: &Twin, physics: Physics, found: &mut BodyEstimate) {
     }));
 }
 
-/// Numbers of elements along the surface and through the thickness over those of the mesh of a body that would keep the
-/// tolerance of a scene, as far as it is near enough to be told.
+/// Ratios of element counts along the surface and through the thickness between a mesh that would keep the tolerance of
+/// a scene and the body's mesh; `None` if that mesh is too far away to be predicted.
 pub fn finer_mesh(scene: &Scene, estimate: &BodyEstimate) -> Option<[f64; 2]> {
     let tolerance = scene.fidelity.tolerance;
     if let Some(twin) = Twin::of(scene, &estimate.body, Physics::Heat) {
@@ -153,21 +153,22 @@ pub fn finer_mesh(scene: &Scene, estimate: &BodyEstimate) -> Option<[f64; 2]> {
     (by_order[0].max(by_order[1]) <= FARTHEST).then_some(by_order)
 }
 
-/// Numbers of elements over those of a mesh that would keep a tolerance, as errors of second order fall.
+/// Ratios of element counts of a mesh that would keep a tolerance, for errors of second order.
 fn by_order(estimate: &BodyEstimate, tolerance: f64) -> [f64; 2] {
     [0, 1].map(|way| (estimate.worst_of(way) / (0.5 * tolerance)).sqrt().max(1.0))
 }
 
-/// Numbers of elements over those of a mesh beyond which nothing is told of it by the order alone.
+/// Largest ratio of element counts for which the order alone predicts a mesh.
 const FARTHEST: f64 = 8.0;
 
-/// The same of a mesh that is proposed instead.
+/// The same ratio for the mesh that is proposed instead.
 const NEXT: f64 = 2.0;
 
-/// Growth of elements where a scene gives distances of nodes alone.
+/// Growth of elements if a scene sets only node spacings.
 const GROWTH: f64 = 1.2;
 
-/// Least distances of nodes along the surface and through the thickness of a mesh of so many times as many elements [m].
+/// Smallest node spacings along the surface and through the thickness of a mesh with these ratios of element counts
+/// [m].
 fn finest(scene: &Scene, name: &str, factors: [f64; 2]) -> [f64; 2] {
     let mut finer = scene.clone();
     let own = finer.refinement.get(name).map_or([1.0; 2], MeshFactors::factors);
@@ -181,8 +182,8 @@ fn finest(scene: &Scene, name: &str, factors: [f64; 2]) -> [f64; 2] {
     [lateral.map(|[least, _]| *least).fold(f64::INFINITY, f64::min), spacing[2][0]]
 }
 
-/// Warns of bodies whose mesh does not keep the tolerance of a scene, with the spacing that would, and of drops that may
-/// land where the mesh below is coarse.
+/// Warns of bodies whose mesh does not keep the tolerance of a scene, with the spacing that would, and of drops that
+/// may land where the mesh below is coarse.
 pub fn warnings(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<Warning> {
     let of_meshes = estimates.iter().filter_map(|estimate| beyond_tolerance(scene, estimate));
     of_meshes.chain(warnings_on_landing(scene)).collect()
@@ -226,14 +227,14 @@ fn finer_spacing(scene: &Scene, estimate: &BodyEstimate, solid: &Solid) -> Strin
     )
 }
 
-/// Estimate over the tolerance from which on a mesh that was chosen is warned of: what is found is less than half of what
-/// is estimated (`docs/fidelity.md`).
+/// Estimate over the tolerance from which on a chosen mesh causes a warning: actual errors are less than half of the
+/// estimates (`docs/fidelity.md`).
 const OVER: f64 = 1.5;
 
 /// Poisson's ratio from which on linear elements of a section lock.
 const LOCKING: f64 = 0.49;
 
-/// Whether a solid has elements that lock, as its layers hardly change their volume.
+/// Returns true if a solid has elements that lock, because its layers are nearly incompressible.
 fn locks(solid: &Solid) -> bool {
     let is_stiff_in_volume =
         |stratum: &Stratum| stratum.constants.poisson.is_some_and(|poisson| poisson > LOCKING);
@@ -242,20 +243,20 @@ fn locks(solid: &Solid) -> bool {
         && solid.strata().iter().any(is_stiff_in_volume)
 }
 
-/// Whether an output of a scene is a stress or a displacement.
+/// Returns true if an output of a scene is a stress or a displacement.
 fn is_mechanical(scene: &Scene, output: &str) -> bool {
     let registry = Registry::structured(scene);
     let quantity = registry.find(output).and_then(|place| registry.variables[place].quantity);
     matches!(quantity, Some(Quantity::Stress | Quantity::Displacement))
 }
 
-/// Factors of the mesh of a body that would keep the tolerance, as errors of second order fall.
+/// Factors of the mesh of a body that would keep the tolerance, for errors of second order.
 fn finer_factors(scene: &Scene, estimate: &BodyEstimate) -> String {
     let name = &estimate.body;
     let [along, through] = scene.refinement.get(name).map_or([1.0; 2], MeshFactors::factors);
     let more = by_order(estimate, scene.fidelity.tolerance);
     let is_near = more[0].max(more[1]) <= FARTHEST;
-    // So far from the tolerance no law of errors holds: a mesh a little finer shows more.
+    // So far from the tolerance no convergence order is reliable: a slightly finer mesh gives a better estimate.
     let next = more.map(|factor| if is_near { factor } else { factor.min(NEXT) });
     let promise = if is_near { "would keep it" } else { "would show which mesh keeps it" };
     format!(
@@ -266,11 +267,11 @@ fn finer_factors(scene: &Scene, estimate: &BodyEstimate) -> String {
     )
 }
 
-/// Begins what packing adds to the text of a scene, which the unit's GUID does not depend on.
+/// Start of the text that packing adds to a scene, on which the unit's GUID does not depend.
 pub const PACKED: &str =
     "\n# Added when packed: how fine meshes are, what outputs err by, and levels left open.\n";
 
-/// The text of a scene with the meshes, errors and levels of the same scene when these are known, so that its unit
+/// Returns the text of a scene with the meshes, errors and levels of the same scene if these are known. Its unit then
 /// neither chooses nor estimates anew.
 pub fn packed_text(scene: &Scene, text: &str, known: &Scene) -> String {
     let mut packed = String::new();

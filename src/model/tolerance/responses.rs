@@ -1,4 +1,4 @@
-//! What is read of a body over its experiments.
+//! Readings of a body over its experiments.
 
 use super::experiment::experiments;
 use crate::body::Reading;
@@ -7,10 +7,10 @@ use crate::quantity::Quantity;
 use crate::scene::Scene;
 use crate::variables::{Output, Registry, Slot};
 
-/// Times at which outputs are looked at, from the first step to the last; the same of stresses.
+/// Number of times at which outputs are sampled, from the first step to the last, and the same for stresses.
 const TIMES: usize = 8;
 const TIMES_OF_STRESS: usize = 3;
-/// Places of a field that are looked at, about.
+/// Approximate number of sampled places of a field.
 const PLACES: usize = 16;
 
 /// Outputs of a body whose error is estimated.
@@ -18,19 +18,19 @@ const PLACES: usize = 16;
 pub struct Watched {
     pub name: String,
     pub quantity: Quantity,
-    /// Before anything acts.
+    /// Value before anything acts.
     pub rest: f64,
     pub output: Output,
 }
 
 impl Watched {
-    /// The probe, field or body that the output is of.
+    /// Returns the probe, field or body of the output.
     pub fn group(&self) -> &str {
         self.name.split_once('.').map_or(&self.name, |(owner, _)| owner)
     }
 }
 
-/// The outputs of a scene of one body that follow from its mesh.
+/// Returns the outputs of a scene of one body that depend on its mesh.
 pub fn watched(scene: &Scene, is_mechanical: bool) -> Vec<Watched> {
     let registry = Registry::structured(scene);
     let wanted = |quantity: Quantity| match is_mechanical {
@@ -63,7 +63,7 @@ fn is_of_grid(watched: &Watched) -> bool {
 /// Values of outputs, experiment by experiment, at each time; the first is time zero.
 pub type Responses = Vec<Vec<Vec<f64>>>;
 
-/// The times at which outputs are looked at after time zero [s].
+/// Returns the sample times of outputs after time zero [s].
 pub fn times(scene: &Scene, is_mechanical: bool) -> Vec<f64> {
     let count = if is_mechanical { TIMES_OF_STRESS } else { TIMES };
     let (step, stop) = (scene.step.min(scene.stop_time), scene.stop_time);
@@ -79,7 +79,7 @@ pub fn responses(scene: &Scene, watched: &[Watched]) -> Result<Responses, ModelE
     responses_at(scene, watched, &times(scene, is_mechanical))
 }
 
-/// The same at times of one's own [s].
+/// Returns the values at given times [s].
 pub fn responses_at(
     scene: &Scene,
     watched: &[Watched],

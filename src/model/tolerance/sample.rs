@@ -31,7 +31,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sample_is_distinct_and_even_in_stretches_and_among_the_columns_of_tables() {
+    fn samples_are_distinct_and_evenly_distributed() {
         for count in [257, 300, 1000, 65_536, 100_000] {
             let places = sample(count, 256);
             assert_eq!(places.len(), 256);

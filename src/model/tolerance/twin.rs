@@ -1,4 +1,4 @@
-//! A body by itself, its heat linear, with what is read of it and without what does not matter to that.
+//! A body alone with linear heat and its readings, without data that do not affect these.
 
 use super::experiment::tries_least_radii;
 use super::sample::sample;
@@ -9,7 +9,7 @@ use crate::scene::{
     LoadStart, MaterialChoice, MeshFactors, PeakOf, Radiation, Role, Scene, Solid, takes_newton,
 };
 
-/// What of a body is estimated.
+/// Quantities of a body whose errors are estimated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Physics {
     Heat,
@@ -17,31 +17,31 @@ pub enum Physics {
     Deformation,
 }
 
-/// A scene of one body that stands for that body of another scene.
+/// A scene of one body that represents that body of another scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Twin {
     scene: Scene,
     name: String,
     /// Numbers of elements of its own mesh over the usual ones.
     own: [f64; 2],
-    /// Whether extremes of the body count: those of stress, which may lie at edges where no mesh finds them, count where
-    /// running maxima ask for them.
+    /// True if extremes of the body count. Those of stress may lie at edges where no mesh converges, so they count only
+    /// if running maxima are requested.
     pub reads_extremes: bool,
-    /// Whether stress depends on the history of the body, as it yields, creeps or has constants that are tables.
+    /// True if stress depends on the history of the body, because it yields, creeps or has tabulated constants.
     pub has_history: bool,
-    /// Whether loads stand for drops, whose heat these bring whatever the mesh is.
+    /// True if loads represent drops, whose heat does not depend on the mesh.
     pub has_drops: bool,
-    /// Whether heat goes through linear elements, as Newton's method has them.
+    /// True if heat uses linear elements, as with Newton's method.
     pub linear_heat: bool,
-    /// What differs from the body itself.
+    /// Notes on differences from the body itself.
     pub simplified: Vec<String>,
 }
 
-/// Probes of a twin, at most: of more, a sample stands for all.
+/// Largest number of probes of a twin; a sample represents a longer list.
 pub const MOST_PROBES: usize = 256;
 
 impl Twin {
-    /// Of a solid of a scene; nothing where there is nothing to be estimated.
+    /// Creates the twin of a solid of a scene; `None` if there is nothing to estimate.
     pub fn of(scene: &Scene, name: &str, physics: Physics) -> Option<Self> {
         let solid = scene.meshed(name)?;
         let is_mechanical = physics == Physics::Deformation;
@@ -124,7 +124,8 @@ impl Twin {
         })
     }
 
-    /// On a mesh of so many times as many elements as its own along the surface and through the thickness.
+    /// Returns the scene on a mesh with these multiples of its own numbers of elements along the surface and through
+    /// the thickness.
     pub fn on_mesh(&self, factors: [f64; 2]) -> Scene {
         let mut scene = self.scene.clone();
         let factors = MeshFactors::of([0, 1].map(|way| self.own[way] * factors[way]));
@@ -138,25 +139,25 @@ impl Twin {
         &self.name
     }
 
-    /// The body itself.
+    /// Returns the body itself.
     pub fn solid(&self) -> &Solid {
         self.scene.meshed(&self.name).expect("twins are made of bodies with a mesh")
     }
 
-    /// Without a mesh.
+    /// Returns the scene without a mesh.
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
 }
 
-/// The part of a load that brings heat, or all of it; nothing if that is nothing.
+/// Returns the part of a load that brings heat, or all of it; `None` if that is empty.
 fn part_of_load(load: &Load, is_mechanical: bool) -> Option<Load> {
     let mut load = load.clone();
     load.carries.retain(|what| is_mechanical || *what == Carries::HeatFlux);
     Some(load).filter(|load| !load.carries.is_empty())
 }
 
-/// What drops bring, as loads of their size where they land.
+/// Returns loads that represent drops, of their size where they land.
 fn drops(scene: &Scene, name: &str) -> impl Iterator<Item = Load> {
     let is_round = scene.body.get(name).is_some_and(Body::is_round);
     scene.drops_on(name).map(move |(coupling, droplet)| {
@@ -183,7 +184,8 @@ fn drops(scene: &Scene, name: &str) -> impl Iterator<Item = Load> {
     })
 }
 
-/// Lets a face that radiates convect what it would at a temperature [K]. One with a `flux` has that alone.
+/// Replaces radiation of a face by the convection equivalent at a temperature [K]. On a face with a `flux` only that
+/// remains.
 fn convect(face: &mut Face, temperature: f64) {
     let Some(Radiation { emissivity, ambient }) = face.radiation.take() else { return };
     if face.flux.is_some() {
@@ -198,8 +200,8 @@ fn convect(face: &mut Face, temperature: f64) {
     }
 }
 
-/// Makes constants of heat numbers, those at the temperature at time zero; those of deformation, too, where the body
-/// does not have its history.
+/// Replaces constants of heat by their values at the temperature at time zero. Those of deformation are replaced, too,
+/// if the body has no history.
 fn linearise(solid: &mut Solid, has_history: bool) {
     let temperature = solid.initial_temperature;
     solid.faces.values_mut().for_each(|face| convect(face, temperature));

@@ -79,7 +79,7 @@ impl DropletConstant {
         },
     ];
 
-    /// Where a droplet holds it; a speed of sound that the scene leaves out is put there first.
+    /// The constant's place in a droplet; a speed of sound that the scene leaves out is filled in first.
     pub(super) fn place<'a>(&self, droplet: &'a mut Droplet) -> &'a mut f64 {
         (self.place)(droplet)
     }

@@ -59,7 +59,7 @@ impl Constant {
         }
     }
 
-    /// How outputs at time zero follow the constant.
+    /// Dependence of outputs at time zero on the constant.
     pub fn at_start(&self) -> AtStart {
         match self {
             Self::InitialTemperature => AtStart::PoleAtZero,

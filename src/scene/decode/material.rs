@@ -88,7 +88,7 @@ impl PartVisitor for PartKeys {
 struct PartReader<'r, 'a> {
     decoder: &'r mut Decoder<'a>,
     path: &'r Path,
-    /// Whether a part lacks a key, without which the material is none.
+    /// True if a part lacks a required key, so that the material as a whole is left out.
     is_left_out: bool,
 }
 

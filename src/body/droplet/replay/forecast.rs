@@ -1,4 +1,4 @@
-//! What drops that are replayed will cost.
+//! Cost of replayed drops.
 
 use super::knowledge::{SAMPLES, is_known, plans};
 use super::notes;
@@ -10,10 +10,10 @@ use crate::method::record::{NEAR, turns_of_film};
 use crate::method::sph::{DropletSph, Effort, RunSettings};
 use crate::scene::{Droplet, Scene};
 
-/// Time that a drop takes in an exchange while it gives something [s], as measured with 20 rings.
+/// Time per drop in an exchange while it transfers heat [s], measured with 20 rings.
 const GIVE: f64 = 1.5e-4;
 
-/// What is computed before drops of a scene can be repeated, as far as this process does not know it: a sentence each.
+/// Returns a sentence for each recording that must be computed because this process does not hold it yet.
 pub fn to_be_recorded(scene: &Scene) -> Vec<String> {
     let recorded = scene.droplets().filter(|(_, droplet)| droplet.is_replayed());
     let unknown = recorded
@@ -27,7 +27,7 @@ pub fn to_be_recorded(scene: &Scene) -> Vec<String> {
     unknown.map(sentence).collect()
 }
 
-/// What recording takes.
+/// Cost of a recording.
 #[derive(Default)]
 struct Recording {
     particles: usize,
@@ -55,8 +55,8 @@ impl Recording {
     }
 }
 
-/// Estimates without recording anything. Of drops on demand nobody knows how many there will be: a note says what each
-/// takes.
+/// Estimates the cost without recording. The number of drops on demand is unknown, so a note states the cost of each
+/// drop.
 pub fn forecast(scene: &Scene, name: &str, droplet: &Droplet) -> DropletForecast {
     let recording = Recording::of(scene, (name, droplet));
     let in_time = || droplet.arrivals().iter().filter(|arrival| arrival.time < scene.stop_time);
@@ -82,7 +82,7 @@ pub fn forecast(scene: &Scene, name: &str, droplet: &Droplet) -> DropletForecast
     }
 }
 
-/// What repeating drops takes [s].
+/// Cost of replaying drops.
 struct Replaying {
     drops: f64,
     of_solid: f64,
@@ -114,16 +114,17 @@ impl Replaying {
     }
 }
 
-/// How the film of a drop is expected to cool.
+/// Expected cooling of a drop's film.
 struct Cooling {
-    /// Known of the drop [s].
+    /// Recorded time of the drop [s].
     recorded: f64,
-    /// Until half of its heat has been given [s].
+    /// Time until half of its heat has been transferred [s].
     half: f64,
 }
 
 impl Cooling {
-    /// Of a film as thick as the drop's volume over its largest footprint, whose lower face is held.
+    /// Cooling of a film as thick as the drop's volume over its largest footprint, with constant temperature at its
+    /// lower face.
     fn of(droplet: &Droplet) -> Self {
         let fluid = &droplet.fluid;
         let recorded = droplet.recorded_time(droplet.impact_velocity);
@@ -133,12 +134,13 @@ impl Cooling {
         Self { recorded, half }
     }
 
-    /// Until hardly any heat is left [s].
+    /// Time until hardly any heat remains [s].
     fn duration(&self) -> f64 {
         self.recorded + fourier_number(0.999) / fourier_number(0.5) * self.half
     }
 
-    /// Parts of steps at which the wall is asked: as drops touch down, and as they cool beside the ends of a step.
+    /// Number of parts of steps at which the wall is evaluated: when drops touch down, and while they cool near the
+    /// ends of a step.
     fn exchanges(&self, scene: &Scene, drops: usize) -> f64 {
         let ages = turns_of_film(self.recorded, self.half).into_iter();
         let cuts = |age: &f64| *age < scene.stop_time && 2.0 * NEAR * age < scene.step;

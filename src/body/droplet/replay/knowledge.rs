@@ -1,4 +1,4 @@
-//! What is known of one drop: computed once, by whoever asks first, shared in one process, and stored by units.
+//! The known course of one drop: computed once by the first caller, shared within a process, and stored in units.
 
 use std::sync::Arc;
 
@@ -14,36 +14,36 @@ use crate::runtime::shared_values::SharedValues;
 use crate::runtime::thread::aside;
 use crate::scene::{Droplet, DropletMethod, DropletSymmetry, ReleaseBy, Scene};
 
-/// Times at which a course is known, and most rings.
+/// Number of sample times of a course, and largest number of rings.
 pub const SAMPLES: usize = 200;
 const MOST_RINGS: usize = 64;
 /// Rings of a film.
 const RINGS_OF_FILM: usize = 32;
-/// Width of a ring over Δx: narrower ones would tell particles.
+/// Width of a ring over Δx; narrower rings would resolve single particles.
 const RING: f64 = 2.0;
-/// Radius out to which is recorded, over that to which the drop is expected to spread.
+/// Recording radius over the expected spread radius of the drop.
 const BEYOND: f64 = 1.25;
-/// How much slower and faster than the scene's drop those may be that inputs release as films, and speeds that are
-/// known over this range.
+/// Largest ratio between the speeds of the scene's drop and of films released by inputs, and number of speeds known
+/// over this range.
 const RANGE_OF_FILM: f64 = 4.0;
 const SPEEDS_OF_FILM: usize = 17;
-/// Temperature of the drop that is recorded [K]; none follows from it.
+/// Temperature of the recorded drop [K]; the record does not depend on it.
 const WARM: f64 = 400.0;
-/// Changes with what is recorded.
+/// Version of the records; to be raised when their contents change.
 const VERSION: u32 = 3;
 
 static COURSES: SharedValues<String, Course> = SharedValues::new();
 
-/// A course that units of this process find as long as it is held.
+/// Keeps a course available to the units of this process while it is held.
 pub struct Kept {
     _course: Arc<Course>,
 }
 
-/// All that a course follows from.
+/// All data that determine a course.
 #[derive(Serialize)]
 struct Key {
     version: u32,
-    /// As [`computed`]; one for each speed.
+    /// Drops as returned by [`computed`], one for each speed.
     drops: Vec<Droplet>,
     effusivity: Option<f64>,
     durations: Vec<f64>,
@@ -75,14 +75,14 @@ impl Key {
         serde_json::to_string(self).unwrap_or_default()
     }
 
-    /// The plans of what is recorded, with the times.
+    /// Returns the plans of the recordings, with their times.
     fn plans(&self) -> impl Iterator<Item = (DropletPlan, f64)> {
         let cells = WallCells::Rings { count: self.rings, radius: self.radius };
         let plan = move |drop: &Droplet| plan_of(drop, Some(cells.clone()), self.effusivity);
         self.drops.iter().map(plan).zip(self.durations.iter().copied())
     }
 
-    /// Records all drops; once more on wider rings where one spread beyond those that it was expected to stay on.
+    /// Records all drops, and again on a larger radius if one spread beyond the expected radius.
     fn compute(&self, threads: usize) -> Result<Course, Failure> {
         let course = self.record(threads)?;
         let widest = course.profiles().map(Profile::largest_spread).fold(0.0, f64::max);
@@ -90,7 +90,7 @@ impl Key {
         if is_within || self.drops.iter().any(|drop| !drop.has_particles()) {
             return Ok(course);
         }
-        // Rings do not act on the flow, so it spreads as far again.
+        // Rings do not act on the flow, so it spreads equally far again.
         let (rings, radius) = rings(&self.drops, widest);
         Self {
             rings,
@@ -132,7 +132,7 @@ impl Key {
     }
 }
 
-/// What is known of the drops of a scene.
+/// Returns the known course of a scene's drops.
 pub fn course(
     scene: &Scene,
     named: (&str, &Droplet),
@@ -142,7 +142,7 @@ pub fn course(
     COURSES.get_or_make(&key.text(), || aside(|| key.compute(threads)))
 }
 
-/// The records that the drops of a scene need, each with the name of its body, as bytes.
+/// Returns the records that the drops of a scene need, as bytes, each with the name of its body.
 pub fn records(scene: &Scene, threads: usize) -> Result<Vec<(String, Vec<u8>)>, BodyError> {
     let recorded = scene.droplets().filter(|(_, drop)| drop.method == DropletMethod::Record);
     let bytes = |(name, droplet): (&str, &Droplet)| {
@@ -154,25 +154,24 @@ pub fn records(scene: &Scene, threads: usize) -> Result<Vec<(String, Vec<u8>)>, 
     recorded.map(bytes).collect()
 }
 
-/// Makes a record known to this process; refuses bytes that are damaged. Units whose drops it does not fit compute
-/// their own.
+/// Makes a record available to this process and refuses damaged bytes. Units with other drops compute their own record.
 pub fn keep_record(bytes: &[u8]) -> Result<Kept, String> {
     let (key, course) = Course::from_bytes(bytes)?;
     let course = COURSES.get_or_make(&key, || Ok::<_, String>(course))?;
     Ok(Kept { _course: course })
 }
 
-/// Whether this process holds what the drops of a scene need.
+/// Returns true if this process holds the record that the drops of a scene need.
 pub fn is_known(scene: &Scene, named: (&str, &Droplet)) -> bool {
     COURSES.has(&Key::of(scene, named).text())
 }
 
-/// Forgets what nobody holds any more.
+/// Drops all records that are no longer held.
 pub fn forget_unused_records() {
     COURSES.forget_unused();
 }
 
-/// What is computed ahead for a scene's droplet: plans with the times that are recorded; nothing of a film.
+/// Returns the recordings that a scene's droplet needs, as plans with their times; none for a film.
 pub fn plans(scene: &Scene, named: (&str, &Droplet)) -> Vec<(DropletPlan, f64)> {
     if !named.1.has_particles() {
         return Vec::new();
@@ -180,7 +179,7 @@ pub fn plans(scene: &Scene, named: (&str, &Droplet)) -> Vec<(DropletPlan, f64)> 
     Key::of(scene, named).plans().collect()
 }
 
-/// Speeds at which drops are known, as they touch the wall [m/s].
+/// Speeds at wall contact for which drops are known [m/s].
 fn speeds(droplet: &Droplet) -> Vec<f64> {
     let touching = |speed: f64| droplet.contact(speed).0;
     if droplet.has_particles() || droplet.record.as_ref().is_some_and(|r| r.speeds.is_some()) {
@@ -195,9 +194,9 @@ fn speeds(droplet: &Droplet) -> Vec<f64> {
     (0..SPEEDS_OF_FILM).map(|n| own * RANGE_OF_FILM.powf(exponent(n))).collect()
 }
 
-/// The drop that stands for all: alone, at the origin, just above the wall. A quarter of it is computed, whatever is
-/// below: rings take a fifth to an eighth of the time, and ink (Re 500, We 800) gives the same heat to 1.1 %, but mercury
-/// (4 m/s), which recoils, 6 % less of it after 6 D/U, and up to 38 % more impulse.
+/// The representative drop: alone, at the origin, just above the wall. A quarter of it is computed, whatever is below.
+/// Rings would take a fifth to an eighth of the time. For ink (Re 500, We 800) they transfer the same heat to 1.1 %.
+/// Recoiling mercury (4 m/s) transfers 6 % less after 6 D/U, with up to 38 % more impulse.
 fn computed(droplet: &Droplet, speed: f64) -> Droplet {
     Droplet {
         impact_velocity: speed,
@@ -209,13 +208,13 @@ fn computed(droplet: &Droplet, speed: f64) -> Droplet {
         most: None,
         arrivals: None,
         record: None,
-        // Nothing of a record follows from what is watched.
+        // The watched points do not affect a record.
         fluid: Fluid { freezes_at: None, boils_at: None, ..droplet.fluid },
         ..droplet.clone()
     }
 }
 
-/// Number of rings below drops that spread so far [m], and the outermost radius [m].
+/// Number of rings below drops of this spread diameter [m], and the outermost radius [m].
 fn rings(drops: &[Droplet], spread: f64) -> (usize, f64) {
     let spacing = drops.iter().map(|drop| drop.spacing).fold(0.0, f64::max);
     let radius = BEYOND * 0.5 * spread + RING * spacing;

@@ -1,4 +1,4 @@
-//! Drops that repeat what is known of one: recorded from particles, or of the closed forms of a film.
+//! Drops replayed from one known drop: recorded from particles, or computed by closed forms of a film.
 
 mod forecast;
 mod knowledge;
@@ -32,23 +32,23 @@ pub struct ReplayBody {
     name: String,
     replay: Replay,
     below: Below,
-    /// Of drops on demand.
+    /// Set for drops on demand.
     demand: Option<DropInputs>,
-    /// Of the scene, in the order of their release [s].
+    /// The scene's drops, by the time of their release [s].
     arrivals: Vec<(f64, Falling)>,
     /// Planes x = 0 and y = 0 about which all drops are symmetric.
     symmetric: [bool; 2],
     watch: Watch,
-    /// Part of the difference of drop and wall by which their contact is above the wall.
+    /// Contact temperature above the wall, as a share of the temperature difference between drop and wall.
     contact_share: f64,
     notes: Vec<String>,
 }
 
-/// How far from the origin drops may come down where nothing ends [m].
+/// Largest distance of landing drops from the origin where nothing limits it [m].
 const FARTHEST: f64 = 1e3;
 
 impl ReplayBody {
-    /// `on` are the cells of a body below and how the drops are linked with it.
+    /// `on` holds the cells of a body below and the link with it.
     pub fn new(
         scene: &Scene,
         layout: &InputLayout,
@@ -69,7 +69,7 @@ impl ReplayBody {
             }),
             (None, None) => Below::Nothing,
         };
-        // Scenes without anything below are refused.
+        // Scenes without anything below are refused earlier.
         let nothing = WallCells::Rings { count: 1, radius: FARTHEST };
         let cells = on.map(|(cells, _)| cells).or(wall_cells).unwrap_or(nothing);
         let mass = droplet.mass();
@@ -97,7 +97,7 @@ impl ReplayBody {
         })
     }
 
-    /// Drops that are released in a step, and how many of them inputs have asked for.
+    /// Drops released in a step, and how many of them the inputs requested.
     fn released(
         &self,
         state: &[f64],
@@ -137,14 +137,14 @@ fn falling(droplet: &Droplet, arrival: &Arrival) -> Falling {
     }
 }
 
-/// How far from the origin drops may come down along x and y [m].
+/// Largest distance of landing drops from the origin along x and y [m].
 fn reach(scene: &Scene, name: &str) -> [f64; 2] {
     let below = scene.coupling_from(name).and_then(|coupling| scene.coupling[coupling].solid());
     let extents = below.and_then(|solid| Some(lateral_extents(&scene.solid(solid)?.shape)));
     extents.map_or([FARTHEST; 2], |extents| extents.map(|extent| 0.5 * extent))
 }
 
-/// Largest diffusivity of what lies below a droplet [m²/s]; nothing of a wall that does not answer to heat.
+/// Largest diffusivity below a droplet [m²/s]; zero for a wall that does not respond to heat.
 fn diffusivity(scene: &Scene, name: &str) -> f64 {
     let below = scene.coupling_from(name).and_then(|coupling| scene.coupling[coupling].solid());
     let strata = below.and_then(|solid| Some(scene.solid(solid)?.strata()));
@@ -152,7 +152,7 @@ fn diffusivity(scene: &Scene, name: &str) -> f64 {
     layers.map(|layer| layer.constants.diffusivity()).fold(0.0, f64::max)
 }
 
-/// What is read of a state, found when first asked for.
+/// Lazily computed readings of a state.
 #[derive(Default)]
 struct ReplayMemo {
     exchange: Option<WallExchange>,
@@ -246,7 +246,7 @@ impl Giver for ReplayBody {
         released.map_or(Vec::new(), |(released, _)| self.replay.moments(state, &released, duration))
     }
 
-    /// What another body got is told of the last exchange, however long the step.
+    /// Transfers to another body refer to the last exchange, however long the step.
     fn join_steps(&self, before: &[f64], state: &mut Vec<f64>) {
         if !matches!(self.below, Below::Body { .. }) {
             self.replay.join_steps(before, state);
@@ -290,7 +290,7 @@ impl Advice for ReplayBody {
 }
 
 impl ReplayBody {
-    /// Drops that came down on others, and fluid that came off while the drop was recorded.
+    /// Warns of drops that landed on others, and of fluid that detached while the drop was recorded.
     fn findings_at_end(&self, state: &[f64]) -> Vec<Finding> {
         let ReplayTotals { overlapping, released, .. } = self.totals(state);
         let on_others =

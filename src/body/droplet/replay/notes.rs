@@ -1,10 +1,10 @@
-//! Notes on drops that are replayed.
+//! Notes on replayed drops.
 
 use crate::body::droplet::watch;
 use crate::method::record::Course;
 use crate::scene::{Droplet, DropletMethod, Scene};
 
-/// What was chosen or left out, and why: a sentence each.
+/// Returns notes on choices and simplifications, with reasons: one sentence each.
 pub fn notes(scene: &Scene, (name, droplet): (&str, &Droplet)) -> Vec<String> {
     let what = match droplet.method {
         DropletMethod::Film => {
@@ -45,10 +45,10 @@ fn speeds(droplet: &Droplet) -> String {
     }
 }
 
-/// Part of a layer's thickness to which heat may go for it to be a half space.
+/// Largest heat penetration depth, as a share of a layer's thickness, up to which the layer is a half space.
 const SHALLOW: f64 = 0.5;
 
-/// Of a top layer that is thinner than heat goes while a drop spreads.
+/// Notes a top layer that is thinner than the heat penetration depth while a drop spreads.
 fn note_on_depth(scene: &Scene, (name, droplet): (&str, &Droplet)) -> Option<String> {
     let coupling = &scene.coupling[scene.coupling_from(name)?];
     let top = scene.solid(coupling.solid()?)?.strata().first().copied()?;
@@ -63,7 +63,7 @@ fn note_on_depth(scene: &Scene, (name, droplet): (&str, &Droplet)) -> Option<Str
     })
 }
 
-/// Over which speeds and how long drops are known.
+/// Notes the speeds and times for which drops are known.
 pub fn on_course(course: &Course, droplet: &Droplet) -> String {
     let [slowest, fastest] = course.speeds();
     let speed = droplet.contact(droplet.impact_velocity).0;

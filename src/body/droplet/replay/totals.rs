@@ -1,4 +1,4 @@
-//! What is read of drops that are replayed.
+//! Readings of replayed drops.
 
 use crate::body::droplet::totals::rate;
 use crate::body::{Descriptor, Direct};
@@ -7,7 +7,7 @@ use crate::port::WallExchange;
 use crate::quantity::Quantity;
 use crate::scene::{Droplet, Scene};
 
-/// A scalar, and how it is read.
+/// A scalar and its reader.
 struct Total {
     key: &'static str,
     words: &'static str,
@@ -16,7 +16,7 @@ struct Total {
     read: Read,
 }
 
-/// Which drops offer a total.
+/// Drops that offer a total.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Offered {
     All,
@@ -130,7 +130,8 @@ const fn rated(
     Total { key, words, quantity, of: Offered::All, read: Read::Rate(read) }
 }
 
-/// The totals that drops of a scene offer, each with its place in the table. No input acts at once on what falls.
+/// Returns the totals that drops of a scene offer, each with its place in the table. No total follows an input without
+/// delay.
 pub fn offered_totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
     let on_demand = scene.droplet(name).is_some_and(Droplet::is_on_demand);
     let is_offered = |total: &Total| match total.of {
@@ -145,7 +146,7 @@ pub fn offered_totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
     described.collect()
 }
 
-/// A total by its place in the table.
+/// Reads a total by its place in the table.
 pub fn read<'a>(
     place: usize,
     totals: &ReplayTotals,

@@ -1,11 +1,11 @@
-//! Properties that every law has, whatever its constants: one table, one test a property.
+//! Properties that every law has, whatever its constants: one table, one test per property.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::*;
 use crate::laws::{Creep, Elastic, Viscoplastic};
 
-/// Steel, aluminium, copper, hot lead, titanium, glass, and what no metal is: E, ν, α, σ_y, H_i, H_k.
+/// Steel, aluminium, copper, hot lead, titanium, glass, and constants unlike any metal: E, ν, α, σ_y, H_i, H_k.
 const MATERIALS: [[f64; 6]; 9] = [
     [210e9, 0.3, 12e-6, 250e6, 2e9, 0.0],
     [70e9, 0.33, 23e-6, 95e6, 0.0, 1e9],
@@ -25,11 +25,11 @@ struct Case {
     name: String,
     law: Box<dyn Law>,
     plastic: Option<Elastoplastic>,
-    /// A strain that is large for the law.
+    /// A large strain for the law.
     strain: f64,
 }
 
-/// All laws, with constants that fall with temperature and with constants that do not.
+/// All laws, with constants that decrease with temperature and with constant ones.
 fn laws() -> Vec<Case> {
     let mut all = Vec::new();
     for [young, poisson, expansion, yield_stress, isotropic, kinematic] in MATERIALS {
@@ -82,7 +82,7 @@ fn laws() -> Vec<Case> {
     all
 }
 
-/// The response of a law to a strain at a temperature [K] after a step [s]; one without a history leaves it.
+/// Response of a law to a strain at a temperature [K] after a step [s]; laws without a history leave it unchanged.
 fn respond(
     law: &dyn Law,
     strain: &[f64; 6],
@@ -104,7 +104,7 @@ fn random(rng: &mut fastrand::Rng, size: f64) -> [f64; 6] {
     std::array::from_fn(|_| size * (2.0 * rng.f64() - 1.0))
 }
 
-/// A history that the law itself led to.
+/// A history produced by the law itself.
 fn aged(case: &Case, rng: &mut fastrand::Rng) -> PlasticHistory {
     let mut history = PlasticHistory::default();
     for _ in 0..4 {
@@ -122,7 +122,7 @@ fn matrix(t: &[f64; 6], shear: f64) -> Matrix3<f64> {
     Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
 }
 
-/// A tensor seen from turned axes; `shear` is what its shears are of a tensor's.
+/// A tensor in rotated axes; `shear` is the ratio of its shears to those of the tensor.
 fn turned(t: &[f64; 6], rotation: &Matrix3<f64>, shear: f64) -> [f64; 6] {
     let m = rotation * matrix(t, shear) * rotation.transpose();
     let s = 1.0 / shear;
@@ -174,7 +174,7 @@ fn objectivity() {
 }
 
 impl Case {
-    /// The stiffness that rounding of strains meets [Pa].
+    /// Stiffness that amplifies rounding errors of strains [Pa].
     fn stiffness(&self) -> f64 {
         let (old, mut new) = (PlasticHistory::default(), PlasticHistory::default());
         let row = respond(self.law.as_ref(), &[0.0; 6], 300.0, STEP, &old, &mut new).tangent[0];
@@ -237,7 +237,7 @@ fn elasticity_below_yield_is_independent_of_the_path() {
     for_all(|case, rng| {
         let Some(plastic) = &case.plastic else { return };
         let at = plastic.at(400.0).unwrap();
-        // The norm of a deviator is at most that of six components of a size.
+        // The norm of a deviator is at most that of six components of equal size.
         let size = 0.2 * at.yield_stress / at.shear;
         let (first, second) = (random(rng, size), random(rng, size));
         let (old, mut new) = (PlasticHistory::default(), PlasticHistory::default());
@@ -277,7 +277,7 @@ fn return_to_the_yield_surface_from_any_distance() {
             });
             let radius = at.yield_stress + at.isotropic * new.accumulated;
             let equivalent = norm(&xi) / ROOT;
-            // Pressure and back stress are much larger where they are.
+            // Pressure and back stress may be much larger.
             let scale = radius + 1e-3 * (mean.abs() + norm(&back));
             if new.accumulated > old.accumulated {
                 assert!((equivalent - radius).abs() <= 1e-12 * scale, "{} {power}", case.name);
@@ -307,7 +307,7 @@ fn bilinear_bar_under_cyclic_strain() {
         let bar = crate::closed_form::Bilinear::bar(young, yield_stress, isotropic, kinematic);
         let mut history = PlasticHistory::default();
         for (strain, wanted) in path.iter().zip(bar.stresses(&path)) {
-            // Sideways strain that leaves no stress there.
+            // Lateral strain at which the lateral stress vanishes.
             let (mut side, mut new) = (-poisson * strain, PlasticHistory::default());
             let mut stress = f64::NAN;
             for _ in 0..40 {

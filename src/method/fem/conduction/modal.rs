@@ -1,4 +1,4 @@
-//! Finite elements, exact in time by their modes, in one material or through layers of several.
+//! Finite elements, exact in time by their modes, for one material or several layers.
 
 use faer::Mat;
 

@@ -1,4 +1,4 @@
-//! Enthalpies of nodes, by Newton's method.
+//! Nodal enthalpies, solved for by Newton's method.
 
 use super::{Heat, HeatFailure};
 use crate::method::fem::heat::HeatLoads;

@@ -53,7 +53,7 @@ fn sources<'a>(loads: &HeatLoads<'a>) -> Sources<'a> {
     Sources { surface: loads.surface, faces: loads.faces }
 }
 
-/// What the particles of a plan will cost; `None` where finite elements conduct the heat.
+/// Cost of the particles of a plan; `None` if finite elements conduct the heat.
 pub fn particle_cost(plan: &Plan) -> Option<Cost> {
     setup(plan).map(|setup| ParticleHeat::cost(&setup))
 }

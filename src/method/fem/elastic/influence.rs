@@ -1,4 +1,4 @@
-//! What a linear reading of a deformed body follows: one row instead of a solution for each state.
+//! Influence rows of linear readings of a deformed body: one row instead of a solution for each state.
 //!
 //! Displacements obey `K u = C T + f` with the stiffness K, which is symmetric, the thermal forces `C T` of nodal
 //! temperatures and the nodal forces f on bottom and top. A reading is `q = gᵀu + hᵀT + tᵀf`. With `K λ = g`
@@ -64,16 +64,16 @@ pub struct NodalRow {
     pub forces: Arc<FaceRows>,
 }
 
-/// What is left of an adjoint load, in the norm of energy. A reading errs by `gᵀK⁻¹` times the residual of a
-/// solution, or by that of the row times `u`: by Cauchy's inequality both within `√(gᵀK⁻¹g) √(uᵀKu)` times their
-/// tolerances. A row serves all states, also those where the readings that it gives cancel, so it is solved for two
-/// digits beyond solutions, which takes a tenth more iterations.
+/// Residual relative to an adjoint load in the energy norm. The error of a reading is `gᵀK⁻¹` times the residual of a
+/// solution, or that of the row times `u`. By Cauchy's inequality both are within `√(gᵀK⁻¹g) √(uᵀKu)` times their
+/// tolerances. A row serves all states, including those where the contributions to its readings cancel. It is therefore
+/// solved to two digits more than solutions, which takes a tenth more iterations.
 const TOLERANCE: f64 = 1e-14;
 
-/// Rows of one body take at most as much as its solver, or so much if that is more [B].
+/// Memory that rows of one body may take if it exceeds that of the body's solver [B].
 const SMALL: f64 = 2.56e8;
 
-/// Memory that rows of a body may take together [B].
+/// Largest memory of all rows of a body together [B].
 pub fn most_memory_of_rows(mesh: &Mesh, laws: &[Thermoelastic]) -> f64 {
     SMALL.max(solver_memory(mesh, laws))
 }
@@ -84,7 +84,7 @@ pub fn memory_of_row(mesh: &Mesh) -> f64 {
     8.0 * (2.0 * mesh.sided_nodes() as f64 + (2 * mesh.geometry.degrees() * plane) as f64)
 }
 
-/// Rows that have been solved for: bodies that differ in what concerns heat alone share them. The oldest go first.
+/// Rows solved so far; bodies that differ only in thermal data share them. The oldest are dropped first.
 #[derive(Default)]
 pub struct KeptRows {
     list: VecDeque<(Functional, usize, NodalRow)>,
@@ -111,28 +111,29 @@ impl Gradient {
 }
 
 impl ElasticProblem {
-    /// The row of a reading of one symmetry class; its `gradient` is asked for unless the row is known. It is solved for
-    /// aside, as its stack is more than a host's thread need have.
+    /// Returns the row of a reading of one symmetry class; `gradient` is called unless the row is known. It is solved
+    /// for on another thread, because it needs more stack than a host's thread has to provide.
     pub fn row(
         &self,
         functional: &Functional,
         class: usize,
         gradient: impl FnOnce() -> Gradient + Send,
     ) -> Result<NodalRow, SolverError> {
-        // For the projection on modes, too.
+        // Memory for the projection on modes is included.
         address_space::expect(SOLUTION * self.mesh.nodes())?;
         if let Some(known) = self.kept_row(functional, class) {
             return Ok(known);
         }
         let row = aside(|| self.solve_row(class, gradient()))?;
-        // What vanishes by symmetry is quickly found, and takes no memory as long as nobody writes there.
+        // Rows that vanish by symmetry are found quickly, and their untouched memory takes no space.
         if row.temperature.iter().any(|&value| value != 0.0) {
             self.keep_row(functional, class, &row);
         }
         Ok(row)
     }
 
-    /// Rows are kept for others where nobody is at the list; who finds it taken solves anew, which gives the same bits.
+    /// Rows are kept unless another thread holds the list. A thread that finds it taken solves anew, which gives the
+    /// same bits.
     fn kept_row(&self, functional: &Functional, class: usize) -> Option<NodalRow> {
         let rows = self.rows.try_lock()?;
         let found = rows.list.iter().find(|(known, of, _)| *of == class && known == functional);
@@ -152,7 +153,7 @@ impl ElasticProblem {
         }
     }
 
-    /// Numbers that rows kept so far are.
+    /// Number of stored entries of the rows kept so far.
     pub fn row_entries(&self) -> usize {
         self.rows.try_lock().map_or(0, |rows| (rows.bytes / 8.0) as usize)
     }
@@ -179,7 +180,7 @@ impl ElasticProblem {
     }
 }
 
-/// What takes too many iterations for a row is solved for as a state would be.
+/// A row that needs too many iterations is solved for with the tolerance of a state.
 fn solve_row_of_bricks(solver: &BrickSolver, load: &mut [f64]) -> Result<(), NotConverged> {
     let gradient = load.to_vec();
     if solver.solve_in_place(load, &[], TOLERANCE).is_err() {

@@ -1,4 +1,4 @@
-//! The transpose of strains at sampling points: from weights of these to nodal displacements and temperatures.
+//! Transpose of the strains at sampling points: from their weights to weights of nodal displacements and temperatures.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -13,7 +13,7 @@ use crate::method::mesh::{Geometry, ShapeAt};
 pub type StrainWeights = BTreeMap<usize, [f64; 6]>;
 
 impl ElasticProblem {
-    /// Adds what weighted strains follow, as [`ElasticProblem::strains`] gives them.
+    /// Adds the derivatives of weighted strains, as computed by [`ElasticProblem::strains`].
     pub fn add_strain_rows(&self, samples: &StrainWeights, out: &mut Gradient) {
         match self.mesh.geometry {
             Geometry::Box => self.add_box_strain_rows(samples, out),
@@ -61,7 +61,7 @@ impl ElasticProblem {
         DilatationProjection::new(self.mesh.order(), size)
     }
 
-    /// Adds what the projected `tr ε − 3 α ΔT` of an element follows.
+    /// Adds the derivatives of the projected `tr ε − 3 α ΔT` of an element.
     fn add_dilatation_rows(
         &self,
         element: [usize; 3],

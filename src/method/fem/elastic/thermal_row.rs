@@ -1,4 +1,4 @@
-//! The transpose of thermal forces: from displacements to the work of a degree of each nodal temperature.
+//! Transpose of the thermal forces: from displacements to the work per kelvin of each nodal temperature.
 
 use super::ElasticProblem;
 use crate::method::fem::brick_polynomials::{PolynomialModuli, legendre, moduli, slope_factor};
@@ -6,8 +6,8 @@ use crate::method::mesh::Geometry;
 use crate::runtime::parallel;
 
 impl ElasticProblem {
-    /// Adds `Cᵀλ`, where `C T` are the forces of heated material that is held back. Each layer has temperatures of its
-    /// own on interfaces.
+    /// Adds `Cᵀλ`, where `C T` are the thermal forces at constant strain. Each layer has temperatures of its own on
+    /// interfaces.
     pub(super) fn add_thermal_row(&self, displacement: &[f64], row: &mut [f64]) {
         match self.mesh.geometry {
             Geometry::Box => self.add_rows_of_bricks(displacement, row),
@@ -28,8 +28,8 @@ impl ElasticProblem {
         }
     }
 
-    /// Of bricks nothing is assembled: in products of Legendre polynomials each temperature does work on the divergence
-    /// of its own degrees alone (see [`crate::method::fem::brick_polynomials`]).
+    /// Computes the rows of bricks without an assembled matrix. In products of Legendre polynomials each temperature
+    /// does work only on the divergence of its own degrees (see [`crate::method::fem::brick_polynomials`]).
     fn add_rows_of_bricks(&self, displacement: &[f64], row: &mut [f64]) {
         let order = self.mesh.order();
         let [nx, ny, _] = self.mesh.node_counts();
@@ -47,7 +47,7 @@ impl ElasticProblem {
         }
     }
 
-    /// Those of the nodes of a slab of elements along z.
+    /// Returns the rows of the nodes of a slab of elements along z.
     fn rows_of_slab(
         &self,
         slab: usize,
@@ -87,7 +87,7 @@ impl ElasticProblem {
     }
 }
 
-/// Work of a degree of each product of polynomials on displacements.
+/// Work per kelvin of each product of polynomials on displacements.
 fn thermal_work(
     order: usize,
     size: [f64; 3],
@@ -124,7 +124,7 @@ fn from_coefficients(order: usize, values: &Polynomials) -> Vec<f64> {
     along_axes(order, &values[..n * n * n], |a, l| matrix[l][a])[..n * n * n].to_vec()
 }
 
-/// A matrix along each axis of an element.
+/// Applies a matrix along each axis of an element.
 fn along_axes(order: usize, values: &[f64], matrix: impl Fn(usize, usize) -> f64) -> Polynomials {
     let n = order + 1;
     let mut from = [0.0; 27];

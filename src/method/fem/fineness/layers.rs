@@ -23,7 +23,7 @@ impl Fineness<'_> {
             let own = graded_ends(bottom, top, &super::finer(&fine, self.factors[1]), coarsest);
             ends.extend_from_slice(&own[1..]);
         }
-        // The contact of a layer with the one above is said with the lower one.
+        // The contact of a layer with the one above is stored with the lower layer.
         let resistances = strata.iter().take(starts.len()).map(|layer| layer.contact_resistance);
         let resistances = resistances.collect();
         (ends, Layering::new(starts, resistances))
@@ -41,7 +41,7 @@ impl Fineness<'_> {
         self.coarsest(usual, least).min(most)
     }
 
-    /// Where elements of a layer are to be fine.
+    /// Stretches of a layer with fine elements.
     fn fine_in(&self, strata: &[Stratum], index: usize) -> Vec<Fine> {
         let thickness = self.solid.shape.thickness();
         let keys = self.keys();
@@ -49,7 +49,7 @@ impl Fineness<'_> {
         let size = self.order as f64 * named.unwrap_or(self.lateral);
         let mut fine = self.fine_at_ends(size, |top, _| self.below(strata, index, top, named));
         if self.heats_sides() {
-            // Layers warm up at different speeds, so that heat passes from one to the other from the beginning on.
+            // Layers warm up at different rates, so heat passes between them from the beginning.
             let own = self.size_in(&strata[index], named);
             let [bottom, top] = strata[index].z;
             let meets =
@@ -64,7 +64,7 @@ impl Fineness<'_> {
         fine
     }
 
-    /// Elements of a layer below heat that comes through the top or the bottom, and the layers in between.
+    /// Elements of a layer for heat that enters through the top or the bottom, past the layers in between.
     fn below(&self, strata: &[Stratum], index: usize, top: bool, named: Option<f64>) -> Fine {
         let root = |layer: &Stratum| layer.constants.diffusivity().sqrt();
         let (first, between) = match top {
@@ -78,7 +78,7 @@ impl Fineness<'_> {
         self.graded_from(z, root(&strata[index]) * size)
     }
 
-    /// The first element below a heated face of a layer.
+    /// Size of the first element below a heated face of a layer.
     fn size_in(&self, layer: &Stratum, named: Option<f64>) -> f64 {
         let reach = (layer.constants.diffusivity() * self.shortest).sqrt();
         let finest = super::FINEST * layer.thickness();
@@ -91,7 +91,7 @@ impl Fineness<'_> {
         Fine { from: z, to: z, size, growth }
     }
 
-    /// Whether heat passes a lateral face.
+    /// Returns true if heat passes a lateral face.
     fn heats_sides(&self) -> bool {
         let faces: &[FaceName] = match self.solid.shape {
             Shape::Box(_) => &[FaceName::Left, FaceName::Right, FaceName::Front, FaceName::Back],
@@ -101,7 +101,7 @@ impl Fineness<'_> {
     }
 }
 
-/// Whether heat goes at different speeds.
+/// Returns true if heat conduction differs between two layers.
 fn differ(a: &Stratum, b: &Stratum) -> bool {
     a.constants.diffusivity() != b.constants.diffusivity()
         || a.constants.conductivity != b.constants.conductivity

@@ -1,4 +1,4 @@
-//! One symmetry class of the heat problem: its modes along the surface, and what faces do to it.
+//! One symmetry class of the heat problem: its modes along the surface and the loads of faces.
 
 use faer::Mat;
 
@@ -13,7 +13,7 @@ pub struct Class<C> {
     pub parity: Parity,
     pub lateral: [AxisModes; 2],
     pub columns: C,
-    /// For each face: what a unit of its value drives.
+    /// For each face, the load of a unit of its value.
     pub drives: Vec<FaceDrive>,
 }
 
@@ -54,7 +54,7 @@ impl<C: Default> Class<C> {
 }
 
 impl<C> Class<C> {
-    /// Pairs of modes along the surface.
+    /// Number of pairs of modes along the surface.
     pub fn plane(&self) -> usize {
         self.lateral.iter().map(AxisModes::count).product()
     }

@@ -1,4 +1,4 @@
-//! What the heat problem asks of the modes along z.
+//! Interface of the heat problem to the modes along z.
 
 use std::borrow::Cow;
 
@@ -6,13 +6,13 @@ use faer::Mat;
 
 use super::class::Class;
 
-/// The matrices of a body along z, and its modes there: one set for all modes along the surface where the body is
-/// homogeneous, one set for each pair of them through layers.
+/// The matrices of a body along z and its modes there: one set for all modes along the surface of a homogeneous body,
+/// and one set for each pair of them through layers.
 pub trait DepthModes: Send + Sync {
-    /// The sets of modes that a symmetry class has for itself.
+    /// Sets of modes that belong to one symmetry class.
     type Columns: Default + Send + Sync;
 
-    /// Heat capacity ρc [J/(m³ K)] and conductivity k [W/(m K)] where the matrices leave these out, else 1.
+    /// Heat capacity ρc [J/(m³ K)] and conductivity k [W/(m K)] if the matrices exclude these, otherwise 1.
     fn capacity(&self) -> f64;
     fn conductivity(&self) -> f64;
 
@@ -23,14 +23,14 @@ pub trait DepthModes: Send + Sync {
     /// `K(k) v` of nodal values along z.
     fn stiffness_times(&self, v: &[f64]) -> Vec<f64>;
 
-    /// The functions along z, by columns at the nodes there, whose coefficients mixed arrays hold: those that turn
-    /// into modes at the least cost.
+    /// Functions along z whose coefficients mixed arrays hold, by columns at the nodes there: those that convert to
+    /// modes at the least cost.
     fn basis(&self) -> &Mat<f64>;
 
-    /// Modes along z of each pair of modes along the surface.
+    /// Number of modes along z of each pair of modes along the surface.
     fn count(&self) -> usize;
 
-    /// `f(place, λ)` of every mode, with its rate of decay λ [1/s].
+    /// Calls `f(place, λ)` for every mode, with its decay rate λ [1/s].
     fn for_each_mode(&self, class: &Class<Self::Columns>, f: impl FnMut(usize, f64));
 
     /// Modal amplitudes of products with the functions of the basis.

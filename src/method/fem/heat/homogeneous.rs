@@ -10,7 +10,7 @@ use super::{HeatProblem, ThermalFace, end_conditions};
 use crate::method::fem::modes::AxisModes;
 use crate::method::mesh::{Mesh, MeshFace};
 
-/// The modes along z, which are also the basis of what varies there.
+/// The modes along z, which are also the basis along z.
 pub struct Homogeneous {
     /// ρc [J/(m³ K)]
     capacity: f64,

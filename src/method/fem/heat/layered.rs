@@ -20,12 +20,12 @@ use crate::method::mesh::{Mesh, MeshFace};
 use crate::runtime::made_once::MadeOnce;
 use crate::runtime::parallel;
 
-/// What the modes along z follow from.
+/// The depth problem of a layered body, from which the modes along z follow.
 pub struct Layered {
     depth: DepthProblem,
     /// The identity.
     basis: Mat<f64>,
-    /// Whether no lateral face lets heat pass but as a flux.
+    /// True if no lateral face passes heat other than a flux.
     insulated: bool,
     threads: usize,
 }
@@ -38,7 +38,8 @@ pub struct Columns {
 }
 
 impl HeatProblem<Layered> {
-    /// `constants` of the layers, from the lowest on. Where lateral faces are convective these conduct equally.
+    /// `constants` of the layers, from the lowest on. If lateral faces are convective, all layers have equal
+    /// conductivity.
     pub fn layered(
         mesh: &Mesh,
         constants: &[Constants],
@@ -52,14 +53,14 @@ impl HeatProblem<Layered> {
         let insulated = faces.iter().all(insulating);
         let depth = Layered { depth, basis, insulated, threads };
         let built = Self::new(mesh, depth, constants[0].conductivity, faces);
-        // The first step is no slower than the others.
+        // Made now, so that the first step takes no longer than the others.
         built.depth.columns(&built.classes[0]);
         built
     }
 }
 
 impl Layered {
-    /// The modes of a class, made when it is first driven.
+    /// Returns the modes of a class, which are made when it is first driven.
     fn columns<'c>(&self, class: &'c Class<MadeOnce<Columns>>) -> &'c Columns {
         let conserves = class.parity.is_even() && self.insulated;
         let make = || Columns::new(&class.lateral, &self.depth, conserves, self.threads);
@@ -130,7 +131,7 @@ impl DepthModes for Layered {
 }
 
 impl Columns {
-    /// `conserves` where heat that is the same all along the surface keeps its sum but for the ends along z.
+    /// `conserves` is set if a field that is uniform along the surface conserves heat except at the ends along z.
     fn new([x, y]: &[AxisModes; 2], depth: &DepthProblem, conserves: bool, threads: usize) -> Self {
         let sums = y.decay.iter().flat_map(|b| x.decay.iter().map(move |a| a + b));
         let mut places: HashMap<(u64, bool), usize> = HashMap::new();
@@ -148,7 +149,7 @@ impl Columns {
         Self { of, list: parallel::map(threads, wanted.len(), column) }
     }
 
-    /// Each column of values turned into `count` others, by its modes.
+    /// Maps each column of values to `count` others, by its modes.
     fn along_z(
         &self,
         values: &[f64],
@@ -169,7 +170,7 @@ impl Columns {
     }
 }
 
-/// Conditions at the bottom and the top, with heat transfer coefficients as they are.
+/// Returns the conditions at the bottom and the top, with unscaled heat transfer coefficients.
 pub fn depth_ends(faces: &[(MeshFace, ThermalFace)]) -> [EndCondition; 2] {
     end_conditions(faces, 2, 1.0)
 }

@@ -1,4 +1,4 @@
-//! The heat problem as numbers: rates of its modes, what loads drive, and rows that give values.
+//! The heat problem in modal form: decay rates, sources of loads, and rows of readings.
 
 use super::class::{Class, dot, multiply};
 use super::depth::DepthModes;
@@ -9,21 +9,21 @@ use crate::method::mesh::Mesh;
 /// A value of temperatures that is a sum over modes and face values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModalRow {
-    /// For each mode of the classes that were asked for, in their order.
+    /// For each mode of the requested classes, in their order.
     pub modes: Vec<f64>,
     /// For each class and face.
     pub faces: Vec<Vec<f64>>,
 }
 
 impl ModalRow {
-    /// What face values of each class give at once.
+    /// Direct contribution of the face values of each class.
     pub fn direct(&self, faces: &[Vec<f64>]) -> f64 {
         self.faces.iter().zip(faces).map(|(row, values)| dot(row, values)).sum()
     }
 }
 
 impl<D: DepthModes> HeatProblem<D> {
-    /// Rates of decay of the modes of the classes that `take` part [1/s].
+    /// Decay rates of the modes of the classes in `take` [1/s].
     pub fn modal_rates(&self, take: &[bool]) -> Vec<f64> {
         let mut rates = Vec::new();
         for (class, _) in self.classes.iter().zip(take).filter(|(_, take)| **take) {
@@ -34,7 +34,7 @@ impl<D: DepthModes> HeatProblem<D> {
         rates
     }
 
-    /// Which classes loads drive.
+    /// Returns for each class whether loads drive it.
     pub fn driven(&self, loads: &HeatLoads) -> Vec<bool> {
         (0..self.classes.len()).map(|class| loads.drive(class)).collect()
     }
@@ -53,7 +53,7 @@ impl<D: DepthModes> HeatProblem<D> {
         sources
     }
 
-    /// Heat that loads bring in [W].
+    /// Heat flow supplied by loads [W].
     pub fn brought_in_by(&self, loads: &HeatLoads) -> f64 {
         let class = &self.classes[0];
         let zero = vec![0.0; self.faces.len()];
@@ -131,7 +131,8 @@ impl<D: DepthModes> HeatProblem<D> {
         })
     }
 
-    /// From a mixed array and what prescribed nodes add, class by class: modes hold what these store, too.
+    /// Builds a row from a mixed array and the contribution of prescribed nodes, class by class; modes include the heat
+    /// that these store.
     fn row_of(
         &self,
         take: &[bool],

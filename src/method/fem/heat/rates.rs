@@ -1,4 +1,4 @@
-//! Time derivatives of what the heat problem holds, exact: they are what its equations say.
+//! Exact time derivatives of the heat problem's state, from its equations.
 
 use super::depth::DepthModes;
 use super::{HeatLoads, HeatProblem, Passage, is_zero};

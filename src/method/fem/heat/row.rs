@@ -1,4 +1,4 @@
-//! From derivatives of a reading by nodal temperatures to those by what a state holds.
+//! Converts derivatives of a reading by nodal temperatures to those by the parts of a state.
 
 use super::class::dot;
 use super::depth::DepthModes;
@@ -6,13 +6,13 @@ use super::{HeatProblem, is_zero};
 use crate::math::separable::{Side, add_product, contract, transform};
 
 impl<D: DepthModes> HeatProblem<D> {
-    /// Of each class the part of a state that is modal.
+    /// Returns the modal part of a state for each class.
     pub fn class_contents<'s>(&'s self, state: &'s [f64]) -> Vec<&'s [f64]> {
         self.contents(state).collect()
     }
 
-    /// The transpose of [`HeatProblem::nodal`] for one class: derivatives by modal heat content, and by face values, of
-    /// which prescribed temperatures alone act at once.
+    /// Transpose of [`HeatProblem::nodal`] for one class: derivatives by modal heat content, and by face values. Of
+    /// these, only prescribed temperatures act without delay.
     pub fn row(&self, class: usize, nodal: &[f64]) -> [Vec<f64>; 2] {
         let class = &self.classes[class];
         if is_zero(nodal, &[]) {
@@ -20,7 +20,7 @@ impl<D: DepthModes> HeatProblem<D> {
         }
         let [x, y] = class.lateral.each_ref().map(|modes| &modes.shapes);
         let mixed = transform(nodal, [x, y, self.depth.basis()], Side::Transposed);
-        // Modes are orthogonal: what turns coefficients into amplitudes is the transpose of the way back.
+        // Modes are orthogonal: the map from coefficients to amplitudes is the transpose of its inverse.
         let modal = self.depth.to_modal(class, mixed);
         let mut faces = vec![0.0; self.faces.len()];
         for f in self.prescribed() {

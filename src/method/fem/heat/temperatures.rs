@@ -1,4 +1,4 @@
-//! What is read of a state: temperatures, and the heat that they store.
+//! Readings of a state: temperatures and stored heat.
 
 use faer::Mat;
 
@@ -30,8 +30,8 @@ impl<D: DepthModes> HeatProblem<D> {
         self.copies * self.depth.capacity() * (free + held)
     }
 
-    /// Temperature above the initial one at a point of the mesh and its `image` [K], on an interface that of
-    /// the layer above; `faces` holds the present face values of each class.
+    /// Returns the temperature above the initial one at a point of the mesh and its `image` [K]. On an interface it is
+    /// that of the layer above. `faces` holds the present face values of each class.
     pub fn temperature_at(
         &self,
         mesh: &Mesh,
@@ -62,8 +62,8 @@ impl<D: DepthModes> HeatProblem<D> {
         sum
     }
 
-    /// Temperature above the initial one at all nodes, those on interfaces twice, class by class [K]; empty for
-    /// a class that is zero.
+    /// Returns the temperature above the initial one at all nodes, class by class [K]; empty for a class that is zero.
+    /// Nodes on interfaces are listed twice.
     pub fn nodal(&self, state: &[f64], faces: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let parts = self.contents(state).zip(faces).zip(&self.classes);
         parts
@@ -84,8 +84,8 @@ impl<D: DepthModes> HeatProblem<D> {
             .collect()
     }
 
-    /// The same after a matrix was applied along z, of which each row weights the nodes there: as many planes of nodes
-    /// as the matrix has rows.
+    /// Returns nodal temperatures multiplied by a matrix along z, each of whose rows weights the nodes there. The
+    /// result has one plane of nodes per row.
     pub fn along_depth(&self, state: &[f64], faces: &[Vec<f64>], rows: &Mat<f64>) -> Vec<Vec<f64>> {
         let basis = self.depth.basis();
         let mut product = vec![0.0; rows.nrows() * basis.ncols()];

@@ -1,21 +1,21 @@
-//! The highest and lowest values of a solid, and where they are.
+//! The highest and lowest values of a solid, and their places.
 
 use super::{Deformation, SolidFem, Temperatures};
 use crate::laws::stress::{max_principal, von_mises};
 use crate::method::mesh::Geometry;
 
-/// The highest of some values over a body, and its place [m]. Of places whose values differ by rounding alone it is the
-/// one nearest to the centre of the top, of those the first: so that a body that is alike on both sides tells of neither.
+/// The highest of some values over a body, and its place [m]. Among places whose values differ only by rounding, it is
+/// the one nearest to the centre of the top, or else the first. A symmetric body then favours neither side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extreme {
     pub value: f64,
     pub at: [f64; 3],
 }
 
-/// Difference of values that rounding and iterations leave, over the largest of them.
+/// Relative differences of values due to rounding and iterations.
 const ROUNDING: f64 = 1e-9;
 
-/// The highest of some values with the square of its distance from the centre of the top [m²].
+/// A highest value with the square of its distance from the centre of the top [m²].
 struct Candidate {
     extreme: Extreme,
     distance: f64,
@@ -23,7 +23,7 @@ struct Candidate {
 }
 
 impl Extreme {
-    /// Of values with places by their numbers; what is no number is the highest.
+    /// Highest of values with places by their numbers; NaN counts as the highest.
     fn of(values: &[f64], place: impl Fn(usize) -> [f64; 3]) -> Self {
         Candidate::of(values, place).extreme
     }
@@ -33,7 +33,7 @@ impl Candidate {
     fn of(values: &[f64], place: impl Fn(usize) -> [f64; 3]) -> Self {
         let (mut value, mut largest) = (f64::NEG_INFINITY, 0.0_f64);
         for &other in values {
-            // Not `max`, which would pass over what is no number.
+            // Not `max`, which would ignore NaN.
             if !(value >= other || value.is_nan()) {
                 value = other;
             }
@@ -52,7 +52,7 @@ impl Candidate {
         Self { extreme: Extreme { value, at }, distance, slack }
     }
 
-    /// The highest of several.
+    /// Returns the highest of several candidates.
     fn highest(all: Vec<Self>) -> Extreme {
         let values: Vec<f64> = all.iter().map(|own| own.extreme.value).collect();
         let Extreme { value, .. } = Extreme::of(&values, |_| [0.0; 3]);
@@ -104,7 +104,7 @@ impl SolidFem {
         found.map(Candidate::highest)
     }
 
-    /// Where a node of an image lies, by its number among those that are there twice on interfaces [m].
+    /// Place of a node of an image, by its number in the list with doubled interfaces [m].
     fn place_of_sided(&self, number: usize, image: [bool; 2]) -> [f64; 3] {
         let [nx, ny, _] = self.mesh.sided_counts();
         let [x, y, z] = self.mesh.axes.each_ref();

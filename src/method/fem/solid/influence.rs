@@ -1,7 +1,7 @@
 //! Rows of linear readings of a solid: displacement and recovered stress at points, and sums of these.
 //!
-//! What [`SolidFem::displacement_at`] and [`SolidFem::stress_at`] do with a solution is linear up to the solution itself.
-//! Here the same steps go backward: stress law, recovery with its tractions on bottom and top, strains at sampling
+//! [`SolidFem::displacement_at`] and [`SolidFem::stress_at`] are linear in everything up to the solution. Here the same
+//! steps are transposed, in reverse order: stress law, recovery with tractions on bottom and top, strains at sampling
 //! points, solution, and nodal temperatures from modes.
 
 use std::collections::BTreeMap;
@@ -18,22 +18,22 @@ use crate::method::fem::elastic::{
 };
 use crate::method::mesh::{Geometry, Parity};
 
-/// What a reading of one symmetry class follows.
+/// Derivatives of a reading of one symmetry class.
 #[derive(Debug, Clone)]
 pub struct ClassRow {
-    /// Derivatives by the class's part of a state: modal heat contents as [`SolidFem::contents`] gives them. Where
-    /// heat has no modes, derivatives by nodal temperatures [per K].
+    /// Derivatives by the class's part of a state: modal heat contents as in [`SolidFem::contents`]. If heat has no
+    /// modes, derivatives by nodal temperatures [per K].
     pub heat: Arc<Vec<f64>>,
-    /// By the values of thermal faces, of which prescribed temperatures alone act at once [per K].
+    /// Derivatives by the values of thermal faces, of which only prescribed temperatures act without delay [per K].
     pub faces: Vec<f64>,
-    /// By nodal forces on the bottom and the top [per N], a list for each displacement component.
+    /// Derivatives by nodal forces on the bottom and the top [per N], a list for each displacement component.
     pub forces: Arc<FaceRows>,
-    /// What the temperature without stress, where it is not the initial one, adds to the reading.
+    /// Contribution of the stress-free temperature to the reading, if it is not the initial one.
     pub constant: f64,
 }
 
 impl ClassRow {
-    /// The reading of what acts, or of a change of it, but for the constant; lists are empty where they are zero.
+    /// Reading of loads, or of a change of them, without the constant; empty lists are zero.
     pub fn of(&self, heat: &[f64], faces: &[f64], forces: &[Vec<Vec<f64>>; 2]) -> f64 {
         let mut sum = 0.0;
         if !heat.is_empty() {
@@ -50,7 +50,7 @@ impl ClassRow {
 }
 
 impl SolidFem {
-    /// The components in the axes of the mesh from which those along x, y and z follow.
+    /// Components in the axes of the mesh from which those along x, y and z follow.
     pub fn components(&self) -> &'static [Component] {
         use Component::{Displacement, Stress};
         match self.mesh.geometry {
@@ -71,7 +71,7 @@ impl SolidFem {
         }
     }
 
-    /// A component along x, y, z at a point of the body as a sum of components in the axes of the mesh at its place there.
+    /// Expresses a component along x, y, z at a point of the body as a sum of components in the axes of the mesh.
     pub fn terms(&self, component: Component, point: [f64; 3]) -> Vec<Term> {
         let (place, image) = self.mesh.locate(point);
         let own = [(component, 1.0)];
@@ -113,7 +113,7 @@ impl SolidFem {
         self.parities[class].component_sign(self.mesh.geometry, component, image)
     }
 
-    /// The row of a reading of one symmetry class; nothing where mechanics is not linear or not modelled.
+    /// Returns the row of a reading of one symmetry class; `None` if mechanics is not linear or not modelled.
     pub fn row(
         &self,
         functional: &Functional,
@@ -137,19 +137,19 @@ impl SolidFem {
         }))
     }
 
-    /// The rows of a reading of all symmetry classes.
+    /// Returns the rows of a reading of all symmetry classes.
     pub fn rows(&self, functional: &Functional) -> Option<Result<Vec<ClassRow>, SolverError>> {
         self.elastic.as_ref()?;
         (0..self.classes()).map(|class| self.row(functional, class)).collect()
     }
 
-    /// Of each symmetry class the part of a state that rows act on; nothing where heat has no modes, so that they act on
-    /// nodal temperatures.
+    /// Returns for each symmetry class the part of a state on which rows act; `None` if heat has no modes, so that they
+    /// act on nodal temperatures.
     pub fn contents<'s>(&'s self, state: &'s [f64]) -> Option<Vec<&'s [f64]>> {
         self.heat.modal().map(|modal| modal.contents(state))
     }
 
-    /// The same of one class.
+    /// Returns that part for one class.
     pub fn contents_of<'s>(&'s self, state: &'s [f64], class: usize) -> Option<&'s [f64]> {
         self.contents(state).map(|contents| contents[class])
     }
@@ -159,7 +159,7 @@ impl SolidFem {
         self.parities.len()
     }
 
-    /// Whether anything acts at once on a class.
+    /// Returns true if instantaneous loads act on a class.
     pub fn drives_at_once(loads: &SolidLoads, class: usize) -> bool {
         let forces = loads.force.get(class).into_iter().flatten().flatten().flatten();
         let faces = loads.faces.get(class).into_iter().flatten();
@@ -205,7 +205,7 @@ impl SolidFem {
         out
     }
 
-    /// Whether a component is nothing where it is asked for, on a plane about which it is odd.
+    /// Returns true if a component vanishes at its place, on a plane about which it is odd.
     fn vanishes(&self, parity: Parity, term: &Term) -> bool {
         let odd = |axis: usize| {
             let mut image = [false; 2];
@@ -216,7 +216,8 @@ impl SolidFem {
         (0..2).any(|axis| on_plane(axis) && odd(axis))
     }
 
-    /// Adds what a recovered stress follows: samples of the recovered quantities, tractions and the temperature there.
+    /// Adds the derivatives of a recovered stress: by samples of the recovered quantities, by tractions and by the
+    /// local temperature.
     fn add_stress(
         &self,
         parity: Parity,

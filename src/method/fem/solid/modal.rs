@@ -1,11 +1,11 @@
-//! A solid as numbers, for models that are reduced: rates of its modes, what loads drive, rows that give values.
+//! A solid in modal form for reduction: decay rates, sources of loads, and rows of readings.
 
 use super::{SolidFem, SolidLoads};
 use crate::method::fem::conduction::{HeatValue, ModalHeat};
 use crate::method::fem::heat::ModalRow;
 use crate::method::mesh::Mesh;
 
-/// The modes of a solid whose heat has any.
+/// The modes of a solid, if its heat has any.
 #[derive(Clone, Copy)]
 pub struct SolidModes<'a> {
     heat: &'a dyn ModalHeat,
@@ -14,7 +14,7 @@ pub struct SolidModes<'a> {
 }
 
 impl SolidFem {
-    /// Its modes; nothing where particles or Newton's method give the heat.
+    /// Returns the modes; `None` if particles or Newton's method advance the heat.
     pub fn modes(&self) -> Option<SolidModes<'_>> {
         let (mesh, classes) = (&self.mesh, self.parities.len());
         self.heat.modal().map(|heat| SolidModes { heat, mesh, classes })
@@ -22,7 +22,7 @@ impl SolidFem {
 }
 
 impl SolidModes<'_> {
-    /// The symmetry classes that any of these loads drives; the even one always.
+    /// Returns the symmetry classes that any of these loads drives; the even one is always included.
     pub fn driven_classes(&self, loads: &[SolidLoads]) -> Vec<bool> {
         let mut take = vec![false; self.classes];
         take[0] = true;
@@ -33,7 +33,7 @@ impl SolidModes<'_> {
         take
     }
 
-    /// Rates of decay of the modes of the classes that take part [1/s].
+    /// Decay rates of the modes of the classes in `take` [1/s].
     pub fn decay_rates(&self, take: &[bool]) -> Vec<f64> {
         self.heat.decay_rates(take)
     }
@@ -43,7 +43,7 @@ impl SolidModes<'_> {
         self.heat.sources(take, &loads.thermal())
     }
 
-    /// Heat that loads bring in [W].
+    /// Heat flow supplied by loads [W].
     pub fn brought_in_by(&self, loads: &SolidLoads) -> f64 {
         self.heat.brought_in_by(&loads.thermal())
     }
@@ -54,7 +54,7 @@ impl SolidModes<'_> {
         self.value_row(take, &HeatValue::Point { place, image })
     }
 
-    /// The same of another value.
+    /// Expresses another value as a sum over modes and face values.
     pub fn value_row(&self, take: &[bool], value: &HeatValue) -> ModalRow {
         self.heat.value_row(self.mesh, take, value)
     }

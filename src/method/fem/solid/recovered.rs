@@ -1,4 +1,4 @@
-//! Stress from the recovered quantities: of strains those along the surface, of stresses those on it.
+//! Stress from the recovered quantities: in-plane strains and out-of-plane stresses of the surface.
 //!
 //! In a box they are the strains xx, yy, xy and the stresses zz, yz, xz; in a meridian section the mean of
 //! the strains rr and tt, half their difference, and the stresses zz and rz.
@@ -14,11 +14,11 @@ use crate::method::fem::plan::Plan;
 use crate::method::fem::recovery::{Beyond, Recovery, sampling_places};
 use crate::method::mesh::{Geometry, Mesh, MeshFace, Parity};
 
-/// Tractions on the nodes of the bottom and the top as the stresses zz, yz and xz (zz and rz) there, a list
-/// for each recovered quantity that is one; empty where they are zero.
+/// Tractions on the nodes of the bottom and the top as the stresses zz, yz and xz (zz and rz) there, with a list for
+/// each recovered quantity that is such a stress; empty if zero.
 pub type FaceStresses = [Vec<Vec<f64>>; 2];
 
-/// From strain sampling points to nodes.
+/// Recoveries from strain sampling points to nodes.
 pub struct Recoveries {
     /// Along x and y: of even and of odd quantities, and of those that vanish on the axis of a disc.
     lateral: [[Recovery; 3]; 2],
@@ -31,11 +31,11 @@ pub struct Recoveries {
 
 /// A recovered quantity.
 pub struct Quantity {
-    /// Its place among the strains xx, yy, zz, xy, yz, xz.
+    /// Index among the strains xx, yy, zz, xy, yz, xz.
     pub slot: usize,
-    /// Place of its recovery along z.
+    /// Index of its recovery along z.
     depth: usize,
-    /// Whether it vanishes on the axis.
+    /// True if it vanishes on the axis.
     vanishes: bool,
 }
 
@@ -104,7 +104,7 @@ impl Recoveries {
         }
     }
 
-    /// Those of a quantity in a class, along x, y and z.
+    /// Returns the recoveries of a quantity in a class, along x, y and z.
     pub fn choose(&self, parity: Parity, quantity: &Quantity) -> [&Recovery; 3] {
         let odd = |image| parity.tensor_sign(image, quantity.slot) < 0.0;
         let lateral = [[true, false], [false, true]].map(|image| match odd(image) {
@@ -115,13 +115,13 @@ impl Recoveries {
         [x, y, &self.depth[quantity.depth]]
     }
 
-    /// The layer of each level of sampling points.
+    /// Returns the layer of each level of sampling points.
     pub fn layers_of_samples(&self, mesh: &Mesh) -> Vec<usize> {
         let levels = sampling_places(&mesh.axes[2]).into_iter();
         levels.map(|(element, _)| mesh.layering.layer_of(element)).collect()
     }
 
-    /// Sampling points of a level.
+    /// Number of sampling points of a level.
     pub fn samples_per_level(&self) -> usize {
         self.lateral.iter().map(|[even, ..]| even.samples.ncols()).product()
     }
@@ -167,7 +167,7 @@ impl SolidFem {
         self.turned(stress, point)
     }
 
-    /// A stress in components along x, y and z.
+    /// Converts a stress to components along x, y and z.
     fn turned(&self, stress: [f64; 6], point: [f64; 3]) -> [f64; 6] {
         match self.mesh.geometry {
             Geometry::Box => stress,
@@ -242,7 +242,7 @@ impl SolidFem {
         [s_xx, s_yy, zz, s_xy, yz, xz]
     }
 
-    /// The law at a node along z, of which those on interfaces are there twice.
+    /// Returns the law at a node along z, with nodes on interfaces listed twice.
     pub(super) fn law_at(&self, sided: usize) -> &Thermoelastic {
         let elastic = self.elastic.as_ref();
         let node = self.nodes_of_sided[sided];
@@ -250,7 +250,7 @@ impl SolidFem {
         elastic.expect("stress is asked for where mechanics is modelled").law(layers_below)
     }
 
-    /// The recovered quantities of a class from its strains, of which that of a heated layer was left out.
+    /// Computes the recovered quantities of a class from its strains, which exclude that of a heated layer.
     pub(super) fn quantities_of(&self, elastic: &ElasticProblem, mut strains: Strains) -> Strains {
         let values = quantities(self.mesh.geometry).len();
         let [x, y, z] = self.mesh.axes.each_ref().map(sampling_places);
@@ -280,7 +280,7 @@ impl SolidFem {
         strains
     }
 
-    /// The stresses on bottom and top that nodal forces come to: over the area of each node.
+    /// Converts nodal forces on bottom and top to stresses, by the area of each node.
     pub(super) fn face_stresses(
         &self,
         parity: Parity,
@@ -301,9 +301,9 @@ impl SolidFem {
         })
     }
 
-    /// The density that consistent nodal values on a horizontal face come from: values over the areas of
-    /// the nodes, and once corrected by what such a density leaves over of them, which makes it fourth
-    /// order where the density is smooth and hardly overshoots where it jumps.
+    /// Returns the density whose consistent nodal values on a horizontal face are given. It is the values over the
+    /// areas of the nodes, corrected once by the residual of such a density. The result is fourth-order where the
+    /// density is smooth and hardly overshoots at jumps.
     fn per_area(&self, values: &[f64], sign: f64, odd: [bool; 2]) -> Vec<f64> {
         if values.is_empty() {
             return Vec::new();
@@ -322,13 +322,13 @@ impl SolidFem {
         self.with_axis(density)
     }
 
-    /// Along which of x and y a stress of a symmetry class changes its sign at the mirror plane.
+    /// Returns for x and y whether a stress of a symmetry class changes its sign at the mirror plane.
     pub(super) fn odd_along(&self, parity: Parity, slot: usize) -> [bool; 2] {
         let odd = [[true, false], [false, true]].map(|image| parity.tensor_sign(image, slot) < 0.0);
         [0, 1].map(|axis| self.mesh.mirrored[axis] && odd[axis])
     }
 
-    /// What is odd about a mirror plane is nothing on it.
+    /// Sets densities that are odd about a mirror plane to zero on it.
     fn vanish_on_planes(&self, density: &mut [f64], odd: [bool; 2]) {
         let [nx, ny, _] = self.mesh.node_counts();
         if odd[0] {
@@ -339,8 +339,8 @@ impl SolidFem {
         }
     }
 
-    /// On the axis of a disc the quadratic shape function has no area: the parabola through the next
-    /// two nodes instead.
+    /// On the axis of a disc the quadratic shape function has no area; the value there is that of the parabola through
+    /// the next two nodes.
     fn with_axis(&self, mut density: Vec<f64>) -> Vec<f64> {
         let x = &self.mesh.axes[0];
         if self.mesh.geometry == Geometry::Axisymmetric && x.start() == 0.0 && x.order > 1 {
@@ -355,7 +355,7 @@ impl SolidFem {
 pub fn per_area_row(solid: &SolidFem, density: &mut [f64], sign: f64, odd: [bool; 2]) -> Vec<f64> {
     let Recoveries { areas, masses: [x, y], .. } = &solid.recoveries;
     let over_areas = |values: &[f64]| -> Vec<f64> {
-        // The node on the axis of a disc has no area, and no part in what is found without it.
+        // The node on the axis of a disc has no area and does not contribute.
         let share = |(area, value): (&f64, &f64)| match *value {
             0.0 => 0.0,
             value => sign * value / area,
@@ -388,14 +388,14 @@ impl SolidFem {
 }
 
 impl Weights {
-    /// Weighted sum of values, of which there may be none.
+    /// Weighted sum of values; zero for an empty list.
     pub(super) fn of(&self, values: &[f64]) -> f64 {
         let part = values.iter().skip(self.first);
         self.values.iter().zip(part).map(|(w, value)| w * value).sum()
     }
 }
 
-/// Weights of sampling points: recovery to the nodes around a place, then their shape functions.
+/// Weights of sampling points: recovery to the nodes around a place, followed by their shape functions.
 pub fn through(nodes: &Weights, recovery: &Recovery) -> Weights {
     let matrix = &recovery.samples;
     let mut all = vec![0.0; matrix.ncols()];
@@ -421,7 +421,7 @@ fn add_outer(nodal: &mut [f64], weights: &[f64], face: &[f64]) {
     }
 }
 
-/// Whether the body goes on, as a mirror image, below the low end of an axis of the mesh.
+/// Returns true if the body continues, as a mirror image, below the low end of an axis of the mesh.
 fn continues(mesh: &Mesh, axis: usize) -> bool {
     match mesh.geometry {
         Geometry::Box => axis < 2 && mesh.mirrored[axis],

@@ -1,21 +1,21 @@
-//! Stress and plastic strain of bodies whose stress depends on their history, from values at the nodes.
+//! Stress and plastic strain of bodies with history-dependent stress, from nodal values.
 //!
-//! Plastic strain and back strain are linear between neighbouring nodes, so they never leave the range there. Stress
-//! follows the shape functions, then returns to the yield surface at the plastic strain and temperature of its place.
-//! Once a part of the body has flowed, stress never exceeds the largest values at the nodes, which are those of the
-//! whole body.
+//! Plastic strain and back strain are interpolated linearly between neighbouring nodes, so they stay within the range
+//! there. Stress follows the shape functions, and then returns to the yield surface at the local plastic strain and
+//! temperature. Once a part of the body has yielded, stress never exceeds the largest nodal values, which are those of
+//! the whole body.
 
 use super::{SolidFem, Temperatures, Weights, weighted};
 use crate::laws::stress::{max_principal, von_mises};
 use crate::laws::{FlowLaw, Overstress, admissible};
 use crate::method::mesh::Axis;
 
-/// Stress at the nodes, those on interfaces twice, even about planes of symmetry.
+/// Stress at the nodes, listed twice on interfaces, even about planes of symmetry.
 #[derive(Debug, Clone)]
 pub struct Remembered {
     /// xx, yy, zz, xy, yz, xz, of a section rr, tt, zz, 0, 0, rz [Pa].
     pub stress: Vec<[f64; 6]>,
-    /// Nothing where the body does not yield.
+    /// `None` if the body does not yield.
     pub flow: Option<NodalFlow>,
 }
 
@@ -24,19 +24,19 @@ pub struct Remembered {
 pub struct NodalFlow {
     /// Accumulated plastic strain [1].
     pub plastic_strain: Vec<f64>,
-    /// Strain that the back stress follows from, engineering shears [1].
+    /// Strain that determines the back stress, with engineering shears [1].
     pub back_strain: Vec<[f64; 6]>,
     /// Bounds of von Mises and largest principal stress between nodes [Pa]: the largest of all nodes.
     pub most: [f64; 2],
 }
 
 impl Remembered {
-    /// Of a body that never yields.
+    /// Stress of a body that never yields.
     pub fn elastic(stress: Vec<[f64; 6]>) -> Self {
         Self { stress, flow: None }
     }
 
-    /// Of a body that yields, with its plastic strain and back strain.
+    /// Stress of a body that yields, with its plastic strain and back strain.
     pub fn flowing(
         stress: Vec<[f64; 6]>,
         plastic_strain: Vec<f64>,
@@ -47,7 +47,7 @@ impl Remembered {
         };
         let most = match plastic_strain.iter().any(|&strain| strain > 0.0) {
             true => [most(von_mises), most(max_principal)],
-            // Elastic as yet: shapes between nodes count as in elasticity.
+            // Not yielded yet: interpolation between nodes is as in elasticity.
             false => [f64::INFINITY; 2],
         };
         Self { stress, flow: Some(NodalFlow { plastic_strain, back_strain, most }) }
@@ -74,7 +74,7 @@ impl SolidFem {
         let neighbours = self.neighbours(place);
         let radius = match own.overstress {
             Overstress::NONE => own.radius(self.plastic_strain_of(flow, &neighbours)),
-            // What creeps has no surface that stress could not leave.
+            // A creeping material has no yield surface that limits stress.
             _ => f64::INFINITY,
         };
         let back = own.back_stress(&self.tensor_at(&flow.back_strain, &neighbours));
@@ -100,7 +100,7 @@ impl SolidFem {
         [linear(columns, x, place[0]), linear(rows, y, place[1]), linear(&along_z, z, place[2])]
     }
 
-    /// The law of flow at a height; that of the layer above on interfaces.
+    /// The law of flow at a height; on interfaces that of the layer above.
     fn flow_law_at(&self, z: f64) -> Option<&dyn FlowLaw> {
         let axis: &Axis = &self.mesh.axes[2];
         let element = axis.shape_at(z).first / axis.order;
@@ -113,8 +113,8 @@ impl SolidFem {
     }
 }
 
-/// A stress whose von Mises and largest principal stress are at most those given [Pa]: shapes between nodes go beyond
-/// these by little.
+/// Returns a stress whose von Mises and largest principal stress are at most those given [Pa]; interpolation between
+/// nodes exceeds these slightly.
 fn capped(mut stress: [f64; 6], [shape, tension]: [f64; 2]) -> [f64; 6] {
     let found = von_mises(stress);
     if found > shape {

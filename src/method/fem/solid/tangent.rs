@@ -1,18 +1,19 @@
-//! How a solid's state and extremes change: all else that is read from it is linear, so the same
-//! functions serve a change of temperatures, deformation and loads.
+//! Derivatives of a solid's state and extremes. All other readings are linear, so the same functions serve a change of
+//! temperatures, deformation and loads.
 
 use super::{Deformation, SolidFem, SolidLoads, Temperatures};
 use crate::laws::stress::{max_principal, von_mises};
 use crate::laws::stress_rate::{max_principal_rate, von_mises_rate};
 
 impl SolidFem {
-    /// Time derivative of a state, laid out like the state, where heat is linear; `rates` is that of the loads.
+    /// Returns the time derivative of a state, laid out like the state, if heat is linear; `rates` is that of the
+    /// loads.
     pub fn rates(&self, state: &[f64], loads: &SolidLoads, rates: &SolidLoads) -> Option<Vec<f64>> {
         self.heat.rates(state, &loads.thermal(), &rates.thermal())
     }
 
-    /// How fast the highest nodal temperature changes when temperatures change by `change`; of nodes
-    /// that share the highest one, the fastest counts.
+    /// Rate of change of the highest nodal temperature when temperatures change by `change`. Among nodes that share the
+    /// highest value, the fastest counts.
     pub fn max_temperature_rate(&self, temperatures: &Temperatures, change: &Temperatures) -> f64 {
         let mut highest = Highest::default();
         for image in self.images(&present(temperatures, change)) {
@@ -24,8 +25,8 @@ impl SolidFem {
         highest.rate
     }
 
-    /// How fast the highest von Mises and the largest principal stress change when temperatures and
-    /// deformation change by `change`; of nodes that share the highest one, the fastest counts.
+    /// Rates of change of the highest von Mises and the largest principal stress when temperatures and deformation
+    /// change by `change`. Among nodes that share the highest value, the fastest counts.
     pub fn max_stress_rate(
         &self,
         (temperatures, deformation): (&Temperatures, &Deformation),
@@ -45,7 +46,7 @@ impl SolidFem {
     }
 }
 
-/// The highest of some values, and how fast it changes.
+/// The highest of some values, and its rate of change.
 #[derive(Clone, Copy)]
 struct Highest {
     value: f64,
@@ -68,7 +69,7 @@ impl Highest {
     }
 }
 
-/// For each class, a list that is empty only if it is so in both.
+/// For each class, a list that is empty only if both are empty.
 fn present(a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let either = |(a, b): (&Vec<f64>, &Vec<f64>)| vec![0.0; a.len().max(b.len()).min(1)];
     a.iter().zip(b).map(either).collect()
