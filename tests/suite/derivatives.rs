@@ -142,12 +142,19 @@ fn values(trial: &mut Trial, names: &[String]) -> Vec<f64> {
 
 #[test]
 fn changes_with_inputs_are_the_limit_of_differences() {
-    for text in [block("auto", 1), block("none", 1), block("auto", 2), particles()] {
+    // All directions on one block; on the others every second.
+    let scenes = [
+        (block("auto", 1), 0, 1),
+        (block("none", 1), 0, 2),
+        (block("auto", 2), 1, 2),
+        (particles(), 0, 2),
+    ];
+    for (text, first, every) in scenes {
         let mut trial = Trial::new(&text);
         trial.step(0.05);
         let names = trial.outputs();
         let start = trial.state.clone();
-        for direction in DIRECTIONS {
+        for direction in DIRECTIONS.into_iter().skip(first).step_by(every) {
             let found = trial.changes(&names, direction);
             let step = 1e-4;
             let differ = [step, -step].map(|by| {

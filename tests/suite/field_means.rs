@@ -76,7 +76,11 @@ fn what_a_cell_feels_of_another_that_feels_of_it() {
                     continue;
                 }
                 let place = if is_box { [7e-5, -4e-5] } else { [0.0; 2] };
-                let scene = plate(shape, cells, place, more);
+                // On any mesh.
+                let scene = plate(shape, cells, place, more).replace(
+                    "spacing = 4e-5, depth_spacing = 4e-5",
+                    "spacing = 7e-5, depth_spacing = 5e-5",
+                );
                 for (i, a) in labels.iter().enumerate().take(2) {
                     for b in &labels[i + 1..] {
                         let there = transfer(&scene, cells, a, b);

