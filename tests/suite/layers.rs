@@ -246,7 +246,7 @@ fn two_layers_of_one_material_are_one_body_of_it() {
         let rest = format!("{}{probes}", loads(faces));
         for order in [1, 2] {
             let mesh = format!(
-                "mesh = {{ spacing = 0.2e-3, depth_spacing = 0.05e-3, growth = 1.0, order = {order} }}"
+                "mesh = {{ spacing = 0.2e-3, depth_spacing = 0.025e-3, growth = 1.0, order = {order} }}"
             );
             let trial = |made_of: &str| {
                 Trial::new(&body(
