@@ -80,8 +80,9 @@
 //! | [`math`] | Numerics without physics: quadrature, sparse Cholesky, Krylov solvers, exponential integrators. |
 //! | [`quantity`] | Physical quantities with their SI and display units. |
 //! | [`limits`] | Bounds, plausible ranges and words of refusals for the numbers of scenes. |
+//! | [`warning`] | The table of warnings: id, occasion, message and remedy of each rule. |
 //! | [`channel`] | Amounts that loads carry through a face: heat flux, pressure, shear. |
-//! | [`material`] | Constitutive laws and the constants of materials. |
+//! | [`laws`] | Constitutive laws of solids, fluids and heat, each with its keys, limits and parameters. |
 //! | [`kernel`] | Smoothing kernels of particle methods. |
 //! | [`state`] | Named fields of the flat vectors that hold the states of bodies. |
 //! | [`scene`] | Types, parser, checks and JSON schema of `scene.toml`. |

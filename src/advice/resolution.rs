@@ -211,11 +211,11 @@ impl Resolution {
             return None;
         }
         let peclet = self.peclet?;
-        let [reynolds, weber, of_heat, across] = OF_HEAT;
+        let [reynolds, weber, peclet_range, across] = OF_HEAT;
         let numbers = [
             (reynolds, self.reynolds),
             (weber, self.weber),
-            (of_heat, peclet),
+            (peclet_range, peclet),
             // A drop of ten particles has ten up to rounding.
             (across, (1e6 * self.across).round() / 1e6),
         ];

@@ -1,7 +1,7 @@
 use std::ops::Range;
 
 use crate::channel::Channel;
-use crate::scene::{Body, CellShape, FaceName, Footprint, Load, Scene, Wall};
+use crate::scene::{Body, FaceName, Load, Scene, Wall};
 
 /// Places of the inputs of a scene in [`crate::model::State::inputs`].
 #[derive(Debug, Clone, PartialEq)]
@@ -66,7 +66,7 @@ impl InputLayout {
 }
 
 fn load_inputs(load: &Load, round_body: bool, next: &mut usize) -> LoadInputs {
-    let cells = count(&load.footprint);
+    let cells = load.footprint.cell_count();
     let mut take = |count: usize| {
         let range = *next..*next + count;
         *next = range.end;
@@ -80,19 +80,10 @@ fn load_inputs(load: &Load, round_body: bool, next: &mut usize) -> LoadInputs {
     }
 }
 
-/// Number of cells with a value of their own.
-fn count(footprint: &Footprint) -> usize {
-    match footprint.cells() {
-        None => 1,
-        Some(CellShape::Rings(count)) => count,
-        Some(CellShape::Tiles([nx, ny])) => nx * ny,
-    }
-}
-
 fn wall_inputs(scene: &Scene, next: &mut usize) -> Vec<Range<usize>> {
     let range = |wall: &Wall| {
         let start = *next;
-        *next += count(&wall.footprint);
+        *next += wall.footprint.cell_count();
         start..*next
     };
     scene.wall.iter().map(range).collect()

@@ -1,4 +1,5 @@
-//! Numerical methods, one a folder: they know numbers, not scenes or inputs. A method uses only those above it.
+//! Numerical methods, one a folder. They know numbers and plain types of the scene, such as shapes and kernels, but no
+//! inputs. A method uses only those above it.
 
 // Blank lines keep the order.
 pub mod heat_totals;

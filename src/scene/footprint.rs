@@ -1,4 +1,4 @@
-//! Properties of footprints. Only this file, the scene's checks and walls distinguish the kinds.
+//! Properties of footprints, kind by kind.
 
 use super::types::{CellShape, Footprint};
 
@@ -91,7 +91,10 @@ impl Footprint {
     pub fn half_extents(&self, radius: Option<f64>) -> [f64; 2] {
         match *self {
             Footprint::Tiles { size, .. } => size.map(|size| size / 2.0),
-            _ => [radius.or(self.radius()).unwrap_or_default(); 2],
+            Footprint::Disc { .. }
+            | Footprint::Gaussian { .. }
+            | Footprint::Ring { .. }
+            | Footprint::Rings { .. } => [radius.or(self.radius()).unwrap_or_default(); 2],
         }
     }
 
@@ -107,7 +110,10 @@ impl Footprint {
             Footprint::Ring { inner, outer } => {
                 x * (0.5 * (1.0 - inner / outer)).min(inner / outer)
             }
-            _ => x.min(y),
+            Footprint::Disc { .. }
+            | Footprint::Gaussian { .. }
+            | Footprint::Rings { .. }
+            | Footprint::Tiles { .. } => x.min(y),
         }
     }
 

@@ -52,6 +52,14 @@ fn a_module_uses_only_modules_above_it() {
 }
 
 #[test]
+fn the_front_page_lists_all_modules_in_their_order() {
+    let text = fs::read_to_string("src/lib.rs").unwrap();
+    let name = |line: &str| Some(line.strip_prefix("//! | [`")?.split_once("`]")?.0.to_owned());
+    let listed: Vec<String> = text.lines().filter_map(name).collect();
+    assert_eq!(listed, order());
+}
+
+#[test]
 fn a_method_uses_only_methods_above_it() {
     let text = fs::read_to_string("src/method/mod.rs").unwrap();
     let name = |line: &str| Some(line.strip_prefix("pub mod ")?.strip_suffix(';')?.to_owned());

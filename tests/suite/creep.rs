@@ -183,6 +183,43 @@ fn under_a_constant_pressure_creep_is_steady() {
     }
 }
 
+/// Tin-silver-copper solder at 400 K: E, ν and a sinh law of the kind that measurements of it are fitted by.
+#[test]
+fn creep_beyond_the_power_law_is_steady() {
+    let [coefficient, exponent, activation, breakdown] = [5e-35_f64, 6.0, 5e3, 10e6_f64];
+    let material = Material {
+        young: 45e9,
+        poisson: 0.36,
+        creep: [coefficient, exponent, activation],
+        temperature: 400.0,
+        strain: 0.0,
+    };
+    let text = material.text("").replace(
+        "activation_temperature",
+        &format!("breakdown = {breakdown:e}, activation_temperature"),
+    );
+    let faces = "left = { roller = true }\nfront = { roller = true }\nbottom = { roller = true }";
+    let top = PROBE.replace("-5e-3]", "0.0]");
+    for pressure in [1e6, 10e6, 40e6] {
+        let load = format!(
+            "[[load]]\nname = \"press\"\non = \"bar.top\"\nfootprint = {{ tiles = {{ count = [1, 1], size = [2e-2, 1e-2] }} }}\n\
+             carries = [\"pressure\"]\nstart = {{ pressure = {pressure:e} }}\n"
+        );
+        let mut trial = Trial::new(&scene(BAR, &text, [400.0; 2], faces, &(load + &top)));
+        let effective = breakdown * (pressure / breakdown).sinh();
+        let rate = material.rate() * effective.powf(exponent);
+        let elastic = pressure / material.young;
+        for step in [0.2, 0.8, 2.0].map(|part| part * elastic / rate) {
+            trial.step(step);
+            let strain = rate * trial.state.time;
+            let found = trial.get("inside.plastic_strain");
+            assert!(off(found, strain) < 1e-8, "{pressure}: {found} {strain}");
+            let found = trial.get("inside.displacement_z");
+            assert!(off(found, -1e-2 * (strain + elastic)) < 1e-8, "{pressure}: {found}");
+        }
+    }
+}
+
 #[test]
 fn flow_that_is_fast_is_plasticity_and_flow_that_is_slow_elasticity() {
     let plain = Material {

@@ -162,7 +162,7 @@ fn case<'a>(shape: &'a str, face: &'a str, kind: Kind, mesh: &'a str) -> Case<'a
 fn chosen_meshes_resolve_the_first_step_on_every_face_of_every_kind_and_material() {
     for (i, (shape, face, _)) in FACES.into_iter().enumerate() {
         for (j, kind) in KINDS.into_iter().enumerate() {
-            // Every material has its turn on three faces.
+            // Two of the six materials each, all six over the faces and kinds.
             for material in [MATERIALS[(i + j) % 6], MATERIALS[(i + j + 3) % 6]] {
                 let error = Case { material, ..case(shape, face, kind, "") }.error();
                 // Around a cylinder heat gathers by half of √(at)/R more than on a plane.

@@ -20,7 +20,7 @@ use crate::method::fem::{
     most_memory_of_rows,
 };
 use crate::runtime::made_once::MadeOnce;
-use crate::scene::{CellShape, Gives, Sampling, Scene, Solid};
+use crate::scene::{Gives, Sampling, Scene, Solid};
 
 /// Readings by rows.
 #[derive(Default)]
@@ -139,11 +139,7 @@ impl Choice {
                 }
                 Sampling::Cells(cells) => {
                     let kinds = kinds(&field.gives, true);
-                    let count = match cells.footprint.cells() {
-                        None => 1,
-                        Some(CellShape::Rings(count)) => count,
-                        Some(CellShape::Tiles(counts)) => counts.iter().product(),
-                    };
+                    let count = cells.footprint.cell_count();
                     let of_cell: usize =
                         components().map(|c| usize::from(is_of(c, kinds))).iter().sum();
                     if ((choice.rows + count * of_cell) as f64) < most {

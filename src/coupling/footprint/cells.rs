@@ -2,7 +2,7 @@
 
 use super::{Pattern, Placement, disc, gaussian, outer, tile_strips};
 use crate::method::mesh::Axis;
-use crate::scene::{CellShape, Footprint, Profile};
+use crate::scene::{Footprint, Profile};
 
 /// Entries of a vector that are not zero, with their places.
 pub type SparseVector = Vec<(usize, f64)>;
@@ -47,17 +47,9 @@ pub fn cells_on_radius(axis: &Axis, footprint: &Footprint, radius: f64) -> Vec<S
     }
 }
 
-fn count(footprint: &Footprint) -> usize {
-    match footprint.cells() {
-        None => 1,
-        Some(CellShape::Rings(count)) => count,
-        Some(CellShape::Tiles([nx, ny])) => nx * ny,
-    }
-}
-
 /// The value 1 on one cell alone.
 fn unit(footprint: &Footprint, cell: usize) -> Vec<f64> {
-    let mut values = vec![0.0; count(footprint)];
+    let mut values = vec![0.0; footprint.cell_count()];
     values[cell] = 1.0;
     values
 }
@@ -88,7 +80,7 @@ fn sums_of_discs(
         known = vectors;
         sparse(&sum)
     };
-    (0..count(footprint)).map(of_cell).collect()
+    (0..footprint.cell_count()).map(of_cell).collect()
 }
 
 /// Products of columns and rows, which are in reverse order in a mirror.
@@ -149,7 +141,7 @@ mod tests {
     }
 
     fn values(footprint: &Footprint) -> Vec<f64> {
-        (0..count(footprint)).map(|i| 1.0 + (i as f64).sin()).collect()
+        (0..footprint.cell_count()).map(|i| 1.0 + (i as f64).sin()).collect()
     }
 
     #[test]

@@ -14,7 +14,7 @@
 use std::sync::Arc;
 
 use super::law::{Deformation, FlowLaw, Law, Need, Response};
-use super::viscoplastic::{Overstress, Parted};
+use super::overstress::{Overstress, Parted};
 use super::{Elasticity, PlasticHistory, Thermoelastic, Yielding, law_of_parts};
 use crate::laws::Property;
 

@@ -7,6 +7,7 @@ mod admissible;
 mod elasticity;
 mod elastoplastic;
 mod law;
+mod overstress;
 mod plastic_history;
 pub mod stress;
 pub mod stress_rate;
@@ -20,9 +21,10 @@ pub use elastoplastic::{
     Elastoplastic, ElastoplasticLaw, OfTemperature, PointConstants, PointTangent, constant,
 };
 pub use law::{Deformation, Elastic, FlowLaw, Keys, Law, Need, Response};
+pub use overstress::{Overstress, Parted};
 pub use plastic_history::PlasticHistory;
 pub use thermoelastic::{Thermoelastic, ThermoelasticLaw};
-pub use viscoplastic::{Creep, Flow, Overstress, Parted, Viscoplastic, ViscoplasticLaw};
+pub use viscoplastic::{Creep, Flow, Viscoplastic, ViscoplasticLaw};
 pub use yielding::Yielding;
 
 use schemars::JsonSchema;

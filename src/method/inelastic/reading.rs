@@ -124,7 +124,8 @@ impl NodalValues {
         if own.overstress != Overstress::NONE {
             let beyond = own.beyond_yield(stress, &history).max(0.0);
             let around = own.overstress.of_flow(fastest).min(beyond);
-            let relaxed = 3.0 * own.shear * own.overstress.exponent * accumulated / (ROOT * beyond);
+            let relaxed = 3.0 * own.shear * own.overstress.exponent_at(beyond) * accumulated
+                / (ROOT * beyond);
             radius +=
                 around + if beyond > around { (beyond - around) * (-relaxed).exp() } else { 0.0 };
         }

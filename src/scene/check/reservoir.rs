@@ -6,8 +6,8 @@ use crate::scene::locate::Path;
 pub fn check(checker: &mut Checker) {
     for (name, reservoir) in checker.scene.reservoirs() {
         let (key, message) = match (reservoir.conductance, reservoir.ambient) {
-            (Some(_), None) => ("conductance", "a reservoir loses heat to an `ambient`"),
-            (None, Some(_)) => ("ambient", "a reservoir loses heat by a `conductance`"),
+            (Some(_), None) => ("conductance", "`conductance` is set without `ambient`"),
+            (None, Some(_)) => ("ambient", "`ambient` is set without `conductance`"),
             _ => continue,
         };
         let path = Path::default().key("body").key(name).key(key);

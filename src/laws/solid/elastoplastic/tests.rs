@@ -60,8 +60,12 @@ fn laws() -> Vec<Case> {
             {
                 // At twice the unit and 350 K.
                 let logarithm = f64::ln(rate) - exponent * unit.ln() + 4e3 / 350.0;
-                let creep =
-                    Creep { coefficient: logarithm.exp(), exponent, activation_temperature: 4e3 };
+                let creep = Creep {
+                    coefficient: logarithm.exp(),
+                    exponent,
+                    activation_temperature: 4e3,
+                    breakdown: (exponent == 5.0).then_some(unit),
+                };
                 let plastic =
                     Elastoplastic { yield_stress: falls(part * yield_stress), ..plastic.clone() };
                 all.push(Case {
