@@ -1,3 +1,5 @@
+//! Physical quantities with their SI and display units.
+
 use std::f64::consts::PI;
 
 /// A physical quantity: the unit of its values, and their usual display.

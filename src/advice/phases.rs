@@ -1,9 +1,9 @@
-//! Freezing and boiling points that contradict the temperature of their drops.
+//! Freezing and boiling points that drops are beyond from the start, or get beyond on contact.
 
 use super::{CELSIUS, Reviewer, celsius, number};
 use crate::limits::plausible::{BESIDE_WARM, Cold};
-use crate::scene::Droplet;
 use crate::scene::locate::Path;
+use crate::scene::{Droplet, FirstContact};
 use crate::warning;
 
 pub fn review(reviewer: &mut Reviewer, cold: Cold) {
@@ -11,6 +11,7 @@ pub fn review(reviewer: &mut Reviewer, cold: Cold) {
         let path = Path::default().key("body").key(name).key("fluid");
         freezing(reviewer, &path.key("freezes_at"), droplet, cold);
         boiling(reviewer, &path.key("boils_at"), droplet);
+        contact(reviewer, &path, (name, droplet));
     }
 }
 
@@ -37,4 +38,21 @@ fn boiling(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
         false => "lower `initial_temperature` below `boils_at`".to_owned(),
     };
     reviewer.warn(path, warning::drop_starts_boiling(number(start), remedy));
+}
+
+/// Warns of drops that start liquid and are predicted to freeze or boil where they touch what lies below.
+fn contact(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Droplet)) {
+    if droplet.fluid.conductivity == 0.0 {
+        return;
+    }
+    let Some(FirstContact { below, temperature, .. }) = reviewer.scene.first_contact(name) else {
+        return;
+    };
+    let start = droplet.initial_temperature;
+    let shown = format!("{temperature:.1}");
+    if droplet.fluid.freezes_at.is_some_and(|point| temperature < point && point <= start) {
+        reviewer.warn(&path.key("freezes_at"), warning::freezes_on_contact(below, shown));
+    } else if droplet.fluid.boils_at.is_some_and(|point| temperature > point && point >= start) {
+        reviewer.warn(&path.key("boils_at"), warning::boils_on_contact(below, shown));
+    }
 }

@@ -1,3 +1,5 @@
+//! Errors of bodies.
+
 use crate::math::cholesky::SolverError;
 use crate::method::fem::NonlinearFailure;
 use crate::method::inelastic::InelasticError;

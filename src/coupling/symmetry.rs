@@ -1,3 +1,5 @@
+//! Loads on faces, split into the symmetry classes of a mesh.
+
 use crate::method::mesh::Mesh;
 
 /// Splits a load on a face into nodal vectors of the mesh's symmetry classes, in their order.

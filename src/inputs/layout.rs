@@ -1,3 +1,5 @@
+//! Places of inputs in a state.
+
 use std::ops::Range;
 
 use crate::channel::Channel;

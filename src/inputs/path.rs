@@ -1,3 +1,5 @@
+//! Inputs as polynomials in time over a step.
+
 /// Highest time derivative of inputs that a step takes into account.
 pub const HIGHEST_INPUT_DERIVATIVE: usize = 2;
 

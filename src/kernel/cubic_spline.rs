@@ -1,3 +1,5 @@
+//! The cubic spline.
+
 use std::f64::consts::PI;
 
 use super::{Number, Shape};

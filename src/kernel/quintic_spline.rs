@@ -1,3 +1,5 @@
+//! The quintic spline.
+
 use std::f64::consts::PI;
 
 use super::{Number, Shape};

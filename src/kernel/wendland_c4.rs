@@ -1,3 +1,5 @@
+//! The Wendland C⁴ kernel.
+
 use std::f64::consts::PI;
 
 use super::{Number, Shape};

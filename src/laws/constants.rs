@@ -1,3 +1,5 @@
+//! Constants of a material at one temperature.
+
 use serde::{Deserialize, Serialize};
 
 use super::Thermoelastic;

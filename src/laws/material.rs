@@ -1,3 +1,5 @@
+//! Materials: a law of heat joined with a law of deformation.
+
 use std::borrow::Cow;
 use std::sync::Arc;
 

@@ -1,3 +1,5 @@
+//! Constants that may depend on the temperature.
+
 use std::fmt;
 
 use schemars::JsonSchema;

@@ -1,3 +1,5 @@
+//! Gauss–Legendre quadrature.
+
 /// Points and weights of Gauss–Legendre quadrature on [−1, 1], exact to degree `2 n − 1`.
 ///
 /// The points are the roots of the Legendre polynomial `P_n`, found by Newton's method from

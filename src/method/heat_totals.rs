@@ -1,3 +1,5 @@
+//! Totals of heat that methods of conduction keep at the end of their states.
+
 use crate::state::{Field, Layout, Per};
 
 /// Heat that has passed since time zero [J], or in some time.

@@ -1,3 +1,5 @@
+//! Lazily computed values of a state.
+
 use super::schedule::Exchange;
 use super::{Model, State};
 use crate::body::Memo;

@@ -1,3 +1,5 @@
+//! Errors of models.
+
 use crate::body::BodyError;
 use crate::limits::Bounds;
 use crate::runtime::address_space::TooLittle;

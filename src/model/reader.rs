@@ -1,3 +1,5 @@
+//! Outputs of a state.
+
 use super::{BodyError, Cache, Model, ModelError, State};
 use crate::body::Reading;
 use crate::variables::Output;

@@ -1,3 +1,5 @@
+//! Times of equal steps.
+
 /// Equal steps from time zero to the stop time, the last one shortened to end there exactly.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Timeline {

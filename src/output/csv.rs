@@ -1,3 +1,5 @@
+//! Variables over time as comma-separated values.
+
 use std::borrow::Cow;
 use std::fs::{self, File};
 use std::io::Write;

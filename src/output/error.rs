@@ -1,3 +1,5 @@
+//! Errors of output.
+
 use std::io;
 use std::path::{Path, PathBuf};
 

@@ -1,3 +1,5 @@
+//! Locks of folders.
+
 use std::fs::{self, File, TryLockError};
 use std::path::Path;
 use std::process;

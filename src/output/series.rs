@@ -1,3 +1,5 @@
+//! Fields over time as files of ParaView.
+
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};

@@ -4,6 +4,7 @@
 
 mod cells;
 pub(crate) mod check;
+mod contact;
 mod constants;
 mod decode;
 mod droplet;
@@ -33,6 +34,7 @@ use std::path::Path;
 pub use cells::Cells;
 pub use check::takes_newton;
 pub use constants::{Constant, DropletConstant, LayersOf, OfferedConstant};
+pub use contact::FirstContact;
 pub use droplet::{
     Arrival, Coupling, Droplet, DropletMethod, DropletSymmetry, Governing, Placement, Precision,
     ReleaseBy, Wall, WallStart, velocity,

@@ -1,3 +1,5 @@
+//! Types of a scene: solids, their meshes and faces, probes, fields and settings.
+
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;

@@ -1,3 +1,5 @@
+//! The registry with families of variables as arrays, as FMI 3.0 lists them.
+
 use std::collections::HashMap;
 use std::ops::Range;
 use std::rc::Rc;

@@ -1,3 +1,5 @@
+//! Constants of a scene as parameters of its unit.
+
 use crate::scene::{Constant, Scene};
 
 /// A constant of a scene's body that may be set until initialisation ends.

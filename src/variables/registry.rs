@@ -1,3 +1,5 @@
+//! The registry of a unit's variables.
+
 use std::collections::HashMap;
 
 use super::{Parameter, inputs, outputs, parameters};

@@ -14,6 +14,16 @@ rules! {
     Check drop_starts_boiling(start, higher_point_or_colder_drop)
     "drops of {start} K boil at once, and the model treats them as liquid"; "{higher_point_or_colder_drop}"
 
+    Check freezes_on_contact(below, temperature)
+    "on `{below}` the fluid is predicted to be at {temperature} K in contact, where it freezes, and the model keeps it \
+     liquid";
+    "do not rely on spread, later heat and forces"
+
+    Check boils_on_contact(below, temperature)
+    "on `{below}` the fluid is predicted to be at {temperature} K in contact, where it boils, and the model keeps it \
+     liquid";
+    "do not rely on heat and forces from first contact on"
+
     Check kernel_forms_pairs(spline, widest, support)
     "under pressure, particles of the {spline} spline form pairs beyond a support of {widest} distances ({support} \
      here), and resolve as little as half as many";
@@ -33,8 +43,8 @@ rules! {
 
     Check film_thinner_than_particles(film, thinnest, heat, force, spacing)
     "the film is expected to get {film} distances of particles thin by the stop time: below {thinnest} errors are a \
-     tenth to a half for its spread, more for its height, {heat}{force} for means of force, which are highest \
-     before";
+     tenth to a half for its spread, more for its height, {heat}{force} for means of force, which peak before the film \
+     is as thin";
     "did you mean a `spacing` of {spacing} m or less?"
 
     Check middle_too_hot(spacing)

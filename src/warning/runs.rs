@@ -16,8 +16,8 @@ rules! {
 
     Build reduction_beyond_tolerance(values, error, tolerance, full_level)
     "the bound of the error of {values} of the reduced model is {error} of their range, more than the tolerance of \
-     {tolerance}, under start values or under one unit of an input that starts at rest (none whose `role` is \
-     `parameter`)"; "{full_level}"
+     {tolerance}; it is for start values, and for one unit of an input that starts at zero (except \
+     those with the `role` `parameter`)"; "{full_level}"
 
     Step step_shorter_than_mesh_resolves(step, resolved, asked)
     "a step of {step} s is shorter than the {resolved} s from which on the mesh resolves heated surfaces: before, \

@@ -1,3 +1,5 @@
+//! Memo of a droplet: readings of its state, computed when first needed.
+
 use std::any::Any;
 
 use crate::body::Memo;

@@ -1,3 +1,5 @@
+//! Readings of a droplet in a state.
+
 use super::memo::DropletMemo;
 use super::{DropletBody, Rest};
 use crate::method::sph::DropletTotals;

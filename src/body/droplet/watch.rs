@@ -2,7 +2,7 @@
 
 use crate::laws::Fluid;
 use crate::method::sph::WarmPlace;
-use crate::scene::Scene;
+use crate::scene::{FirstContact, Scene};
 use crate::warning::{self, Warning};
 
 /// A phase change that the model omits.
@@ -63,33 +63,6 @@ impl Watch {
     }
 }
 
-/// Contact temperature between a droplet and the surface below it [K], with the name of that surface and its
-/// temperature. For two half spaces of effusivities e it is `(e₁T₁ + e₂T₂)/(e₁ + e₂)` (Carslaw & Jaeger 1959, §2.15);
-/// for a wall without effusivity it is the wall's temperature.
-fn contact<'a>(scene: &'a Scene, name: &str) -> Option<(&'a str, f64, f64)> {
-    let droplet = scene.droplet(name)?;
-    let (below, temperature) = match scene.coupling_from(name) {
-        Some(coupling) => {
-            let solid = scene.coupling[coupling].solid()?;
-            (solid, scene.solid(solid)?.initial_temperature)
-        }
-        None => {
-            let wall = &scene.wall[scene.wall_under(name)?];
-            let start = wall.start.temperature.as_ref().and_then(|values| values.numbers().next());
-            (wall.name.as_str(), start.unwrap_or(droplet.initial_temperature))
-        }
-    };
-    let above = droplet.initial_temperature - temperature;
-    Some((below, temperature, temperature + contact_share(scene, name, &droplet.fluid) * above))
-}
-
-/// Contact temperature above the wall, as a share of the difference between drop and wall: `e₁/(e₁ + e₂)` of
-/// effusivities e.
-pub fn contact_share(scene: &Scene, name: &str, fluid: &Fluid) -> f64 {
-    let own = fluid.effusivity();
-    scene.effusivity_below(name).map_or(0.0, |below| own / (own + below))
-}
-
 /// Returns notes on the phases that the model leaves out, and on the contact temperature predicted below a drop.
 pub fn note(scene: &Scene, (name, fluid): (&str, &Fluid)) -> String {
     let Fluid { freezes_at, boils_at, .. } = *fluid;
@@ -99,22 +72,14 @@ pub fn note(scene: &Scene, (name, fluid): (&str, &Fluid)) -> String {
             "{general}: `freezes_at` and `boils_at` of the fluid (K) make it warn where that would matter"
         );
     }
-    let Some((below, temperature, contact)) = contact(scene, name) else {
+    let Some(FirstContact { below, below_temperature, temperature }) = scene.first_contact(name)
+    else {
         return format!(
             "{general}: a step warns once where fluid passes `freezes_at` or `boils_at`"
         );
     };
-    let verdict = match (freezes_at, boils_at) {
-        (Some(point), _) if contact < point => {
-            format!("below the {point} K at which it freezes: it would freeze from there")
-        }
-        (_, Some(point)) if contact > point => {
-            format!("above the {point} K at which it boils: it would boil there")
-        }
-        _ => "where it stays liquid".to_owned(),
-    };
     format!(
-        "{general}; in contact with `{below}` at {temperature} K the fluid is predicted to be at {contact:.1} K, \
-         (e₁T₁ + e₂T₂)/(e₁ + e₂) of effusivities e, {verdict}"
+        "{general}; in contact with `{below}` at {below_temperature} K the fluid is predicted to be at \
+         {temperature:.1} K, (e₁T₁ + e₂T₂)/(e₁ + e₂) of effusivities e"
     )
 }

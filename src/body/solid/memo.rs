@@ -1,3 +1,5 @@
+//! Memo of a solid: its loads, and results computed when first needed.
+
 use std::any::Any;
 
 use super::SolidBody;

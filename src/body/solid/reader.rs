@@ -1,3 +1,5 @@
+//! Readings of a solid in a state.
+
 use super::SolidBody;
 use super::memo::SolidMemo;
 use super::rows::{self, Acting};

@@ -1,3 +1,5 @@
+//! Conduction and storage of heat.
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

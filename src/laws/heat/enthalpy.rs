@@ -1,3 +1,5 @@
+//! Enthalpy as a function of temperature, and its inverse.
+
 use super::conduction::Conduction;
 
 /// Volumetric enthalpy as an exact function of temperature, and its inverse: quadratic pieces, and jumps at isothermal

@@ -1,3 +1,5 @@
+//! Melting between solidus and liquidus.
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,3 +1,5 @@
+//! Thermal radiation of a grey surface.
+
 /// Stefan's and Boltzmann's constant σ [W/(m² K⁴)], CODATA 2018.
 const STEFAN_BOLTZMANN: f64 = 5.670374419e-8;
 

@@ -1,3 +1,5 @@
+//! Keys of isotropic thermo-elasticity, which all laws of deformation share.
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

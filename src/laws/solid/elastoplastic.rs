@@ -13,7 +13,7 @@
 
 use std::sync::Arc;
 
-use super::law::{Deformation, FlowLaw, Law, Need, Response};
+use super::law::{Deformation, FlowLaw, Need, Response};
 use super::overstress::{Overstress, Parted};
 use super::{Elasticity, PlasticHistory, Thermoelastic, Yielding, law_of_parts};
 use crate::laws::Property;
@@ -302,24 +302,6 @@ impl PointTangent {
         let mut stress = self.of_shape(&shape);
         stress[..3].iter_mut().for_each(|s| *s += self.bulk * volume);
         stress
-    }
-}
-
-impl Law for Elastoplastic {
-    fn history_len(&self) -> usize {
-        PlasticHistory::LEN
-    }
-
-    /// NaN if the constants are invalid at this temperature.
-    fn respond(
-        &self,
-        strain: &[f64; 6],
-        temperature: f64,
-        _: f64,
-        old: &[f64],
-        new: &mut [f64],
-    ) -> Response {
-        respond_at(self.at(temperature), strain, old, new)
     }
 }
 

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use super::{Elasticity, PointConstants, Thermoelastic};
+use super::elastoplastic::respond_at;
+use super::{Elasticity, PlasticHistory, PointConstants, Thermoelastic};
 use crate::laws::{Part, Property};
 
 /// Constants of a law as groups of keys.
@@ -88,8 +89,8 @@ pub trait Law: Send + Sync {
     ) -> Response;
 }
 
-/// A law whose stress returns along its deviator, for the equilibrium of whole bodies.
-pub trait FlowLaw: Law {
+/// A law whose stress returns along its deviator, for the equilibrium of whole bodies. It is a [`Law`], too.
+pub trait FlowLaw: Send + Sync {
     /// Temperature without thermal strain [K].
     fn stress_free_temperature(&self) -> f64;
 
@@ -99,6 +100,24 @@ pub trait FlowLaw: Law {
     /// Returns true if strain continues under constant stress.
     fn creeps(&self) -> bool {
         false
+    }
+}
+
+impl<F: FlowLaw> Law for F {
+    fn history_len(&self) -> usize {
+        PlasticHistory::LEN
+    }
+
+    /// NaN if the constants are invalid at this temperature.
+    fn respond(
+        &self,
+        strain: &[f64; 6],
+        temperature: f64,
+        duration: f64,
+        old: &[f64],
+        new: &mut [f64],
+    ) -> Response {
+        respond_at(self.over_step(temperature, duration), strain, old, new)
     }
 }
 

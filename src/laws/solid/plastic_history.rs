@@ -1,3 +1,5 @@
+//! History of plastic flow at a point.
+
 /// History of J₂ plasticity at a point; shears of strains are engineering shears.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PlasticHistory {

@@ -16,10 +16,9 @@ use serde::{Deserialize, Serialize};
 
 use std::sync::Arc;
 
-use super::elastoplastic::respond_at;
-use super::law::{Deformation, FlowLaw, Law, Need, Response};
+use super::law::{Deformation, FlowLaw, Need};
 use super::overstress::Overstress;
-use super::{Elasticity, Elastoplastic, PlasticHistory, PointConstants, Yielding, law_of_parts};
+use super::{Elasticity, Elastoplastic, PointConstants, Yielding, law_of_parts};
 use crate::laws::{MaterialConstant, Part, Property};
 use crate::limits::{positive, within};
 
@@ -130,23 +129,5 @@ impl FlowLaw for Viscoplastic {
 
     fn creeps(&self) -> bool {
         true
-    }
-}
-
-impl Law for Viscoplastic {
-    fn history_len(&self) -> usize {
-        PlasticHistory::LEN
-    }
-
-    /// NaN if the constants are invalid at this temperature.
-    fn respond(
-        &self,
-        strain: &[f64; 6],
-        temperature: f64,
-        duration: f64,
-        old: &[f64],
-        new: &mut [f64],
-    ) -> Response {
-        respond_at(self.over_step(temperature, duration), strain, old, new)
     }
 }

@@ -1,3 +1,5 @@
+//! Keys of a yield surface that hardens linearly.
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

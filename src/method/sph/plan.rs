@@ -48,7 +48,7 @@ pub struct DropletPlan {
     pub wall: Option<Wall>,
 }
 
-/// A Newtonian fluid that conducts heat.
+/// Constants of a Newtonian fluid as particles take them, with the speed of sound of the model.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fluid {

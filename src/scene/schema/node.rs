@@ -1,3 +1,5 @@
+//! Nodes of the JSON schema as the reader of scenes uses them.
+
 use std::collections::BTreeMap;
 
 use serde::de::{Deserializer, IgnoredAny, MapAccess, Visitor};

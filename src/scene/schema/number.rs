@@ -1,3 +1,5 @@
+//! Constraints of the schema on numbers.
+
 use serde::de::MapAccess;
 
 use crate::limits::plausible::{Cold, Range};

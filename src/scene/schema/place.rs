@@ -1,3 +1,5 @@
+//! Position of a walk through a scene.
+
 use crate::scene::locate::Path;
 
 /// Position of a walk through a scene; its path is built only on request.

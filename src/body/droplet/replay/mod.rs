@@ -11,7 +11,7 @@ pub use notes::notes;
 pub use totals::offered_totals;
 
 use super::demand::DropInputs;
-use super::watch::{Watch, contact_share};
+use super::watch::Watch;
 use super::{Below, STRAY_SHARE, Wall, plan};
 use crate::advice::MEASURED_FILMS;
 use crate::body::{
@@ -92,7 +92,7 @@ impl ReplayBody {
             arrivals: droplet.arrivals().iter().map(|a| (a.time, falling(droplet, a))).collect(),
             symmetric: droplet.mirrors(),
             watch: Watch::of(name, &droplet.fluid),
-            contact_share: contact_share(scene, name, &droplet.fluid),
+            contact_share: scene.contact_share(name),
             notes: said,
         })
     }

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::*;
-use crate::laws::{Creep, Elastic, Viscoplastic};
+use crate::laws::{Creep, Elastic, Law, Viscoplastic};
 
 /// Steel, aluminium, copper, hot lead, titanium, glass, and constants unlike any metal: E, ν, α, σ_y, H_i, H_k.
 const MATERIALS: [[f64; 6]; 9] = [

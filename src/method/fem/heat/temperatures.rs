@@ -2,7 +2,7 @@
 
 use faer::Mat;
 
-use super::class::{dot, multiply};
+use super::class::{Class, dot, multiply};
 use super::depth::DepthModes;
 use super::{HeatProblem, is_zero};
 use crate::math::separable::{
@@ -65,23 +65,15 @@ impl<D: DepthModes> HeatProblem<D> {
     /// Returns the temperature above the initial one at all nodes, class by class [K]; empty for a class that is zero.
     /// Nodes on interfaces are listed twice.
     pub fn nodal(&self, state: &[f64], faces: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        let parts = self.contents(state).zip(faces).zip(&self.classes);
-        parts
-            .map(|((content, values), class)| {
-                if is_zero(content, values) {
-                    return Vec::new();
-                }
-                let content = self.effective(class, content, values);
-                let mixed = self.depth.to_mixed(class, &content);
-                let [x, y] = class.lateral.each_ref().map(|modes| &modes.shapes);
-                let mut nodal = transform(&mixed, [x, y, self.depth.basis()], Side::Direct);
-                for f in self.prescribed() {
-                    let b = class.drives[f].boundary.each_ref().map(Vec::as_slice);
-                    add_product(&mut nodal, values[f], b);
-                }
-                nodal
-            })
-            .collect()
+        self.of_classes(state, faces, |class, mixed, values| {
+            let [x, y] = class.lateral.each_ref().map(|modes| &modes.shapes);
+            let mut nodal = transform(mixed, [x, y, self.depth.basis()], Side::Direct);
+            for f in self.prescribed() {
+                let b = class.drives[f].boundary.each_ref().map(Vec::as_slice);
+                add_product(&mut nodal, values[f], b);
+            }
+            nodal
+        })
     }
 
     /// Returns nodal temperatures multiplied by a matrix along z, each of whose rows weights the nodes there. The
@@ -92,6 +84,25 @@ impl<D: DepthModes> HeatProblem<D> {
         crate::math::product::product(&mut product, rows.as_ref(), basis.as_ref());
         let of_basis =
             Mat::from_fn(rows.nrows(), basis.ncols(), |i, k| product[i + rows.nrows() * k]);
+        self.of_classes(state, faces, |class, mixed, values| {
+            let [x, y] = class.lateral.each_ref().map(|modes| &modes.shapes);
+            let mut planes = transform_planes(&transform_depth(mixed, &of_basis), [x, y]);
+            for f in self.prescribed() {
+                let [x, y, z] = &class.drives[f].boundary;
+                add_product(&mut planes, values[f], [x, y, &multiply(rows, z)]);
+            }
+            planes
+        })
+    }
+
+    /// Evaluates each class from its coefficients in the basis along z and its face values; empty for a class that is
+    /// zero.
+    fn of_classes(
+        &self,
+        state: &[f64],
+        faces: &[Vec<f64>],
+        evaluate: impl Fn(&Class<D::Columns>, &[f64], &[f64]) -> Vec<f64>,
+    ) -> Vec<Vec<f64>> {
         let parts = self.contents(state).zip(faces).zip(&self.classes);
         parts
             .map(|((content, values), class)| {
@@ -99,15 +110,7 @@ impl<D: DepthModes> HeatProblem<D> {
                     return Vec::new();
                 }
                 let content = self.effective(class, content, values);
-                let mixed = self.depth.to_mixed(class, &content);
-                let [x, y] = class.lateral.each_ref().map(|modes| &modes.shapes);
-                let mut planes = transform_planes(&transform_depth(&mixed, &of_basis), [x, y]);
-                for f in self.prescribed() {
-                    let [x, y, z] = &class.drives[f].boundary;
-                    let z = multiply(rows, z);
-                    add_product(&mut planes, values[f], [x, y, &z]);
-                }
-                planes
+                evaluate(class, &self.depth.to_mixed(class, &content), values)
             })
             .collect()
     }

@@ -1,3 +1,5 @@
+//! The corrected second-order operator, exact for quadratic temperatures.
+
 use super::{Neighbour, Renormalisation, Tensor, dot, renormalisation, square, times};
 use crate::math::small_inverse::inverse;
 

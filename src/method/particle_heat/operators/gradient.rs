@@ -1,3 +1,5 @@
+//! The corrected gradient, exact for linear temperatures.
+
 use super::{Neighbour, Tensor, times};
 use crate::math::small_inverse::inverse;
 

@@ -1,3 +1,5 @@
+//! The plain second-order operator, without correction.
+
 use super::{Neighbour, Tensor, dot, square, times};
 
 /// Coefficients of `K : ∇∇f`, `c_j = k w [(d + 2) e·K·e − tr K]`, in d dimensions. For K = 1 they are
