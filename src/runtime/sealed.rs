@@ -145,6 +145,6 @@ mod tests {
         assert_eq!(beyond, "the list is cut off");
         let other = Format { magic: b"IMPTST02", ..FORMAT };
         let said = other.open(&bytes, list).unwrap_err();
-        assert_eq!(said, "this is no list of numbers, or one of another version");
+        assert_eq!(said, "not a list of numbers, or one of another version");
     }
 }

@@ -231,6 +231,20 @@ fn what_cells_got_is_what_the_drop_gave() {
 }
 
 /// Drops far apart give what each gives alone, wherever they are.
+/// A film that spreads beyond a disc pushes to all sides alike.
+#[test]
+fn momentum_along_a_disc_is_zero_beyond_its_edge_too() {
+    for method in ["film", "record"] {
+        let disc = "shape = { disc = { radius = 6e-5, thickness = 1e-4 } }";
+        let plate = plate(300.0, "").replace("shape = { box = [1e-3, 1e-3, 1e-4] }", disc);
+        let mut trial = Trial::new(&(drop(method, "") + &plate.replace("radius = 1.5e-4\n", "")));
+        steps(&mut trial, 40);
+        assert_eq!(get(&mut trial, ["impulse_x", "impulse_y"]), [0.0; 2], "{method}");
+        let [outside, spread] = get(&mut trial, ["force_outside", "spread_diameter"]);
+        assert!(outside != 0.0 && spread > 1.2e-4, "{method}: {outside} {spread}");
+    }
+}
+
 #[test]
 fn drops_are_superposed() {
     let heat = |arrivals: &str| {

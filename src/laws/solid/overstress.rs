@@ -178,8 +178,8 @@ mod tests {
                         let Parted { flow, overstress, share } = law.part(e, m);
                         let case = format!("{exponent} {logarithm} {e} {breakdown}");
                         let sum = overstress + m * flow;
-                        let rounding =
-                            1e-15 * (1.0 + law.exponent_at(overstress) + logarithm.abs());
+                        let logarithms = logarithm.abs() + exponent * overstress.ln().abs();
+                        let rounding = 1e-15 * (1.0 + law.exponent_at(overstress) + logarithms);
                         assert!((sum / e - 1.0).abs() < 1e-13 + rounding, "{case}: {sum}");
                         assert!(
                             flow >= 0.0 && overstress >= 0.0 && (0.0..=1.0).contains(&share),

@@ -142,7 +142,7 @@ impl Replay {
         ledger.heat += exchange.heat.iter().sum::<f64>() + exchange.heat_outside;
         for axis in 0..3 {
             let given: f64 = exchange.impulse.iter().map(|impulse| impulse[axis]).sum();
-            ledger.impulse[axis] += self.cartesian(given, axis) + exchange.impulse_outside[axis];
+            ledger.impulse[axis] += self.cartesian(given + exchange.impulse_outside[axis], axis);
         }
         *state = flatten(&mut ledger, &mut drops);
         (exchange, falls)
