@@ -54,7 +54,7 @@ python-test: build $(VENV)/ready
 pytest:
 	$(BIN)/ruff check $(PY_FILES)
 	$(BIN)/ruff format --check $(PY_FILES)
-	IMPINGE_BIN=$(RELEASE) $(BIN)/python -m pytest tests/fmpy tests/python --numprocesses auto --maxprocesses 4 --dist worksteal
+	IMPINGE_BIN=$(CURDIR)/$(RELEASE) $(BIN)/python -m pytest tests/fmpy tests/python --numprocesses auto --maxprocesses 4 --dist worksteal
 
 SECONDS ?= 600
 
