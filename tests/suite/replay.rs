@@ -238,9 +238,13 @@ fn momentum_along_a_disc_is_zero_beyond_its_edge_too() {
         let disc = "shape = { disc = { radius = 6e-5, thickness = 1e-4 } }";
         let plate = plate(300.0, "").replace("shape = { box = [1e-3, 1e-3, 1e-4] }", disc);
         let mut trial = Trial::new(&(drop(method, "") + &plate.replace("radius = 1.5e-4\n", "")));
-        steps(&mut trial, 40);
-        assert_eq!(get(&mut trial, ["impulse_x", "impulse_y"]), [0.0; 2], "{method}");
-        assert!(trial.get("drop.spread_diameter") > 1.2e-4, "{method}");
+        let mut widest = 0.0_f64;
+        for _ in 0..40 {
+            trial.step(STEP);
+            widest = widest.max(trial.get("drop.spread_diameter"));
+            assert_eq!(get(&mut trial, ["impulse_x", "impulse_y"]), [0.0; 2], "{method}");
+        }
+        assert!(widest > 1.2e-4, "{method}: {widest}");
     }
 }
 

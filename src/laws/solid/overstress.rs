@@ -27,6 +27,8 @@ pub struct Parted {
 const MOST_ITERATIONS: usize = 100;
 /// Argument from which on sinh is an exponential to rounding.
 const LARGE: f64 = 20.0;
+/// Argument up to which sinh is its argument to rounding.
+const SMALL: f64 = 1e-8;
 
 impl Overstress {
     /// Rate-independent flow, without overstress.
@@ -53,7 +55,14 @@ impl Overstress {
             return overstress.ln();
         }
         let u = overstress / self.breakdown;
-        self.breakdown.ln() + if u > LARGE { u - std::f64::consts::LN_2 } else { u.sinh().ln() }
+        if u > LARGE {
+            self.breakdown.ln() + u - std::f64::consts::LN_2
+        } else if u > SMALL {
+            // Without the difference of two large logarithms.
+            overstress.ln() + (u.sinh() / u).ln()
+        } else {
+            overstress.ln()
+        }
     }
 
     /// Overstress [Pa] at which the logarithm of the flow has a value.
@@ -63,6 +72,9 @@ impl Overstress {
             return effective.exp();
         }
         let ratio = effective - self.breakdown.ln();
+        if ratio < SMALL.ln() {
+            return effective.exp();
+        }
         let u = if ratio > LARGE { ratio + std::f64::consts::LN_2 } else { ratio.exp().asinh() };
         self.breakdown * u
     }
