@@ -16,10 +16,10 @@ pub struct Yielding {
         .otherwise("0 of `viscoplastic`; `elastoplastic` needs it"))]
     pub yield_stress: Option<Property>,
     /// Growth of that per plastic strain [Pa].
-    #[schemars(transform = not_negative("Pa", "").says(SOFTENS, "0 to 1e60").otherwise("0"))]
+    #[schemars(transform = not_negative("Pa", "the hardening").low(SOFTENS, "0 to 1e60").otherwise("0"))]
     pub isotropic_hardening: Option<Property>,
     /// Motion of the middle of elasticity per plastic strain [Pa].
-    #[schemars(transform = not_negative("Pa", "").says(SOFTENS, "0 to 1e60").otherwise("0"))]
+    #[schemars(transform = not_negative("Pa", "the hardening").low(SOFTENS, "0 to 1e60").otherwise("0"))]
     pub kinematic_hardening: Option<Property>,
 }
 
