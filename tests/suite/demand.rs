@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::common::{Trial, off};
+use impinge::model::tolerance::warnings;
 use impinge::model::{ModelError, forecast};
 use impinge::scene;
 
@@ -325,6 +326,17 @@ fn states_that_contradict_the_count_are_refused() {
     forged.bodies[0][ledger + 1 + 6..][..6].fill(0.0);
     let refused = trial.model.check_state(&forged).unwrap_err().to_string();
     assert!(refused.contains("particles, where 2 drops have"), "{refused}");
+}
+
+/// Drops fall on the middle of a disc, and anywhere on a box.
+#[test]
+fn drops_that_may_miss_the_fine_mesh_are_warned_of() {
+    for (shape, wanted) in [(BOX, 1), ("disc = { radius = 3e-4, thickness = 2e-5 }", 0)] {
+        let scene = scene::parse(&(drop(ON_DEMAND) + &plate(shape)), "scene.toml").unwrap();
+        let found = warnings(&scene, &[]);
+        let of_landing = found.iter().filter(|warning| warning.to_string().contains("fine out to"));
+        assert_eq!(of_landing.count(), wanted, "{shape}");
+    }
 }
 
 #[test]

@@ -7,7 +7,7 @@ use super::watch::Watch;
 use super::{Below, DropletBody, totals};
 use crate::body::{Advice, Occasion, Reading};
 use crate::method::sph::WarmPlace;
-use crate::scene::{Coupling, Scene};
+use crate::scene::{Body, Coupling, Scene};
 use crate::warning::{self, Finding, Warning};
 
 /// Temperature that was set for a cell of a wall after a step with constant wall temperature.
@@ -108,7 +108,10 @@ impl Advice for DropletBody {
 pub fn warnings_on_landing(scene: &Scene) -> Vec<Warning> {
     let warning = |coupling: &Coupling| {
         let droplet = scene.droplet(&coupling.from)?;
-        let is_unknown = droplet.is_on_demand() && coupling.radius.is_none();
+        // On a disc drops fall on the middle, as other places are refused.
+        let is_round =
+            coupling.solid().and_then(|solid| scene.body.get(solid)).is_some_and(Body::is_round);
+        let is_unknown = droplet.is_on_demand() && coupling.radius.is_none() && !is_round;
         is_unknown.then(|| {
             let radius = format!("{:.1e}", fine_radius(coupling, droplet, scene.stop_time));
             warning::drops_may_miss_fine_mesh(&coupling.to, radius).at(&coupling.from)

@@ -391,6 +391,17 @@ impl Replay {
         }
     }
 
+    /// Returns true if the film of a drop reaches beyond the body on which drops land.
+    pub fn reaches_beyond(&self, state: &[f64]) -> bool {
+        let (ledger, drops) = self.of(state);
+        let radius =
+            |drop: &Drop| 0.5 * self.plan.course.spread(drop.speed, ledger.time - drop.contact);
+        let is_beyond = |drop: &Drop| {
+            (0..2).any(|axis| drop.place[axis].abs() + radius(drop) > self.plan.reach[axis])
+        };
+        drops.iter().any(|drop| drop.is_down() && is_beyond(drop))
+    }
+
     /// Refuses a vector that no run of these drops leads to, with the reason.
     pub fn check_state(&self, state: &[f64]) -> Result<(), String> {
         let rings = self.plan.course.rings();

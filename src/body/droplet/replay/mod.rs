@@ -278,9 +278,10 @@ impl Advice for ReplayBody {
     fn warnings(&self, state: &[f64], occasion: Occasion) -> Vec<Warning> {
         let found = match occasion {
             Occasion::Step => {
-                let films = self.replay.most_films(state);
-                let is_beyond = films > MEASURED_FILMS;
-                is_beyond.then(|| warning::films_stack(MEASURED_FILMS)).into_iter().collect()
+                let is_stacked = self.replay.most_films(state) > MEASURED_FILMS;
+                let stacked = is_stacked.then(|| warning::films_stack(MEASURED_FILMS));
+                let over_edge = self.replay.reaches_beyond(state).then(warning::fluid_beyond_edge);
+                stacked.into_iter().chain(over_edge).collect()
             }
             Occasion::Response { .. } => Vec::new(),
             Occasion::End => self.findings_at_end(state),
