@@ -29,9 +29,10 @@ units: build ## pack every example that is one unit into out/
 examples: units $(VENV)/ready ## run every example
 	@set -e; for name in $(EXAMPLES); do echo "== $$name"; $(BIN)/python examples/$$name/run.py; done
 
-# Once all is built, tests in Python fill the cores while the compiler of further Rust tests leaves them idle.
+# Once all is built, tests in Python fill the cores while the compiler of further Rust tests leaves them idle. A failure
+# of one does not cut the other short.
 test: build $(VENV)/ready ## everything that is fast
-	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target rust-test pytest
+	@$(MAKE) --no-print-directory --jobs=2 --keep-going --output-sync=target rust-test pytest
 
 # All test programs but that of `make verify`.
 FOLDERS := $(notdir $(patsubst %/main.rs,%,$(wildcard tests/*/main.rs cli/tests/*/main.rs)))
