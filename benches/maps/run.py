@@ -51,7 +51,7 @@ def line(message: str) -> str:
 
 LIMIT = 600.0  # s, for one cell
 UNSHOWN = ROOT / "out/maps"
-"""Where the pictures of maps go that no document shows."""
+"""Folder for the pictures of maps that no document shows."""
 
 
 def in_own_process(name: str, x: float, y: float, is_search: bool) -> Cell:

@@ -32,7 +32,7 @@ impl Body {
         }
     }
 
-    /// Inputs beside those of loads, faces and walls.
+    /// Inputs other than those of loads, faces and walls.
     pub fn inputs(&self) -> Vec<BodyInput> {
         match self {
             Body::Solid(_) => Vec::new(),

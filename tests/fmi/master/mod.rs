@@ -1,4 +1,4 @@
-//! A small master of both versions: loads the library, unpacks the test scene, records what the logger is told.
+//! A small master of both versions: loads the library, unpacks the test scene, records the log.
 
 pub mod three;
 pub mod two;

@@ -1,4 +1,4 @@
-"""What several maps of solids share."""
+"""Plates and loads that several maps of solids share."""
 
 import math
 
