@@ -148,7 +148,10 @@ mod tests {
 
     #[test]
     fn reserve_blocks_are_distinct_and_coalesce_when_freed() {
-        let reserve = Reserve { room: UnsafeCell::new([0; SIZE]), used: AtomicU64::new(0) };
+        // The stack of a test is too short for it.
+        static RESERVE: Reserve =
+            Reserve { room: UnsafeCell::new([0; SIZE]), used: AtomicU64::new(0) };
+        let reserve = &RESERVE;
         let layout = |size, align| Layout::from_size_align(size, align).unwrap();
         for _ in 0..3 {
             let small = reserve.take(layout(3, 1));

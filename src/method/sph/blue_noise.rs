@@ -137,7 +137,7 @@ mod tests {
     #[test]
     fn density_is_about_one_point_per_cell() {
         for (dimension, volume) in [(2, PI), (3, 4.0 * PI / 3.0)] {
-            let spacing = [0.02, 0.08][dimension - 2];
+            let spacing = [0.03, 0.1][dimension - 2];
             let points = place(1.0, spacing, dimension);
             let filled = points.len() as f64 * spacing.powi(dimension as i32) / volume;
             assert!((filled - 1.0).abs() < 0.05, "{dimension}-D: {filled}");

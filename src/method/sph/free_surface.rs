@@ -287,7 +287,7 @@ mod tests {
             let (setting, cloud) = lump(cosine);
             let (all, _) = pulls(&setting, &cloud);
             let mass: f64 = cloud.mass.iter().sum();
-            for i in [0, 7, 30, 71] {
+            for i in [0, 30] {
                 for a in 0..3 {
                     let moved = |step: f64| {
                         let mut cloud = cloud.clone();
@@ -327,8 +327,8 @@ mod tests {
     fn points_remain_valid_while_the_fluid_moves() {
         let (setting, mut cloud) = lump(0.0);
         let (team, mut surface) = (Team::new(1), FreeSurface::default());
-        for step in 0..30 {
-            let way = [0.0, 0.3, if step < 15 { 0.01 } else { -0.01 }];
+        for step in 0..12 {
+            let way = [0.0, 0.3, if step < 6 { 0.01 } else { -0.01 }];
             let displacements = Displacements::along(&vec![way; cloud.len()], 30.0, &team);
             surface.prepare(&setting, &cloud, &displacements, &team);
             cloud.position.iter_mut().for_each(|x| (0..3).for_each(|a| x[a] += way[a]));

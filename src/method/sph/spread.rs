@@ -187,7 +187,7 @@ mod tests {
 
     #[test]
     fn one_more_particle_changes_the_diameter_little() {
-        let mut places = lattice(22.0, 1.0, 0.0);
+        let mut places = lattice(15.0, 1.0, 0.0);
         places.sort_by(|a, b| a[0].hypot(a[1]).total_cmp(&b[0].hypot(b[1])));
         let mut before = spread_diameter(&places[..300], Film::Plane);
         for count in 301..=places.len() {
