@@ -1,14 +1,16 @@
-//! The command line: `impinge check SCENE`, `impinge run SCENE`, `impinge schema`. Reports go to standard output; errors, warnings and progress to standard
-//! error. Exit status: 0 done, 1 refused or failed, 2 wrong usage.
+//! The command line: `impinge check SCENE`, `impinge run SCENE`, `impinge schema`, `impinge substances`. Reports go to
+//! standard output; errors, warnings and progress to standard error. Exit status: 0 done, 1 refused or failed, 2 wrong usage.
 
 mod check;
 mod error;
 mod idle;
 mod inputs;
 mod patience;
+mod ranges;
 mod run;
 mod schema;
 mod set;
+mod substances;
 mod summary;
 mod table;
 mod units;
@@ -35,6 +37,7 @@ enum Command {
     Check(check::Check),
     Run(run::Run),
     Schema(schema::Schema),
+    Substances(substances::Substances),
 }
 
 fn main() -> ExitCode {
@@ -43,6 +46,7 @@ fn main() -> ExitCode {
         Command::Check(command) => command.execute(),
         Command::Run(command) => command.execute(),
         Command::Schema(command) => command.execute(),
+        Command::Substances(command) => command.execute(),
     };
     match report.and_then(|report| print(&report)) {
         Ok(()) => ExitCode::SUCCESS,
