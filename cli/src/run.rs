@@ -239,8 +239,9 @@ impl Run {
         let forecast = model::forecast(scene);
         let files = FilesForecast::of(scene, &forecast, [rows, times], self.discs());
         let folder = self.folder(scene);
+        let word = if files.count == 1 { "file" } else { "files" };
         format!(
-            "writes {} files, about {}, in {}",
+            "writes {} {word}, about {}, in {}",
             files.count,
             megabytes(files.bytes),
             folder.display()

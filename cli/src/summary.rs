@@ -1,4 +1,3 @@
-
 use impinge::body::{PeakPart, Reading};
 use impinge::model::{Cache, Model, ModelError, State};
 use impinge::scene::Scene;
