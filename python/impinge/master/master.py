@@ -493,7 +493,7 @@ class Master:
             told["acceleration"] = self.acceleration
         for name, participant in self.participants.items():
             told[f"unit_steps.{name}"] = participant.steps
-            told[f"unit.{name}"] = f"{participant.unit.name} {participant.unit.package.digest[:16]}"
+            told[f"unit.{name}"] = participant.unit.identity
         for balance in self._balances:
             told[f"energy_residual.{balance.name}"] = balance.largest / (balance.moved or 1.0)
         return told
