@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from typing import NamedTuple
+
+from impinge.proposal import proposal
 
 BASE = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
 _MOST = 9  # of an exponent
@@ -171,17 +172,14 @@ def _symbol(name: str, text: str) -> Measure:
         return known
     base = _PREFIXED.get(name[1:])
     if base is None or name[0] not in _PREFIXES:
-        raise _fault(text, f"`{name}` is no unit that is known here{_proposal(name)}")
+        raise _fault(text, f"`{name}` is no unit that is known here{_hint(name)}")
     return base._replace(factor=_PREFIXES[name[0]] * base.factor)
 
 
-def _proposal(name: str) -> str:
+def _hint(name: str) -> str:
     names = [*_PLAIN, *_PREFIXED]
-    near = [each for each in names if each.lower() == name.lower()]
-    near = near or difflib.get_close_matches(name, names, n=3)
-    if near:
-        return f"; is it {' or '.join(f'`{each}`' for each in near)}?"
-    return f" (allowed: {', '.join(_PLAIN)}, and with prefixes {', '.join(_PREFIXED)})"
+    allowed = f" (allowed: {', '.join(_PLAIN)}, and with prefixes {', '.join(_PREFIXED)})"
+    return proposal(name, names) or allowed
 
 
 def _joined(factors: list[tuple[Measure, int]], text: str) -> Measure:

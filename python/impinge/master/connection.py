@@ -8,9 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from impinge.function import FunctionUnit
+from impinge.master.any_unit import AnyUnit
 from impinge.master.errors import MasterError
 from impinge.measure import Measure, conversion, parse
-from impinge.unit import Unit, Variable
+from impinge.unit import Variable
 
 
 @dataclass(frozen=True)
@@ -46,7 +48,7 @@ class Link:
     `place` are the target's places among all inputs that the master sets.
     """
 
-    def __init__(self, connection: Connection, units: Mapping[str, Unit]):
+    def __init__(self, connection: Connection, units: Mapping[str, AnyUnit]):
         self.connection = connection
         self.source_unit, self.source = split(connection.source, units)
         self.target_unit, self.target = split(connection.target, units)
@@ -62,7 +64,13 @@ class Link:
         self._gain = gain if is_before else gain * factor
         self._offset = offset if is_before else offset + gain * shift
         self.is_plain = not connection.map and (self._gain == 1).all() and not self._offset.any()
-        self.is_real = source.is_real and target.is_real and target.variability == "continuous"
+        # Others hold over steps what they are at their beginning.
+        self.is_real = (
+            source.is_real
+            and target.is_real
+            and target.variability == "continuous"
+            and source.variability != "discrete"
+        )
         told = units[self.source_unit].is_mean(self.source)
         self.is_mean = told if connection.mean is None else connection.mean
         self.nominal = abs(target.nominal)
@@ -85,7 +93,7 @@ class Link:
             )
 
     def _conversion(
-        self, source: Variable, target: Variable, units: Mapping[str, Unit]
+        self, source: Variable, target: Variable, units: Mapping[str, AnyUnit]
     ) -> tuple[float, float]:
         """Factor and shift from the unit of measurement of what is passed on to the target's."""
         given, what = self.connection.unit, f"{self.connection.source} -> {self.connection.target}"
@@ -140,7 +148,7 @@ def _parsed(unit: str, what: str) -> Measure:
         raise MasterError(f"{what}: {error}") from None
 
 
-def links(connections: Iterable[Any], units: Mapping[str, Unit]) -> list[Link]:
+def links(connections: Iterable[Any], units: Mapping[str, AnyUnit]) -> list[Link]:
     """Connections, or pairs of names, as links between these units."""
     found = []
     for each in connections:
@@ -152,10 +160,27 @@ def links(connections: Iterable[Any], units: Mapping[str, Unit]) -> list[Link]:
         if target in targets:
             raise MasterError(f"{target} is the target of two connections")
         targets.add(target)
+    _pass_means_on(found, units)
     return found
 
 
-def split(name: str, units: Mapping[str, Unit]) -> tuple[str, str]:
+def _pass_means_on(links: list[Link], units: Mapping[str, AnyUnit]) -> None:
+    """What a function without a state makes of means alone belongs to the whole step, too."""
+    memoryless = {
+        name
+        for name, unit in units.items()
+        if isinstance(unit, FunctionUnit) and not unit.function.has_state
+    }
+    open_links = [
+        link for link in links if link.source_unit in memoryless and link.connection.mean is None
+    ]
+    for _ in links:  # as many as a chain of functions can have
+        for link in open_links:
+            given = [each.is_mean for each in links if each.target_unit == link.source_unit]
+            link.is_mean = bool(given) and all(given)
+
+
+def split(name: str, units: Mapping[str, AnyUnit]) -> tuple[str, str]:
     """The unit and the variable that `unit.variable` names."""
     unit, dot, variable = name.partition(".")
     if not dot or unit not in units:

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from impinge.errors import UnitError
+from impinge.master.any_unit import AnyUnit
 from impinge.master.connection import Link, split
 from impinge.master.errors import MasterError
 from impinge.measure import BASE, KELVIN
-from impinge.unit import Unit
 
 _NOT_M = [0, 2, 3, 4, 5, 6]  # metres are counted by themselves, and radians are pure numbers
 _POWER = np.array([1, -3, 0, 0, 0, 0])
@@ -57,7 +57,7 @@ class Balance:
     S. Sadjina, L. Kyllingstad, S. Skjong, E. Pedersen (2017), doi 10.1007/s00366-016-0492-8.
     """
 
-    def __init__(self, given: Bond, links: list[Link], units: Mapping[str, Unit]):
+    def __init__(self, given: Bond, links: list[Link], units: Mapping[str, AnyUnit]):
         self.name = given.flux if given.effort is None else f"{given.flux}*{given.effort}"
         self.link = _link(given.flux, links)
         self.effort = None
@@ -112,7 +112,7 @@ class Balance:
         return self.largest / (self.high - self.low) if self.high > self.low else 0.0
 
 
-def powers(links: Sequence[Link], units: Mapping[str, Unit]) -> list[Balance]:
+def powers(links: Sequence[Link], units: Mapping[str, AnyUnit]) -> list[Balance]:
     """Balances of all pairs of connections to and fro whose product is a power, as forces and
     velocities, where both are known to be by their units of measurement."""
     sources = [link.connection.source for link in links]
@@ -143,7 +143,7 @@ def _link(name: str, links: list[Link]) -> Link:
     raise MasterError(f"energy: {name} is the end of no connection")
 
 
-def _check(given: Bond, link: Link, effort: Link | None, units: Mapping[str, Unit]) -> None:
+def _check(given: Bond, link: Link, effort: Link | None, units: Mapping[str, AnyUnit]) -> None:
     """Refuses what is no power, or none per area, length or volume, as far as units of measurement
     are known; and a total that is no energy."""
     found = _exponents(given.flux, units, link)
@@ -161,7 +161,9 @@ def _check(given: Bond, link: Link, effort: Link | None, units: Mapping[str, Uni
         raise MasterError(f"energy: the total {given.total} is in {_written(total)}, not in J")
 
 
-def _exponents(name: str, units: Mapping[str, Unit], link: Link | None = None) -> np.ndarray | None:
+def _exponents(
+    name: str, units: Mapping[str, AnyUnit], link: Link | None = None
+) -> np.ndarray | None:
     """Of a variable's unit of measurement, as far as it is known; of what a link's map returns
     where that changes it."""
     unit, variable = split(name, units)
@@ -171,7 +173,7 @@ def _exponents(name: str, units: Mapping[str, Unit], link: Link | None = None) -
     return None if found is None else np.array(found.exponents)
 
 
-def _is_temperature(name: str, units: Mapping[str, Unit]) -> bool:
+def _is_temperature(name: str, units: Mapping[str, AnyUnit]) -> bool:
     unit, variable = split(name, units)
     found = _exponents(name, units)
     if found is None:
@@ -179,7 +181,7 @@ def _is_temperature(name: str, units: Mapping[str, Unit]) -> bool:
     return tuple(found) == KELVIN.exponents
 
 
-def _factor(link: Link, units: Mapping[str, Unit]) -> float:
+def _factor(link: Link, units: Mapping[str, AnyUnit]) -> float:
     """What one of the target's unit of measurement is in SI's."""
     unit = units[link.target_unit]
     found = unit.measure(unit.variable(link.target).unit)
@@ -192,7 +194,7 @@ def _written(found: np.ndarray) -> str:
     )
 
 
-def _area(given: Bond, link: Link, units: Mapping[str, Unit]) -> np.ndarray:
+def _area(given: Bond, link: Link, units: Mapping[str, AnyUnit]) -> np.ndarray:
     if given.area is not None:
         return np.broadcast_to(np.asarray(given.area, float).ravel(), (link.size,))
     for unit, variable in ((link.target_unit, link.target), (link.source_unit, link.source)):

@@ -34,6 +34,11 @@ class Component:
         real = [np.full(k.size, k.is_real) for k in self.guessed]
         self.real = np.concatenate(real) if real else np.zeros(0, bool)
 
+    @property
+    def has_guesses_left(self) -> bool:
+        """Whether targets may stand at guesses after a step: those that were not iterated."""
+        return bool(self.guessed) and not (self.iterates and self.real.all())
+
 
 class NoConvergence(Exception):
     """A step whose iterations found no end."""
@@ -149,6 +154,7 @@ class Engine:
         if self._extrapolated.any():
             own = waveform.path(self.history.last(self.extrapolation + 1), end)[0]
             guess[self._extrapolated] = own[self._extrapolated]
+        guess[self._discrete] = self.history.nodes[-1][1][self._discrete]
         return guess
 
     def _sweep(
@@ -296,14 +302,15 @@ class Engine:
 
     def given(self, end: float, size: float) -> np.ndarray:
         """Means over the last step of what outputs say: of the polynomials through their values,
-        or what they are where they are means."""
+        or what they are where they are means, or were where they hold over steps."""
         nodes = [*self.history.last(max(self.order, 1)), (end, self.true)]
         means = waveform.mean(*waveform.path(nodes, end - size), size)
-        return np.where(self._whole | self._stale, self.true, means)
+        means = np.where(self._whole | self._stale, self.true, means)
+        return np.where(self._discrete, self.history.nodes[-1][1], means)
 
     def accept(self, end: float) -> None:
-        """Goes on from the step's end. Iterated paths go on from where they ended, others from
-        what outputs say."""
+        """Goes on from the step's end. Iterated paths go on from where they ended, others, and
+        whole numbers and the like, from what outputs say."""
         if self._stale.any():  # what was not known at the beginning counts from now on
             first = self.history.nodes[-1]
             first[1][self._stale] = self.guess[self._stale]
@@ -312,7 +319,8 @@ class Engine:
         self.inputs[:] = self.true
         for component in self.components:
             if component.iterates:
-                self.inputs[component.places] = self.guess[component.places]
+                places = component.places[component.real]
+                self.inputs[places] = self.guess[places]
         self.history.add(end, self.inputs)
 
 

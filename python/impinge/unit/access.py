@@ -172,7 +172,7 @@ class Writer(Access):
                 pass  # an integer that no float64 holds
         for variable, place, value in zip(self.variables, self.slices, values, strict=True):
             try:
-                array = _real(value)
+                array = real_values(value)
                 whole = array.size == variable.size and array.shape in (
                     variable.shape,
                     (array.size,),
@@ -185,13 +185,13 @@ class Writer(Access):
                 raise UnitError(f"`{variable.name}` takes {shape}, not {_tell(value)}") from error
 
 
-def _real(value: Any) -> np.ndarray:
+def real_values(value: Any) -> np.ndarray:
     """Real numbers alone: NumPy would make numbers of texts, and NaN of None."""
     array = np.asarray(value)
     if array.dtype.kind == "O" and all(isinstance(each, Real) for each in array.flat):
         array = array.astype(float)
     if array.dtype.kind not in "fiub":
-        raise TypeError(f"no real numbers: {array.dtype}")
+        raise TypeError(f"holds no real numbers, but {array.dtype}")
     return array.astype(float)
 
 

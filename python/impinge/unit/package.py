@@ -18,6 +18,7 @@ import fmpy
 
 from impinge.errors import UnitError
 from impinge.measure import BASE, Measure
+from impinge.proposal import proposal
 from impinge.reading import LARGEST_JSON, open_file, read_bytes, reading
 from impinge.unit import cells
 from impinge.unit.archive import open_archive, unpack
@@ -77,14 +78,9 @@ class Package:
             array = self.variables.get(stem_of(name))
             found = element_of(array, name) if array is not None else None
         if found is None:
-            raise UnitError(f"{self.name} has no variable `{name}`{self._proposal(name)}")
+            near = proposal(name, [*self.variables, *self._elements])
+            raise UnitError(f"{self.name} has no variable `{name}`{near}")
         return found
-
-    def _proposal(self, name: str) -> str:
-        import difflib
-
-        near = difflib.get_close_matches(name, [*self.variables, *self._elements], n=3)
-        return f"; is it {' or '.join(f'`{word}`' for word in near)}?" if near else ""
 
     def measure(self, name: str | None) -> Measure | None:
         """The unit of measurement of this name, as far as the description defines it."""
