@@ -215,6 +215,7 @@ class Engine:
         middle: np.ndarray | None,
     ) -> None:
         places, real = component.places, component.real
+        iterated = places[real]
         component.acceleration.begin()
         last = self.history.nodes[-1][1][places]  # a guess that units have borne
         step = (component, time, end, size, middle)
@@ -225,16 +226,16 @@ class Engine:
             g = self.true[places]
             if not np.isfinite(g).all():
                 raise NoConvergence("values are not finite")
-            weight = self.weights(self.true)[places]
-            residual = np.abs(g - x) * weight
-            if (residual[real] <= tolerance).all():
+            weight = self.weights(self.true)[iterated]
+            residual = np.abs(g - x)[real] * weight
+            if (residual <= tolerance).all():
                 component.acceleration.end()
                 return
-            new = component.acceleration.next(x, g, weight)
-            self.guess[places] = np.where(real, new, x)
+            self.guess[places] = x
+            self.guess[iterated] = component.acceleration.next(x[real], g[real], weight)
             last = x
         raise NoConvergence(
-            f"the residual is {residual[real].max():.2g}, not {tolerance:.2g}, of the scale after"
+            f"the residual is {residual.max():.2g}, not {tolerance:.2g}, of the scale after"
             f" {self.max_iterations} iterations"
         )
 
