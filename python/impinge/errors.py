@@ -43,7 +43,7 @@ class FunctionError(UnitError):
     """
 
     def __init__(
-        self, what: str, function: str, time: float | None = None, variable: str | None = None
+        self, what: str, function: str = "", time: float | None = None, variable: str | None = None
     ):
         super().__init__(what)
         self.function, self.time, self.variable = function, time, variable

@@ -61,7 +61,7 @@ class Function:
     ):
         self.name = _name(f) if name is None else name
         if not callable(f):
-            raise FunctionError(f"{self.name}: {f!r} is no function", self.name)
+            raise self._fault(f"{f!r} is no function")
         self.f, self.rollback, self.sampled, self.state = f, rollback, sampled, state
         self._check_names(inputs, outputs)
         self.takes = read_signature(self.name, f, inputs)
@@ -72,18 +72,10 @@ class Function:
             self._variable(each, outputs[each], "output", variability) for each in outputs
         ]
         self.variables = {variable.name: variable for variable in self._started(variables, start)}
+        self.inputs = {n: v for n, v in self.variables.items() if v.causality == "input"}
+        self.outputs = {n: v for n, v in self.variables.items() if v.causality == "output"}
         self.started = frozenset(start or ())
         self.dependencies = self._dependencies(depends_on or {})
-
-    @property
-    def inputs(self) -> dict[str, Variable]:
-        """Inputs by name."""
-        return {n: v for n, v in self.variables.items() if v.causality == "input"}
-
-    @property
-    def outputs(self) -> dict[str, Variable]:
-        """Outputs by name."""
-        return {n: v for n, v in self.variables.items() if v.causality == "output"}
 
     @property
     def has_state(self) -> bool:
@@ -112,7 +104,7 @@ class Function:
     # What is declared
 
     def _fault(self, what: str, variable: str | None = None) -> FunctionError:
-        return FunctionError(f"{self.name}: {what}", self.name, variable=variable)
+        return FunctionError(f"Function {self.name}: {what}", self.name, variable=variable)
 
     def _check_names(self, inputs: Mapping[str, Any], outputs: Mapping[str, Any]) -> None:
         for what, given in (("inputs", inputs), ("outputs", outputs)):
@@ -225,7 +217,7 @@ class Function:
 def _name(f: Any) -> str:
     inner = getattr(f, "func", f)  # of functools.partial
     name = getattr(inner, "__name__", type(inner).__name__)
-    return "function" if name == "<lambda>" else name
+    return "lambda" if name == "<lambda>" else name
 
 
 def _written(variable: Variable) -> str:

@@ -12,7 +12,12 @@ from impinge.proposal import proposal
 # Parameters that have a meaning of their own, if a function has them
 STATE, TIME, STEP, BEFORE = "state", "time", "step", "before"
 RESERVED = (STATE, TIME, STEP, BEFORE)
-_BY_NAME = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
+_SINGLE = (
+    inspect.Parameter.POSITIONAL_ONLY,
+    inspect.Parameter.POSITIONAL_OR_KEYWORD,
+    inspect.Parameter.KEYWORD_ONLY,
+)
+_BY_NAME = _SINGLE[1:]
 
 
 def read_signature(name: str, f: Callable[..., Any], inputs: Collection[str]) -> set[str]:
@@ -24,32 +29,25 @@ def read_signature(name: str, f: Callable[..., Any], inputs: Collection[str]) ->
         parameters = inspect.signature(f).parameters.values()
     except (TypeError, ValueError) as error:
         raise FunctionError(
-            f"{name}: Python does not know the parameters of {f!r}: call it from a function whose"
-            " parameters are named as the inputs",
+            f"Function {name}: Python does not know the parameters of {f!r}: call it from a"
+            " function whose parameters are named as the inputs",
             name,
         ) from error
     taken = {p.name for p in parameters if p.kind in _BY_NAME}
-    takes_any = any(p.kind is inspect.Parameter.VAR_KEYWORD for p in parameters)
-    missing = [each for each in inputs if each not in taken]
-    needed = [
-        p.name
-        for p in parameters
-        if p.default is inspect.Parameter.empty
-        and p.kind not in (inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD)
-        and not (p.kind in _BY_NAME and p.name in (*inputs, *RESERVED))
-    ]
-    if missing and not takes_any:
-        raise FunctionError(
-            f"{name} has no parameter for its input `{missing[0]}`{proposal(missing[0], needed)}",
-            name,
-            variable=missing[0],
-        )
-    if needed:
-        raise FunctionError(
-            f"{name} takes `{needed[0]}`, which is none of its inputs"
-            f" {', '.join(inputs) or '(it has none)'}, nor {', '.join(RESERVED)}"
-            f"{proposal(needed[0], [*inputs, *RESERVED])}",
-            name,
-            variable=needed[0],
-        )
+    needed = [p for p in parameters if p.default is inspect.Parameter.empty and p.kind in _SINGLE]
+    unknown = [p.name for p in needed if p.name not in (*inputs, *RESERVED)]
+    for parameter in needed:
+        if parameter.kind is inspect.Parameter.POSITIONAL_ONLY:
+            told = f"takes `{parameter.name}` by position alone; inputs are passed by their names"
+            raise FunctionError(f"Function {name} {told}", name, variable=parameter.name)
+    if not any(p.kind is inspect.Parameter.VAR_KEYWORD for p in parameters):
+        for each in inputs:
+            if each not in taken:
+                told = f"has no parameter for its input `{each}`{proposal(each, unknown)}"
+                raise FunctionError(f"Function {name} {told}", name, variable=each)
+    for each in unknown:
+        known = ", ".join(inputs) or "(it has none)"
+        told = f"takes `{each}`, which is none of its inputs {known}, nor {', '.join(RESERVED)}"
+        near = proposal(each, [*inputs, *RESERVED])
+        raise FunctionError(f"Function {name} {told}{near}", name, variable=each)
     return taken & set(RESERVED)

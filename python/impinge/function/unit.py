@@ -114,11 +114,13 @@ class FunctionUnit:
 
     def variable(self, name: str) -> Variable:
         """The variable of this name, or the element `name[i,j]` of one, counted from 1."""
-        found = self.variables.get(name)
-        if found is None and stem_of(name) in self.variables:
-            found = element_of(self.variables[stem_of(name)], name)
+        found, array = self.variables.get(name), self.variables.get(stem_of(name))
+        if found is None and array is not None:
+            found = element_of(array, name)
         if found is None:
             near = proposal(name, self.variables)
+            if array is not None:
+                near = f"; `{array.name}` has the shape {array.shape}"
             raise UnitError(f"{self._label} has no variable `{name}`{near}")
         return found
 
