@@ -12,6 +12,7 @@ from impinge.function import FunctionUnit
 from impinge.master.any_unit import AnyUnit
 from impinge.master.errors import MasterError
 from impinge.measure import Measure, conversion, parse
+from impinge.proposal import proposal
 from impinge.unit import Variable
 
 
@@ -184,5 +185,8 @@ def split(name: str, units: Mapping[str, AnyUnit]) -> tuple[str, str]:
     """The unit and the variable that `unit.variable` names."""
     unit, dot, variable = name.partition(".")
     if not dot or unit not in units:
-        raise MasterError(f"`{name}` names none of the units {', '.join(units)}: unit.variable")
+        near = proposal(unit, units)
+        raise MasterError(
+            f"`{name}` names none of the units {', '.join(units)}: unit.variable{near}"
+        )
     return unit, variable
