@@ -213,6 +213,20 @@ def test_functions_without_rollback_are_refused_where_steps_are_taken_again(fold
         assert calls == pytest.approx([0.0, *[0.1] * 10])  # once at the start and once a step
 
 
+def test_functions_whose_outputs_nobody_reads_are_called_once_a_step():
+    """A log, say, at the start and at the end of each step."""
+    rows = []
+
+    def log(T, time, state):
+        rows.append((time, T))
+        return 0.0, state
+
+    once = Function(log, K, Q, state=rows, rollback=False)
+    with Master({"f": once}, step=0.25, inputs={"f.T": lambda time: 300.0 + time}) as master:
+        master.run(1.0)
+    assert rows == [(time, 300.0 + time) for time in (0.0, 0.25, 0.5, 0.75, 1.0)]
+
+
 def test_steps_that_a_function_refuses_are_shortened(folder):
     """x' = −40 √x from 1, by a law that has no value below 0: x = (1 − 20 t)²."""
     store = make(folder, "pool", [0.0], [1.0], [1.0], x=[1.0])

@@ -7,7 +7,6 @@ from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING, Any
-from weakref import WeakSet
 
 import numpy as np
 
@@ -56,7 +55,6 @@ class FunctionUnit:
         self.function, self.name = function, name
         self._label = name if name == function.name else f"{name} (function {function.name})"
         self.time = time
-        self.accesses: WeakSet[Any] = WeakSet()
         self._places: dict[int, slice] = {}
         count = 0
         for variable in self.variables.values():
@@ -253,10 +251,6 @@ class FunctionUnit:
         path[0][places], path[1][places] = before, means
         self._path = path
         self.values[places] = end
-
-    def step(self, size: float) -> None:
-        """Advances by `size` [s]."""
-        self.step_to(self.time + size)
 
     def step_to(self, time: float) -> None:
         """Advances to `time` [s], on what `follow` has set, or on inputs as they are."""

@@ -325,6 +325,7 @@ class Master:
         self._watch.begin(engine.inputs)
         for balance in self._balances:
             balance.begin()
+        self._settle()
         self._record.add(self.time, self._balances)
         self._has_begun = True
 
@@ -472,7 +473,13 @@ class Master:
         if is_jump:
             engine.begin(end)
             self._schedule.restart(end)
+        self._settle()
         self._record.add(end, self._balances)
+
+    def _settle(self) -> None:
+        """Functions whose outputs nobody reads count their steps, too."""
+        for function in self._functions:
+            function.settle()
 
     def _judge(self) -> None:
         """Warns, once, of steps that are too long for what rings of units pass on, or too few to
