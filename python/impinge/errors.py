@@ -35,6 +35,20 @@ class StepDiscarded(UnitError):
         self.terminated = terminated
 
 
+class FunctionError(UnitError):
+    """A `Function` does not fit what it declares, or fails; what it raised itself is the cause.
+
+    `function` is its name in the master, `time` [s] when it failed, None while it is made, and
+    `variable` the input or output at fault, if it is one.
+    """
+
+    def __init__(
+        self, what: str, function: str = "", time: float | None = None, variable: str | None = None
+    ):
+        super().__init__(what)
+        self.function, self.time, self.variable = function, time, variable
+
+
 class StudyError(ImpingeError, RuntimeError):
     """The folder of a study is in use, or holds files that are none of a study."""
 

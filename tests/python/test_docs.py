@@ -109,6 +109,36 @@ def test_the_plan_of_two_outputs_that_studies_tell_keeps_its_limits(monkeypatch,
     assert abs(made.outputs[-1, 0] - 333.15) < 1.0
 
 
+def test_functions_of_the_readme_cool_control_and_lag(tmp_path, monkeypatch, recwarn, capsys):
+    """The heat that the law takes is what the plate loses, the bed comes to 60 °C and stays near,
+    and the reading obeys τ T' = u − T."""
+    text = (ROOT / "python/README.md").read_text()
+    section = re.search(r"^## `Function`\n(.*?)^## ", text, re.M | re.S)[1]
+    (scene,) = re.findall(r"^```toml\n(.*?)^```$", section, re.M | re.S)
+    (tmp_path / "plate.toml").write_text(scene)
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    monkeypatch.chdir(tmp_path)
+    names = {}
+    blocks = re.findall(r"^```python\n(.*?)^```$", section, re.M | re.S)
+    assert len(blocks) == 3
+    for block in blocks:
+        exec(block, names)
+    assert [str(warning.message) for warning in recwarn] == []
+    assert len(capsys.readouterr().out.splitlines()) == 3
+    cooled, heated, late = names["cooled"], names["heated"], names["late"]
+    rings = cooled["plate.face.temperature"].values
+    stored = 2700.0 * 900.0 * np.pi * 50e-3**2 * 8e-3 * (rings[-1].mean() - 500.0)
+    assert cooled["energy_passed.air.heat_flux"].values[-1] == pytest.approx(stored, rel=1e-3)
+    assert 350.0 < rings[-1].min() and (np.diff(rings, axis=0) < 0.0).all()
+    temperatures = [each["bed.thermocouple.temperature"].values for each in (heated, late)]
+    assert [each[-1] for each in temperatures] == pytest.approx([333.15, 333.15], abs=0.01)
+    assert 333.2 < min(each.max() for each in temperatures)
+    assert max(each.max() for each in temperatures) < 334.0
+    reading = late["thermocouple.reading"].values
+    ahead = 8.0 * np.gradient(reading, late.time.values)
+    assert np.abs(reading + ahead - temperatures[1])[1:-1].max() < 0.1
+
+
 @pytest.mark.parametrize("page", ["README.md", "docs/first_study.md"])
 def test_first_scenes_pass_their_checks_without_a_warning(page, tmp_path):
     (scene,) = re.findall(r"```toml\n(.*?)```", (ROOT / page).read_text(), re.S)
