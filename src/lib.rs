@@ -82,6 +82,7 @@
 //! | [`limits`] | Bounds, plausible ranges and words of refusals for the numbers of scenes. |
 //! | [`warning`] | The table of warnings: id, occasion, message and remedy of each rule. |
 //! | [`channel`] | Amounts that loads carry through a face: heat flux, pressure, shear. |
+//! | [`substances`] | Library of substances: constants of solids and fluids with their sources. |
 //! | [`laws`] | Constitutive laws of solids, fluids and heat, each with its keys, limits and parameters. |
 //! | [`kernel`] | Smoothing kernels of particle methods. |
 //! | [`state`] | Named fields of the flat vectors that hold the states of bodies. |
@@ -127,6 +128,8 @@ pub mod limits;
 pub mod warning;
 
 pub mod channel;
+
+pub mod substances;
 
 pub mod laws;
 

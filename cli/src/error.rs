@@ -46,6 +46,10 @@ pub enum CliError {
     NoFolder { path: PathBuf },
     #[error("{} could be one of the files of the run; allowed: another folder (--out)", file.display())]
     ReadInFolder { file: PathBuf },
+    #[error(
+        "there is no substance `{name}`{hint}; allowed: a name that `impinge substances` lists"
+    )]
+    UnknownSubstance { name: String, hint: String },
     #[error("cannot print: {0}")]
     Print(io::Error),
 }

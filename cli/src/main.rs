@@ -1,5 +1,5 @@
-//! The command line: `impinge check SCENE`, `impinge run SCENE`, `impinge schema`. Reports go to standard output; errors, warnings and progress to standard
-//! error. Exit status: 0 done, 1 refused or failed, 2 wrong usage.
+//! The command line: `impinge check SCENE`, `impinge run SCENE`, `impinge schema`, `impinge substances`. Reports go to
+//! standard output; errors, warnings and progress to standard error. Exit status: 0 done, 1 refused or failed, 2 wrong usage.
 
 mod check;
 mod error;
@@ -9,6 +9,7 @@ mod patience;
 mod run;
 mod schema;
 mod set;
+mod substances;
 mod summary;
 mod table;
 mod units;
@@ -35,6 +36,7 @@ enum Command {
     Check(check::Check),
     Run(run::Run),
     Schema(schema::Schema),
+    Substances(substances::Substances),
 }
 
 fn main() -> ExitCode {
@@ -43,6 +45,7 @@ fn main() -> ExitCode {
         Command::Check(command) => command.execute(),
         Command::Run(command) => command.execute(),
         Command::Schema(command) => command.execute(),
+        Command::Substances(command) => command.execute(),
     };
     match report.and_then(|report| print(&report)) {
         Ok(()) => ExitCode::SUCCESS,

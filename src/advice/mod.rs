@@ -9,6 +9,7 @@ mod particles;
 mod phases;
 mod relations;
 mod resolution;
+mod substances;
 mod values;
 
 use crate::limits::number;
@@ -24,8 +25,8 @@ pub use resolution::{HeatError, Resolution};
 
 /// Reads and checks a scene's text, and warns of what is implausible in it.
 pub fn parse_with_warnings(text: &str, file: &str) -> Result<(Scene, Vec<Warning>), SceneError> {
-    let (source, schema) = (Source::parse(text, file)?, Schema::of_scenes());
-    let scene = scene::parse_located(&source, &schema)?;
+    let (mut source, schema) = (Source::parse(text, file)?, Schema::of_scenes());
+    let scene = scene::parse_located(&mut source, &schema)?;
     let found = found(&scene, (&source, true), &schema);
     Ok((scene, found))
 }
@@ -44,6 +45,7 @@ fn found(scene: &Scene, (source, names_lines): (&Source, bool), schema: &Schema)
     let cold = scene.cold();
     values::review(&mut reviewer, schema, cold);
     phases::review(&mut reviewer, cold);
+    substances::review(&mut reviewer, schema);
     relations::review(&mut reviewer);
     arrangement::review(&mut reviewer);
     particles::review(&mut reviewer);

@@ -9,6 +9,7 @@ use serde_json::Value;
 
 use super::solid::{Elasticity, FlowLaw};
 use super::{Conduction, Constants, Part, PartVisitor, Property, SolidLaw};
+use crate::substances;
 
 /// Thermal and mechanical law of a solid.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -88,6 +89,9 @@ impl JsonSchema for Material {
         let mut schema = SolidLaw::json_schema(generator);
         let models = schema.get_mut("oneOf").and_then(Value::as_array_mut);
         models.into_iter().flatten().for_each(|model| join(model, heat.as_value()));
+        if let Some(models) = schema.get_mut("oneOf").and_then(Value::as_array_mut) {
+            models.push(substances::schema());
+        }
         schema.insert(
             "description".into(),
             "Conduction and a constitutive law, with their constants.".into(),

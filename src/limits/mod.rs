@@ -104,9 +104,12 @@ pub const fn time(noun: &'static str) -> Limits {
     within(1e-30, 1e12, "s", noun).plausible(&plausible::TIME)
 }
 
+/// Noun of temperatures, as distinct from other constants in kelvin.
+pub const TEMPERATURE: &str = "a temperature";
+
 /// A temperature above absolute zero [K].
 pub const fn temperature() -> Limits {
-    let limits = within(0.0, 1e9, "K", "a temperature").low_open();
+    let limits = within(0.0, 1e9, "K", TEMPERATURE).low_open();
     limits.low("a temperature is above absolute zero", "> 0 (kelvin)")
 }
 

@@ -2,8 +2,9 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 use super::lookup::BodyInput;
 use super::recording::Recording;
@@ -15,6 +16,7 @@ use crate::limits::{
     Bounds, Limits, above_zero, length, own_temperature, plausible, temperature, whole, within,
 };
 use crate::quantity::Quantity;
+use crate::substances;
 
 /// Round drops of one fluid that arrive, along −z, above the plane z = 0.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -53,7 +55,8 @@ pub struct Droplet {
         .condition("required except with `method = \"film\"`; up to a sixth of the diameter, at most 2e7 particles")
         .otherwise("none"))]
     pub spacing: f64,
-    /// Fluid of the drops.
+    /// Fluid of the drops: a table, or the name of a substance of the library.
+    #[schemars(transform = or_substance)]
     pub fluid: Fluid,
     /// 3, or 2 for a plane model in x and z, whose totals are per metre of depth.
     #[serde(default = "three")]
@@ -347,6 +350,14 @@ pub fn velocity(speed: f64, angle: f64, direction: f64) -> [f64; 3] {
         _ => [cosine, sine],
     };
     [aside * x, aside * y, -down]
+}
+
+/// Lets a substance of the library stand for a fluid's constants.
+fn or_substance(schema: &mut Schema) {
+    if let Some(table) = schema.remove("$ref") {
+        let choices = json!([{ "$ref": table }, { "type": "string" }, substances::schema()]);
+        schema.insert("anyOf".into(), choices);
+    }
 }
 
 impl Droplet {

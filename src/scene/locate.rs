@@ -1,11 +1,15 @@
 //! Positions in a scene's text: maps the path of a value to its line and its source text.
 
+use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::fmt;
+use std::ops::Range;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{Problem, SceneError};
+use super::shorthand::NamedSubstance;
 
 /// Largest length of source text in a message.
 const LONGEST_VALUE: usize = 60;
@@ -95,6 +99,9 @@ pub struct Source<'a> {
     /// Positions of the line ends.
     ends: Vec<usize>,
     root: Spanned<DeValue<'a>>,
+    /// Numbers in SI units for which the text has a number with a unit.
+    numbers: BTreeMap<Path, f64>,
+    substances: Vec<NamedSubstance>,
 }
 
 impl<'a> Source<'a> {
@@ -104,7 +111,14 @@ impl<'a> Source<'a> {
         let root = Spanned::new(table.span(), DeValue::Table(table.into_inner()));
         let bytes = text.bytes().enumerate();
         let ends = bytes.filter(|&(_, byte)| byte == b'\n').map(|(at, _)| at).collect();
-        let source = Self { file: file.to_owned(), text, ends, root };
+        let source = Self {
+            file: file.to_owned(),
+            text,
+            ends,
+            root,
+            numbers: BTreeMap::new(),
+            substances: Vec::new(),
+        };
         let mut problems: Vec<_> = errors.iter().map(|error| source.not_toml(error)).collect();
         problems.dedup_by_key(|problem| problem.line);
         SceneError::unless_empty(problems)?;
@@ -119,6 +133,55 @@ impl<'a> Source<'a> {
     /// The value at `path`, if there is one.
     pub fn value(&self, path: &Path) -> Option<&DeValue<'a>> {
         self.node(&path.0).map(Spanned::get_ref)
+    }
+
+    /// The number for which the text at `path` has a text with a unit, in SI units.
+    pub fn number(&self, path: &Path) -> Option<f64> {
+        self.numbers.get(path).copied()
+    }
+
+    /// All such numbers.
+    pub fn numbers(&self) -> &BTreeMap<Path, f64> {
+        &self.numbers
+    }
+
+    /// Makes the text at `path` stand for a number.
+    pub fn set_number(&mut self, path: Path, value: f64) {
+        self.numbers.insert(path, value);
+    }
+
+    /// Substances of the library that the scene names.
+    pub fn substances(&self) -> &[NamedSubstance] {
+        &self.substances
+    }
+
+    /// Notes that the table of a substance has its constants.
+    pub fn add_substance(&mut self, named: NamedSubstance) {
+        self.substances.push(named);
+    }
+
+    /// Bytes of the text that hold the value at `path`.
+    pub fn span(&self, path: &Path) -> Option<Range<usize>> {
+        self.node(&path.0).map(Spanned::span)
+    }
+
+    /// Puts another value in the place of the one at `path`.
+    pub fn replace(&mut self, path: &Path, value: DeValue<'a>) {
+        if let Some(node) = self.node_mut(&path.0) {
+            *node.get_mut() = value;
+        }
+    }
+
+    /// Adds `[TABLE.KEY]` with the span of the text that asks for it.
+    pub fn insert(&mut self, [table, key]: [&str; 2], span: &Range<usize>, value: DeValue<'a>) {
+        let spanned = |key: &str| Spanned::new(span.clone(), Cow::Owned(key.to_owned()));
+        let DeValue::Table(root) = self.root.get_mut() else { return };
+        if !root.contains_key(table) {
+            root.insert(spanned(table), Spanned::new(span.clone(), DeValue::Table(DeTable::new())));
+        }
+        if let Some(DeValue::Table(table)) = root.get_mut(table).map(Spanned::get_mut) {
+            table.insert(spanned(key), Spanned::new(span.clone(), value));
+        }
     }
 
     /// A problem with the value at `path`; if it is missing, with its table.
@@ -143,6 +206,14 @@ impl<'a> Source<'a> {
         steps.iter().try_fold(&self.root, |node, step| match step {
             Step::Key(key) => node.get_ref().get(key.as_str()),
             Step::Index(index) => node.get_ref().get(*index),
+        })
+    }
+
+    fn node_mut(&mut self, steps: &[Step]) -> Option<&mut Spanned<DeValue<'a>>> {
+        steps.iter().try_fold(&mut self.root, |node, step| match (node.get_mut(), step) {
+            (DeValue::Table(table), Step::Key(key)) => table.get_mut(key.as_str()),
+            (DeValue::Array(list), Step::Index(index)) => list.get_mut(*index),
+            _ => None,
         })
     }
 

@@ -1,6 +1,6 @@
 //! The scene: plain, checked data that describes what to model. Nothing here depends on the method.
 //!
-//! Text → `locate` (TOML with positions) → `decode` (types) → `check` (consistency) → [`Scene`].
+//! Text → `locate` (TOML with positions) → `shorthand` (units, substances) → `decode` (types) → `check` (consistency) → [`Scene`].
 
 mod cells;
 pub(crate) mod check;
@@ -24,6 +24,7 @@ mod refinement;
 mod reservoir;
 mod sampling;
 pub(crate) mod schema;
+mod shorthand;
 mod spelling;
 mod types;
 mod whole;
@@ -52,9 +53,11 @@ pub use refinement::MeshFactors;
 pub use reservoir::Reservoir;
 pub use sampling::{FieldCells, Sampling};
 pub use schema::{SCHEMA, derived_schema};
+pub use shorthand::NamedSubstance;
+pub use spelling::hint;
 pub use types::*;
 
-use locate::Source;
+pub(crate) use locate::Source;
 use schema::Schema;
 
 /// Reads and checks the scene in a file.
@@ -101,13 +104,13 @@ pub fn note_on_reading(text: &str, file: &str) -> Option<String> {
 
 /// Parses and checks a scene's text; `file` is the name in messages.
 pub fn parse(text: &str, file: &str) -> Result<Scene, SceneError> {
-    let source = Source::parse(text, file)?;
-    parse_located(&source, &Schema::of_scenes())
+    parse_located(&mut Source::parse(text, file)?, &Schema::of_scenes())
 }
 
 /// Parses and checks a scene whose positions are known.
-pub(crate) fn parse_located(source: &Source, schema: &Schema) -> Result<Scene, SceneError> {
-    let mut scene = decode::decode(source, schema)?;
+pub(crate) fn parse_located(source: &mut Source, schema: &Schema) -> Result<Scene, SceneError> {
+    let misread = shorthand::expand(source, schema);
+    let mut scene = decode::decode(source, schema, misread)?;
     scene.store_surfaces_below();
     check::check(&scene, source, schema)?;
     Ok(scene)

@@ -16,6 +16,10 @@ rules! {
     "{what} is plausible from {low} to {high}, and {value} K is {celsius}";
     "set `cryogenic = true` if the scene is meant to be this cold"
 
+    Check substance_out_of_range(name, low, high, value)
+    "the library's constants of `{name}` hold from {low} to {high} K, and this is {value} K; beyond, the values at the \
+     end are used"; "give constants that hold there, as tables over the temperature"
+
     Check light_solid_conducts(conductivity, meant, given)
     "no solid this light conducts {conductivity} W/(m K)"; "did you mean {meant} ({given} g/cm³)?"
 

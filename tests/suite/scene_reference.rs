@@ -46,7 +46,13 @@ const SECTIONS: [Section; 30] = [
     ),
     ("`shape` of a solid", IMPACT, "shape = {", "shape = { zz = 1, aa = 1 } # {", &[]),
     ("`shape.disc`", IMPACT, "shape = {", "shape = { disc = { zz = 1 } } # {", &[]),
-    ("`material` of a solid", PLATE, "\"thermoelastic\"", "\"viscoplastic\", zz = 1", &["model"]),
+    (
+        "`material` of a solid",
+        PLATE,
+        "\"thermoelastic\"",
+        "\"viscoplastic\", zz = 1",
+        &["model", "substance", "at"],
+    ),
     (
         "`melting` of a material",
         PLATE,

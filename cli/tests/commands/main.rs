@@ -9,6 +9,7 @@ use tempfile::TempDir;
 mod inputs;
 mod named_materials;
 mod run_files;
+mod substances;
 
 const SCENE: &str = r#"
 name = "HotSpot"

@@ -17,6 +17,9 @@ impl Decoder<'_> {
     /// Reads a material and notes all that is wrong with it.
     pub(super) fn read_material(&mut self, path: &Path) {
         let Some(value @ DeValue::Table(table)) = self.source.value(path) else { return };
+        if self.left_out.contains(path) {
+            return;
+        }
         let tag = value.get(TAG).map(|model| model.get_ref());
         let Some(model) =
             tag.and_then(DeValue::as_str).filter(|own| SolidLaw::MODELS.contains(own))

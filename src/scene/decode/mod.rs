@@ -21,6 +21,7 @@ use super::reservoir::Reservoir;
 use super::schema::Schema;
 use super::spelling::hint;
 use super::types::{Body, Scene, Solid};
+use crate::substances::Kind;
 use failure::{Failure, Misfit, expectation};
 use unit::with_unit;
 use value::{Keys, Node, View};
@@ -29,8 +30,15 @@ use value::{Keys, Node, View};
 const MOST_PROBLEMS: usize = 100;
 
 /// Decodes a scene whose keys, types and numbers are in order; their mutual consistency is checked later.
-pub fn decode(source: &Source, schema: &Schema) -> Result<Scene, SceneError> {
-    let mut decoder = Decoder { source, schema, left_out: BTreeSet::new(), problems: Vec::new() };
+///
+/// `misread` are texts that stand for nothing, with their problems.
+pub fn decode(
+    source: &Source,
+    schema: &Schema,
+    misread: Vec<(Path, Problem)>,
+) -> Result<Scene, SceneError> {
+    let (left_out, problems) = misread.into_iter().unzip();
+    let mut decoder = Decoder { source, schema, left_out, problems };
     decoder.refuse_numbers_that_are_not_finite(source.root(), &Path::default());
     decoder.read_materials();
     decoder.read_bodies();
@@ -82,10 +90,12 @@ impl Decoder<'_> {
                     }
                     let path = path.key("material");
                     let names = || known.keys().map(String::as_str);
-                    let message = format!("there is no material `{name}`{}", hint(name, names()));
+                    let library = Kind::Solid.all().iter().map(|substance| substance.name);
+                    let hint = hint(name, names().chain(library));
+                    let message = format!("there is no material `{name}`{hint}");
                     let mut allowed: Vec<&str> = names().collect();
                     let new = format!("a table `[material.{name}]`");
-                    allowed.push(&new);
+                    allowed.extend([&new, "a substance of the library (`impinge substances`)"]);
                     self.problems.push(self.source.problem(&path, message, allowed.join(", ")));
                 }
             }
@@ -126,7 +136,8 @@ impl Decoder<'_> {
     fn read<T: DeserializeOwned>(&mut self, path: &Path, keys: Keys) -> Option<T> {
         let value = self.source.value(path)?;
         while self.problems.len() < MOST_PROBLEMS && !self.left_out.contains(path) {
-            let view = View { left_out: &self.left_out, blank: None };
+            let numbers = self.source.numbers();
+            let view = View { left_out: &self.left_out, blank: None, numbers };
             let failure = match T::deserialize(Node::new(value, path.clone(), &view).with(keys)) {
                 Ok(read) => return Some(read),
                 Err(failure) => failure,
@@ -190,7 +201,8 @@ impl Decoder<'_> {
     ) -> String {
         let Misfit::MissingKey(key) = failure.misfit else { return failure.misfit.allowed() };
         let blank = place.key(key);
-        let view = View { left_out: &self.left_out, blank: Some(&blank) };
+        let numbers = self.source.numbers();
+        let view = View { left_out: &self.left_out, blank: Some(&blank), numbers };
         match T::deserialize(Node::new(value, path.clone(), &view).with(keys)) {
             Err(failure) if failure.path.as_ref() == Some(&blank) => failure.misfit.allowed(),
             _ => failure.misfit.allowed(),

@@ -1,6 +1,6 @@
 //! A serde deserializer over TOML values that records the position of each of them.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::de::value::StrDeserializer;
 use serde::de::{
@@ -19,6 +19,8 @@ pub struct View<'a> {
     pub left_out: &'a BTreeSet<Path>,
     /// A key treated as present, with a value that fits no type.
     pub blank: Option<&'a Path>,
+    /// Numbers in the place of texts.
+    pub numbers: &'a BTreeMap<Path, f64>,
 }
 
 /// A value and its position.
@@ -114,7 +116,10 @@ impl<'a> Node<'a> {
         match self.value {
             None if shown(&visitor) == "variant identifier" => visitor.visit_str(""),
             None => Err(Failure::invalid_type(Unexpected::Unit, &visitor)),
-            Some(DeValue::String(text)) => visitor.visit_str(text),
+            Some(DeValue::String(text)) => match self.view.numbers.get(&self.path) {
+                Some(number) => visitor.visit_f64(*number),
+                None => visitor.visit_str(text),
+            },
             Some(DeValue::Integer(integer)) => match parsed(integer) {
                 Some(integer) => visitor.visit_i64(integer),
                 None => Err(Failure::invalid_value(Unexpected::Other("integer"), &visitor)),

@@ -9,7 +9,8 @@ mod number;
 mod place;
 mod walk;
 
-use super::locate::{Path, Step};
+use super::locate::{Path, Source, Step};
+use crate::limits::TEMPERATURE;
 use node::Node;
 
 pub use derived::derived_schema;
@@ -46,6 +47,33 @@ impl Schema {
             [] => vec![node],
             list => list.iter().flat_map(|choice| self.alternatives(choice)).collect(),
         }
+    }
+
+    /// Unit of the number that a text at a position may stand for, and whether it is a temperature.
+    ///
+    /// Tables that a key marks as another kind than the one at hand do not count.
+    pub fn number_at(&self, source: &Source, path: &Path) -> Option<(&'static str, bool)> {
+        let (mut nodes, mut at) = (self.alternatives(&self.root), Path::default());
+        for step in path.steps() {
+            let table = source.value(&at)?;
+            nodes.retain(|node| {
+                node.properties.iter().all(|(key, own)| {
+                    let said = table.get(*key).and_then(|value| value.get_ref().as_str());
+                    own.constant.is_none() || said.is_none() || own.constant == said
+                })
+            });
+            let below = nodes.into_iter().filter_map(|node| match step {
+                Step::Key(key) => node.of_key(key),
+                Step::Index(_) => node.items.as_deref(),
+            });
+            nodes = below.flat_map(|node| self.alternatives(node)).collect();
+            at = match step {
+                Step::Key(key) => at.key(key),
+                Step::Index(index) => at.index(*index),
+            };
+        }
+        let node = nodes.into_iter().find(|node| node.is_number())?;
+        Some((node.limits.unit?, node.limits.noun == Some(TEMPERATURE)))
     }
 
     /// Unit of the numbers at a position, or of the list that it is an element of.

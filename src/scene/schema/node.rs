@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use serde::de::{Deserializer, IgnoredAny, MapAccess, Visitor};
+use serde::de::{Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, de};
 
 use super::number::Limits;
@@ -42,6 +42,35 @@ impl<'s> Node<'s> {
     }
 }
 
+/// A type, or the first of several, of which the others are shorthand for it.
+struct Kinds<'s>(Option<&'s str>);
+
+impl<'de> Deserialize<'de> for Kinds<'de> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Reader;
+
+        impl<'de> Visitor<'de> for Reader {
+            type Value = Kinds<'de>;
+
+            fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+                f.write_str("a type or a list of types")
+            }
+
+            fn visit_borrowed_str<E: de::Error>(self, kind: &'de str) -> Result<Self::Value, E> {
+                Ok(Kinds(Some(kind)))
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Self::Value, A::Error> {
+                let first = list.next_element()?;
+                while list.next_element::<IgnoredAny>()?.is_some() {}
+                Ok(Kinds(first))
+            }
+        }
+
+        deserializer.deserialize_any(Reader)
+    }
+}
+
 /// Written by hand, because keywords of numbers are mixed with all others.
 impl<'de> Deserialize<'de> for Node<'de> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -65,7 +94,7 @@ impl<'de> Deserialize<'de> for Node<'de> {
                     match key {
                         "$ref" => node.reference = map.next_value()?,
                         "$defs" => node.definitions = map.next_value()?,
-                        "type" => node.kind = map.next_value()?,
+                        "type" => node.kind = map.next_value::<Kinds>()?.0,
                         "const" => node.constant = map.next_value()?,
                         "properties" => node.properties = map.next_value()?,
                         "additionalProperties" => {

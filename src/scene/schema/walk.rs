@@ -5,6 +5,7 @@ use toml::de::{DeTable, DeValue};
 use super::node::Node;
 use super::{Limits, Place, Schema};
 use crate::scene::locate::Source;
+use crate::scene::shorthand::is_meant_as_number;
 
 impl Schema {
     /// Calls `visit` with every number of a decoded scene's text.
@@ -13,7 +14,11 @@ impl Schema {
         source: &'v Source<'v>,
         visit: &mut dyn FnMut(&Place<'v>, &'s Limits<'static>, f64),
     ) {
-        Walk { schema: self, visit }.value(&mut Place::default(), &self.root, source.root());
+        Walk { schema: self, source, visit }.value(
+            &mut Place::default(),
+            &self.root,
+            source.root(),
+        );
     }
 
     /// Returns true if a value is of the schema's kind, without checking all its contents.
@@ -29,6 +34,7 @@ impl Schema {
                 first.is_none_or(|(first, items)| self.fits(items, first.get_ref()))
             }
             (Some("number"), DeValue::Float(_) | DeValue::Integer(_)) => true,
+            (Some("number"), DeValue::String(text)) => is_meant_as_number(text),
             (Some("integer"), DeValue::Integer(_)) => true,
             (Some("string"), DeValue::String(_)) => true,
             (Some("boolean"), DeValue::Boolean(_)) => true,
@@ -48,6 +54,7 @@ fn is_table(node: &Node, table: &DeValue) -> bool {
 
 struct Walk<'w, 's, 'v> {
     schema: &'s Schema,
+    source: &'v Source<'v>,
     visit: &'w mut dyn FnMut(&Place<'v>, &'s Limits<'static>, f64),
 }
 
@@ -69,6 +76,10 @@ impl<'s, 'v> Walk<'_, 's, 'v> {
             DeValue::Integer(integer) if node.is_number() => {
                 let value = i64::from_str_radix(integer.as_str(), integer.radix()).ok();
                 value.into_iter().for_each(|value| (self.visit)(place, &node.limits, value as f64));
+            }
+            DeValue::String(_) if node.is_number() => {
+                let value = self.source.number(&place.path());
+                value.into_iter().for_each(|value| (self.visit)(place, &node.limits, value));
             }
             _ => {}
         }

@@ -187,7 +187,7 @@ fn values(schema: &Value, own: &Value) -> Vec<String> {
     let names = own.get("enum").and_then(Value::as_array);
     let names = names.into_iter().flatten().chain(own.get("const"));
     let mut found: Vec<String> = names.map(shown).collect();
-    match own.get("type").and_then(Value::as_str) {
+    match kind(own) {
         Some("boolean") => found = vec!["true".to_owned(), "false".to_owned()],
         Some("array") => {
             found.extend(lengths(own));
@@ -225,6 +225,12 @@ fn number(value: f64) -> String {
     if is_short { format!("{rounded}") } else { format!("{rounded:e}") }
 }
 
+/// The type of a schema, or the first of several, which the others are shorthand for.
+fn kind(schema: &Value) -> Option<&str> {
+    let kind = schema.get("type")?;
+    kind.get(0).unwrap_or(kind).as_str()
+}
+
 /// Whether a schema is that of a name, a number or a list.
 fn is_plain(schema: &Value) -> bool {
     schema.get("type").is_none_or(|name| name != "object")
@@ -233,7 +239,7 @@ fn is_plain(schema: &Value) -> bool {
 /// The bounds of a number, in words.
 fn bounds(schema: &Value) -> Option<String> {
     let bound = |name: &str| schema.get(name).and_then(Value::as_f64);
-    let is_whole = schema.get("type").is_some_and(|name| name == "integer");
+    let is_whole = kind(schema) == Some("integer");
     let (low, above) = (bound("minimum"), bound("exclusiveMinimum"));
     let (high, below) = (bound("maximum"), bound("exclusiveMaximum"));
     Some(match (low, above, high, below) {

@@ -1,0 +1,226 @@
+//! Substances of the library in place of a material's or a fluid's table.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::quantity::{self, Wanted};
+use crate::laws::{Property, Table};
+use crate::scene::error::Problem;
+use crate::scene::locate::{Path, Source};
+use crate::scene::spelling::hint;
+use crate::substances::{Kind, Substance};
+
+/// Key of a table that names a substance; its other keys replace or extend the substance's constants.
+const KEY: &str = "substance";
+/// Key of the temperature at which constants are taken [K]; without it, those of solids depend on the temperature.
+const AT: &str = "at";
+
+/// A substance that a scene names.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedSubstance {
+    /// Place of the table that has the substance's constants.
+    pub table: Path,
+    pub kind: Kind,
+    pub substance: Substance,
+}
+
+/// Puts constants in the place of names; returns what is wrong with them.
+pub fn expand(source: &mut Source) -> Vec<(Path, Problem)> {
+    let mut problems = Vec::new();
+    let materials = Path::default().key("material");
+    for name in keys(source, &materials) {
+        expand_table(source, &materials.key(&name), Kind::Solid, None, &mut problems);
+    }
+    let bodies = Path::default().key("body");
+    for name in keys(source, &bodies) {
+        let body = bodies.key(&name);
+        let layers = body.key("layers");
+        let count = match source.value(&layers) {
+            Some(DeValue::Array(list)) => list.len(),
+            _ => 0,
+        };
+        let places = (0..count).map(|i| layers.index(i).key("material"));
+        for place in places.chain([body.key("material")]) {
+            name_material(source, &place);
+            expand_table(source, &place, Kind::Solid, None, &mut problems);
+        }
+        let start = number(source, &body.key("initial_temperature"));
+        expand_table(source, &body.key("fluid"), Kind::Fluid, start, &mut problems);
+    }
+    problems
+}
+
+fn keys(source: &Source, path: &Path) -> Vec<String> {
+    let Some(DeValue::Table(table)) = source.value(path) else { return Vec::new() };
+    table.keys().map(|key| key.get_ref().clone().into_owned()).collect()
+}
+
+/// Adds the substance that a body or layer names to the scene's materials, unless one of them has that name.
+fn name_material(source: &mut Source, place: &Path) {
+    let Some(name) = text(source, place) else { return };
+    let materials = Path::default().key("material");
+    if source.value(&materials.key(&name)).is_some() {
+        return;
+    }
+    let (Some(substance), Some(span)) = (Kind::Solid.find(&name), source.span(place)) else {
+        return;
+    };
+    let name = identifier(&name);
+    let path = materials.key(&name);
+    source.replace(place, DeValue::String(Cow::Owned(name.clone())));
+    if source.value(&path).is_some() {
+        return;
+    }
+    let mut table = constants(substance, &span);
+    table.insert(spanned("model", &span), Spanned::new(span.clone(), string("thermoelastic")));
+    source.insert(["material", &name], &span, DeValue::Table(table));
+    source.add_substance(NamedSubstance { table: path, kind: Kind::Solid, substance });
+}
+
+/// The name of a substance as one of a material, which is part of the names of parameters: `steel-304` is `steel_304`.
+fn identifier(name: &str) -> String {
+    let name = name.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
+    if name.starts_with(|c: char| c.is_ascii_digit()) { format!("_{name}") } else { name }
+}
+
+/// Replaces a fluid's name, or a table with the key `substance`, by all constants.
+fn expand_table(
+    source: &mut Source,
+    place: &Path,
+    kind: Kind,
+    start: Option<f64>,
+    problems: &mut Vec<(Path, Problem)>,
+) {
+    let (named, own) = match source.value(place) {
+        Some(DeValue::String(_)) if kind == Kind::Fluid => (place.clone(), DeTable::new()),
+        Some(DeValue::Table(table)) if table.contains_key(KEY) => (place.key(KEY), table.clone()),
+        _ => return,
+    };
+    let Some(name) = text(source, &named) else { return };
+    let Some(substance) = kind.find(&name) else {
+        problems.push((place.clone(), unknown(source, &named, &name, kind)));
+        return;
+    };
+    let Some(span) = source.span(place) else { return };
+    let at = if own.contains_key(AT) {
+        match number(source, &place.key(AT)).filter(|at| *at > 0.0) {
+            Some(at) => Some(at),
+            None => {
+                let message = "this is not a temperature".to_owned();
+                let allowed = "a number in K, or a text such as \"90 °C\"".to_owned();
+                let problem = source.problem(&place.key(AT), message, allowed);
+                problems.push((place.clone(), problem));
+                return;
+            }
+        }
+    } else {
+        start
+    };
+    let mut known: DeTable<'static> = constants(substance, &span);
+    if kind == Kind::Solid {
+        known.insert(spanned("model", &span), Spanned::new(span.clone(), string("thermoelastic")));
+    }
+    let mut taken = at.map(|at| take_at(&mut known, at)).unwrap_or_default();
+    taken.retain(|(key, _)| !own.contains_key(*key));
+    let mut table: DeTable = known;
+    table.extend(own.into_iter().filter(|(key, _)| !matches!(key.get_ref().as_ref(), KEY | AT)));
+    source.replace(place, DeValue::Table(table));
+    for (key, value) in taken {
+        source.set_number(place.key(key), value);
+    }
+    source.add_substance(NamedSubstance { table: place.clone(), kind, substance });
+}
+
+fn unknown(source: &Source, place: &Path, name: &str, kind: Kind) -> Problem {
+    let names = || kind.all().iter().map(|one| one.name);
+    let word = kind.word();
+    let message = format!("the library has no {word} `{name}`{}", hint(name, names()));
+    let allowed =
+        format!("a table of constants, or one of {}", names().collect::<Vec<_>>().join(", "));
+    source.problem(place, message, allowed)
+}
+
+/// A substance's constants, all at one place of the scene's text.
+fn constants(substance: Substance, span: &Range<usize>) -> DeTable<'static> {
+    let sheet = DeTable::parse(substance.text).expect("a substance's file is TOML").into_inner();
+    match sheet.get("constants").map(|value| moved(value.get_ref(), span)) {
+        Some(DeValue::Table(table)) => table,
+        _ => DeTable::new(),
+    }
+}
+
+fn moved(value: &DeValue<'static>, span: &Range<usize>) -> DeValue<'static> {
+    let element = |value: &Spanned<DeValue<'static>>| {
+        Spanned::new(span.clone(), moved(value.get_ref(), span))
+    };
+    match value {
+        DeValue::Array(list) => DeValue::Array(list.iter().map(element).collect()),
+        DeValue::Table(table) => {
+            let entries = table.iter();
+            let entries = entries.map(|(key, value)| {
+                (Spanned::new(span.clone(), key.get_ref().clone()), element(value))
+            });
+            DeValue::Table(entries.collect())
+        }
+        other => other.clone(),
+    }
+}
+
+/// Takes tables over the temperature at one temperature, and leaves melting out; returns the constants.
+fn take_at(table: &mut DeTable<'static>, at: f64) -> Vec<(&'static str, f64)> {
+    const KEYS: [&str; 7] = [
+        "density",
+        "viscosity",
+        "specific_heat",
+        "conductivity",
+        "surface_tension",
+        "young",
+        "expansion",
+    ];
+    table.remove("melting");
+    let mut taken = Vec::new();
+    for key in KEYS {
+        let Some(value) = table.get_mut(key) else { continue };
+        let Some(found) = interpolated(value.get_ref(), at) else { continue };
+        *value.get_mut() = string(key);
+        taken.push((key, found));
+    }
+    taken
+}
+
+/// The value at a temperature of a table over it: linear between, held outside.
+fn interpolated(table: &DeValue, at: f64) -> Option<f64> {
+    let list = |key: &str| -> Option<Vec<f64>> {
+        let DeValue::Array(list) = table.get(key)?.get_ref() else { return None };
+        list.iter().map(|value| value.get_ref().as_float()?.as_str().parse().ok()).collect()
+    };
+    let property =
+        Property::Table(Table { temperature: list("temperature")?, value: list("value")? });
+    property.check().ok().map(|()| property.value(at))
+}
+
+fn number(source: &Source, path: &Path) -> Option<f64> {
+    match source.value(path)? {
+        DeValue::Float(float) => float.as_str().parse().ok(),
+        DeValue::Integer(integer) => integer.as_str().parse().ok(),
+        DeValue::String(text) => {
+            quantity::read(text, Wanted { unit: "K", is_temperature: true }).ok()
+        }
+        _ => None,
+    }
+}
+
+fn text(source: &Source, path: &Path) -> Option<String> {
+    source.value(path).and_then(DeValue::as_str).map(str::to_owned)
+}
+
+fn string(text: &'static str) -> DeValue<'static> {
+    DeValue::String(Cow::Borrowed(text))
+}
+
+fn spanned(key: &'static str, span: &Range<usize>) -> Spanned<Cow<'static, str>> {
+    Spanned::new(span.clone(), Cow::Borrowed(key))
+}

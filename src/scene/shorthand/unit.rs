@@ -1,0 +1,251 @@
+//! Units as people write them: `mm`, `kJ/(kg K)`, `W/m²`, `ft`, `cP`.
+
+use std::f64::consts::PI;
+
+/// A unit: `SI value = factor · value + offset`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unit {
+    pub factor: f64,
+    /// Not zero only for temperatures that are counted from another zero.
+    pub offset: f64,
+    pub dimension: Dimension,
+}
+
+/// Twice the exponents of kg, m, s and K, as effusivities have the root of a second; angles count as numbers.
+pub type Dimension = [i32; 4];
+
+const NUMBER: Dimension = [0; 4];
+
+const fn unit(factor: f64, [kg, m, s, kelvin]: Dimension) -> Unit {
+    Unit { factor, offset: 0.0, dimension: [2 * kg, 2 * m, 2 * s, 2 * kelvin] }
+}
+
+const KELVIN: Dimension = [0, 0, 0, 1];
+const PRESSURE: Dimension = [1, -1, -2, 0];
+const LENGTH: Dimension = [0, 1, 0, 0];
+const ENERGY: Dimension = [1, 2, -2, 0];
+const TIME: Dimension = [0, 0, 1, 0];
+const ZERO_CELSIUS: f64 = 273.15;
+
+/// Units that take prefixes.
+const PREFIXED: [(&str, Unit); 14] = [
+    ("m", unit(1.0, LENGTH)),
+    ("g", unit(1e-3, [1, 0, 0, 0])),
+    ("s", unit(1.0, TIME)),
+    ("K", unit(1.0, KELVIN)),
+    ("N", unit(1.0, [1, 1, -2, 0])),
+    ("Pa", unit(1.0, PRESSURE)),
+    ("J", unit(1.0, ENERGY)),
+    ("W", unit(1.0, [1, 2, -3, 0])),
+    ("Hz", unit(1.0, [0, 0, -1, 0])),
+    ("rad", unit(1.0, NUMBER)),
+    ("bar", unit(1e5, PRESSURE)),
+    ("l", unit(1e-3, [0, 3, 0, 0])),
+    ("L", unit(1e-3, [0, 3, 0, 0])),
+    ("P", unit(0.1, [1, -1, -1, 0])),
+];
+
+const DEGREE: Unit = unit(PI / 180.0, NUMBER);
+const CELSIUS: Unit = Unit { offset: ZERO_CELSIUS, ..unit(1.0, KELVIN) };
+const FAHRENHEIT: Unit = Unit { offset: ZERO_CELSIUS - 32.0 / 1.8, ..unit(1.0 / 1.8, KELVIN) };
+
+/// Units without prefixes.
+const PLAIN: [(&str, Unit); 22] = [
+    ("min", unit(60.0, TIME)),
+    ("h", unit(3600.0, TIME)),
+    ("°", DEGREE),
+    ("deg", DEGREE),
+    ("°C", CELSIUS),
+    ("℃", CELSIUS),
+    ("degC", CELSIUS),
+    ("°F", FAHRENHEIT),
+    ("degF", FAHRENHEIT),
+    ("%", unit(1e-2, NUMBER)),
+    ("ppm", unit(1e-6, NUMBER)),
+    ("in", unit(0.0254, LENGTH)),
+    ("ft", unit(0.3048, LENGTH)),
+    ("mil", unit(2.54e-5, LENGTH)),
+    ("Å", unit(1e-10, LENGTH)),
+    ("psi", unit(6_894.757_293_168, PRESSURE)),
+    ("ksi", unit(6_894_757.293_168, PRESSURE)),
+    ("atm", unit(101_325.0, PRESSURE)),
+    ("cal", unit(4.184, ENERGY)),
+    ("kcal", unit(4184.0, ENERGY)),
+    ("micron", unit(1e-6, LENGTH)),
+    ("microns", unit(1e-6, LENGTH)),
+];
+
+const PREFIXES: [(&str, f64); 16] = [
+    ("f", 1e-15),
+    ("p", 1e-12),
+    ("n", 1e-9),
+    ("µ", 1e-6),
+    ("μ", 1e-6),
+    ("u", 1e-6),
+    ("m", 1e-3),
+    ("c", 1e-2),
+    ("d", 1e-1),
+    ("da", 1e1),
+    ("h", 1e2),
+    ("k", 1e3),
+    ("M", 1e6),
+    ("G", 1e9),
+    ("T", 1e12),
+    ("", 1.0),
+];
+
+impl Unit {
+    /// Reads products and quotients of units with integer powers; returns the part that is not understood on failure.
+    ///
+    /// A quotient divides by what follows up to the next product sign, blank or slash: `W/m² K` is W K/m².
+    pub fn read(text: &str) -> Result<Self, String> {
+        let mut reader = Reader { rest: text.trim() };
+        let unit = reader.product()?;
+        if reader.rest.is_empty() { Ok(unit) } else { Err(reader.rest.to_owned()) }
+    }
+
+    fn times(self, other: Unit, power: i32) -> Self {
+        let dimension: [i32; 4] =
+            std::array::from_fn(|i| self.dimension[i] + power * other.dimension[i]);
+        Self { factor: self.factor * other.factor.powi(power), offset: 0.0, dimension }
+    }
+}
+
+struct Reader<'t> {
+    rest: &'t str,
+}
+
+impl<'t> Reader<'t> {
+    fn product(&mut self) -> Result<Unit, String> {
+        let mut product = unit(1.0, NUMBER);
+        let mut sign = if self.takes('/') { -1 } else { 1 };
+        let mut factors = 0;
+        loop {
+            let (factor, power) = self.factor()?;
+            // Counted from another zero, a temperature stands alone.
+            product = match factors {
+                0 if sign * power == 1 => factor,
+                _ => product.times(factor, sign * power),
+            };
+            factors += 1;
+            self.rest = self.rest.trim_start();
+            sign = if self.takes('/') {
+                -1
+            } else if self.takes('*') || self.takes('·') || self.takes('.') || self.is_factor() {
+                1
+            } else {
+                return Ok(product);
+            };
+            product.offset = 0.0;
+        }
+    }
+
+    fn is_factor(&self) -> bool {
+        self.rest.starts_with(|c: char| c == '(' || c == '√' || is_letter(c))
+    }
+
+    /// A unit, a bracket or the number one, and its power.
+    fn factor(&mut self) -> Result<(Unit, i32), String> {
+        self.rest = self.rest.trim_start();
+        if self.takes('√') {
+            let (unit, power) = self.factor()?;
+            let dimension = unit.dimension.map(|twice| twice * power / 2);
+            return Ok((Unit { factor: unit.factor.powi(power).sqrt(), dimension, ..unit }, 1));
+        }
+        let unit = if self.takes('(') {
+            let inner = self.product()?;
+            if !self.takes(')') {
+                return Err(format!("({}", self.rest));
+            }
+            inner
+        } else if self.takes('1') {
+            unit(1.0, NUMBER)
+        } else {
+            let end = self.rest.find(|c| !is_letter(c)).unwrap_or(self.rest.len());
+            let (name, rest) = self.rest.split_at(end);
+            self.rest = rest;
+            named(name).ok_or_else(|| if name.is_empty() { rest } else { name }.to_owned())?
+        };
+        Ok((unit, self.power()))
+    }
+
+    /// `2`, `^2`, `²`, `-1`, `^-1` or `⁻¹`; 1 if there is none.
+    fn power(&mut self) -> i32 {
+        let raised = self.rest.strip_prefix('^').unwrap_or(self.rest);
+        let (negative, digits) = match raised.strip_prefix(['-', '⁻', '−']) {
+            Some(digits) => (true, digits),
+            None => (false, raised),
+        };
+        let mut characters = digits.chars();
+        let Some(digit) = characters.next().and_then(digit) else { return 1 };
+        self.rest = characters.as_str();
+        if negative { -digit } else { digit }
+    }
+
+    fn takes(&mut self, sign: char) -> bool {
+        let rest = self.rest.trim_start().strip_prefix(sign);
+        self.rest = rest.unwrap_or(self.rest);
+        rest.is_some()
+    }
+}
+
+fn is_letter(c: char) -> bool {
+    c.is_alphabetic() || matches!(c, '°' | '℃' | '%')
+}
+
+fn digit(c: char) -> Option<i32> {
+    let raised = "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|other| other == c);
+    raised.map(|value| value as i32).or_else(|| c.to_digit(10).map(|value| value as i32))
+}
+
+fn named(name: &str) -> Option<Unit> {
+    let known = |list: &[(&str, Unit)], name: &str| {
+        list.iter().find(|(other, _)| *other == name).map(|(_, unit)| *unit)
+    };
+    known(&PLAIN, name).or_else(|| {
+        PREFIXES.iter().find_map(|(prefix, factor)| {
+            let unit = known(&PREFIXED, name.strip_prefix(prefix)?)?;
+            Some(Unit { factor: factor * unit.factor, ..unit })
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn expect(text: &str, factor: f64, si: &str) {
+        let (found, wanted) = (Unit::read(text).unwrap(), Unit::read(si).unwrap());
+        assert_eq!(found.dimension, wanted.dimension, "{text}");
+        assert!((found.factor / factor - 1.0).abs() < 1e-14, "{text}: {}", found.factor);
+    }
+
+    #[test]
+    fn units_of_data_sheets_are_read() {
+        expect("mm", 1e-3, "m");
+        expect("µs", 1e-6, "s");
+        expect("μm", 1e-6, "m");
+        expect("g/cm³", 1e3, "kg/m3");
+        expect("kg m-3", 1.0, "kg/m³");
+        expect("kJ/(kg K)", 1e3, "J/(kg.K)");
+        expect("J/kg/K", 1.0, "J/(kg K)");
+        expect("W m⁻² K⁻¹", 1.0, "W/(m² K)");
+        expect("W/mm^2", 1e6, "W/m²");
+        expect("mN/m", 1e-3, "N/m");
+        expect("cP", 1e-3, "Pa s");
+        expect("mm/min", 1e-3 / 60.0, "m/s");
+        expect("ppm/K", 1e-6, "1/K");
+        expect("/K", 1.0, "1/K");
+        expect("W √s/(cm² K)", 1e4, "kg/(s² √s K)");
+        expect("GPa", 1e9, "kg/(m s²)");
+    }
+
+    #[test]
+    fn what_is_not_a_unit_is_named() {
+        assert_eq!(Unit::read("W/(m2 Q)").unwrap_err(), "Q");
+        assert_eq!(Unit::read("").unwrap_err(), "");
+        assert!(Unit::read("W/(m2").is_err());
+        assert!(Unit::read("mm)").is_err());
+        assert!(Unit::read("m²²").is_err());
+    }
+}
