@@ -22,7 +22,7 @@ pub fn expand(source: &mut Source, schema: &Schema) -> Vec<(Path, Problem)> {
     for (path, text) in texts {
         let is_known = source.number(&path).is_some();
         let Some((unit, is_temperature)) = schema.number_at(source, &path) else { continue };
-        if is_known || !is_meant_as_number(&text) {
+        if is_known || !is_convertible(unit) || !is_meant_as_number(&text) {
             continue;
         }
         match quantity::read(&text, Wanted { unit, is_temperature }) {

@@ -31,11 +31,9 @@ pub fn is_convertible(unit: &str) -> bool {
 
 /// Converts a text to the number in SI units that it stands for.
 pub fn read(text: &str, wanted: Wanted) -> Result<f64, Refusal> {
-    let Ok(si) = Unit::read(wanted.unit) else {
-        let allowed = format!("a number without quotes, in {}", wanted.unit);
-        return Err(Refusal { message: "texts with units are not read here".to_owned(), allowed });
-    };
     let refusal = |message: String| Refusal { message, allowed: examples(wanted) };
+    let si =
+        Unit::read(wanted.unit).map_err(|part| refusal(format!("`{part}` cannot be converted")))?;
     let (number, unit) = split(text.trim());
     let Ok(value) = number.replace('−', "-").parse::<f64>() else {
         return Err(refusal(format!("`{number}` is not a number")));
