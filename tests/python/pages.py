@@ -122,12 +122,15 @@ def alike(shown: str, printed: str) -> bool:
     """Whether two lines have the same words and, but for `TOLERANCE`, the same numbers."""
     if re.sub(NUMBER, "#", shown).split() != re.sub(NUMBER, "#", printed).split():
         return False
-    pairs = zip(NUMBER.findall(shown), NUMBER.findall(printed), strict=True)
-    return all(close(*(float(text.replace("−", "-")) for text in pair)) for pair in pairs)
+    return all(map(close, NUMBER.findall(shown), NUMBER.findall(printed)))
 
 
-def close(shown: float, printed: float) -> bool:
-    return abs(shown - printed) <= TOLERANCE * max(abs(shown), abs(printed))
+def close(shown: str, printed: str) -> bool:
+    """Whether numbers agree to `TOLERANCE` or to two units of the last digit that is shown."""
+    first, second = (float(text.replace("−", "-")) for text in (shown, printed))
+    decimals = len(shown.partition("e")[0].partition(".")[2])
+    digit = 0.0 if "e" in shown else 2 * 10.0**-decimals
+    return abs(first - second) <= max(TOLERANCE * max(abs(first), abs(second)), digit)
 
 
 def is_target(words: list[str]):
