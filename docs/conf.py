@@ -8,7 +8,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "docs"))
 
 project = "impinge"
-author = copyright = "the authors of impinge"
+author = copyright = "impinge contributors"
 release = tomllib.loads((ROOT / "Cargo.toml").read_text())["workspace"]["package"]["version"]
 language = "en"
 
