@@ -15,6 +15,7 @@ language = "en"
 extensions = ["myst_parser", "manual.contents", "manual.formulas"]
 root_doc = "docs/index"
 include_patterns = [
+    "README.md",
     "docs/*.md",
     "docs/*/*.md",
     "examples/*/README.md",
@@ -28,6 +29,7 @@ include_patterns = [
 ]
 myst_enable_extensions = ["dollarmath"]  # $…$ and $$…$$, which code hosts render, too
 myst_heading_anchors = 4  # the anchors that code hosts give to headings
+suppress_warnings = ["myst.header"]  # docs/scene.md keeps its second level for tables of keys
 
 html_theme = "furo"
 html_title = f"impinge {release}"

@@ -58,7 +58,8 @@ class Reader:
     folder: Path
     names: dict = field(default_factory=dict)
     printed: str = ""  # by the last block that ran
-    complaints: str = ""  # on standard error, of all commands
+    warnings: str = ""  # of all commands
+    refusal: str = ""  # of the last command, which the page has to show
 
     def __post_init__(self):
         for name in ("examples", "python"):
@@ -69,7 +70,9 @@ class Reader:
         for block in blocks((ROOT / page).read_text()):
             do = {"toml": self.save, "python": self.execute, "sh": self.type, "": self.compare}
             assert block.kind in do, f"a block of {block.kind} is neither run nor checked"
+            assert not self.refusal or not block.kind, self.refusal
             do[block.kind](block)
+        assert not self.refusal, self.refusal
 
     def save(self, block: Block):
         tomllib.loads(block.text)
@@ -106,12 +109,16 @@ class Reader:
             text=True,
             check=False,
         )
-        assert ran.returncode == 0, f"{shlex.join(words)}: {ran.stderr}"
-        self.printed += ran.stdout
-        self.complaints += ran.stderr
+        self.printed += ran.stdout + ran.stderr
+        if ran.returncode == 0:
+            self.warnings += ran.stderr
+        else:
+            self.refusal = f"{shlex.join(words)}: {ran.stderr}"
 
     def compare(self, block: Block):
         """The lines that a page shows are printed in their order; `…` stands for others."""
+        if block.text.startswith("error: "):
+            self.refusal = ""
         printed = iter(self.printed.splitlines())
         for line in filter(str.strip, block.text.splitlines()):
             if line.strip() != "…":
