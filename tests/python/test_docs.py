@@ -36,7 +36,6 @@ PAGES = [
     "docs/messages.md",
     "docs/glossary.md",
     "docs/index.md",
-    "examples/hot_drop/README.md",
 ]
 WARNS = {"docs/messages.md"}  # on purpose
 
