@@ -6,6 +6,7 @@ mod error;
 mod idle;
 mod inputs;
 mod patience;
+mod ranges;
 mod run;
 mod schema;
 mod set;

@@ -5,9 +5,9 @@ use std::time::Instant;
 use clap::Args;
 use impinge::advice;
 use impinge::model::{
-    Cache, Model, ModelError, State, Timeline, check_memory, to_be_recorded, tolerance,
+    self, Cache, Model, ModelError, State, Timeline, check_memory, to_be_recorded, tolerance,
 };
-use impinge::output::{CsvTable, FieldSeries, FolderLock, OutputError};
+use impinge::output::{CsvTable, Discs, FieldSeries, FilesForecast, FolderLock, OutputError};
 use impinge::runtime::available_memory;
 use impinge::scene::{self, Scene};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -17,12 +17,23 @@ use super::error::input_name;
 use super::idle;
 use super::inputs::{Between, InputTable};
 use super::patience;
+use super::ranges::Ranges;
 use super::set::{self, Assignment, InputValue};
 use super::summary::{self, Balance, BalanceOutputs};
-use super::units::engineering;
+use super::units::{engineering, megabytes};
 
 /// Default number of times at which fields are written.
 const SNAPSHOTS: usize = 50;
+
+/// Number of steps between two times of fields, by default.
+pub fn default_fields_every(steps: usize) -> usize {
+    steps.div_ceil(SNAPSHOTS)
+}
+
+/// Number of times at which fields are written every so many steps, and at the end.
+pub fn snapshots(steps: usize, every: usize) -> usize {
+    if every == 0 { 0 } else { 1 + steps.div_ceil(every) }
+}
 
 /// Number of input rows per step from which a run reports that they slow it down.
 const ROWS_PER_STEP: usize = 10;
@@ -65,6 +76,9 @@ pub struct Run {
     /// Write fields every N steps, 0 for never [default: about 50 times]
     #[arg(long, value_name = "N")]
     fields_every: Option<usize>,
+    /// Turn the fields of discs about their axis: files of about 25 times the size
+    #[arg(long)]
+    revolve: bool,
 }
 
 fn positive(text: &str) -> Result<f64, &'static str> {
@@ -118,12 +132,14 @@ impl Run {
             balance_outputs: BalanceOutputs::of(&scene),
             warned_of_phases: BTreeSet::new(),
             balances: Vec::new(),
+            ranges: Ranges::of(&scene),
             model: &model,
         };
         let note = || idle::note(&scene, &run.state.inputs);
         if let Some(note) = self.inputs.is_none().then(note).flatten() {
             super::print_message("note", &note);
         }
+        super::print_message("note", &self.announcement(&run));
         let mut record = self.record(&run)?;
         run.finish(&mut record)?;
         let spent = engineering(started.elapsed().as_secs_f64(), "s");
@@ -204,13 +220,40 @@ impl Run {
         self.refuse_overwriting_inputs(folder)
     }
 
+    /// Number of steps between two times of fields; 0 for none.
+    fn fields_every(&self, run: &Running) -> usize {
+        self.fields_every.unwrap_or(default_fields_every(run.timeline.count))
+    }
+
+    fn discs(&self) -> Discs {
+        if self.revolve { Discs::Revolved } else { Discs::Sections }
+    }
+
+    /// Says what the run will write.
+    fn announcement(&self, run: &Running) -> String {
+        let scene = run.model.scene();
+        let steps = run.timeline.count;
+        let rows_every = usize::try_from(self.rows_every).unwrap_or(usize::MAX);
+        let rows = 1 + steps.div_ceil(rows_every);
+        let times = snapshots(steps, self.fields_every(run));
+        let forecast = model::forecast(scene);
+        let files = FilesForecast::of(scene, &forecast, [rows, times], self.discs());
+        let folder = self.folder(scene);
+        format!(
+            "writes {} files, about {}, in {}",
+            files.count,
+            megabytes(files.bytes),
+            folder.display()
+        )
+    }
+
     /// Opens the files of the run.
     fn record(&self, run: &Running) -> Result<Record, CliError> {
         let folder = self.folder(run.model.scene());
         let lock = FolderLock::take(&folder)?;
         self.check_folder(&folder, run.model.scene())?;
         let table = folder.join(TABLE);
-        let every = self.fields_every.unwrap_or(run.timeline.count.div_ceil(SNAPSHOTS));
+        let every = self.fields_every(run);
         let table = CsvTable::create(&table, run.model)?;
         let fields = match every {
             0 => {
@@ -218,7 +261,7 @@ impl Run {
                 FieldSeries::remove(&folder, run.model)?;
                 None
             }
-            _ => Some(FieldSeries::create(&folder, run.model)?),
+            _ => Some(FieldSeries::create(&folder, run.model, self.discs())?),
         };
         let place = format!("files in {}\n", folder.display());
         let rows_every = usize::try_from(self.rows_every).unwrap_or(usize::MAX);
@@ -272,6 +315,7 @@ impl Record {
         let is_due = is_last || (self.every > 0 && done.is_multiple_of(self.every));
         if is_last || done.is_multiple_of(self.rows_every) {
             self.table.write(run.model, &run.state, &mut run.cache)?;
+            run.ranges.update(self.table.last_row().map(|(_, value)| value));
             run.update_balances()?;
         }
         match &mut self.fields {
@@ -295,6 +339,7 @@ struct Running<'a> {
     warned_of_phases: BTreeSet<String>,
     /// Balances of the last row.
     balances: Vec<Balance>,
+    ranges: Ranges,
 }
 
 impl Running<'_> {
@@ -377,14 +422,12 @@ impl Running<'_> {
         Ok(())
     }
 
-    /// Returns the heat balances, what probes read, and the extremes; warns on standard error if heat is missing.
+    /// Returns what probes and fields read over time, peaks, heat balances and totals; warns on standard error if heat is missing.
     fn report(&mut self) -> Result<String, CliError> {
         let named = |error| CliError::from_model(error, self.model.scene());
         self.update_balances().map_err(named)?;
-        let probes =
-            summary::probes_table(self.model, &self.state, &mut self.cache).map_err(named)?;
-        let extremes =
-            summary::extremes_table(self.model, &self.state, &mut self.cache).map_err(named)?;
+        let totals =
+            summary::totals_table(self.model, &self.state, &mut self.cache).map_err(named)?;
         let peaks =
             summary::peaks_table(self.model, &self.state, &mut self.cache).map_err(named)?;
         let of_values =
@@ -396,7 +439,7 @@ impl Running<'_> {
             super::print_message("warning", &warning);
         }
         let balances = summary::balance_table(&self.balances);
-        let tables = [balances, probes, extremes, peaks];
+        let tables = [self.ranges.table(), peaks, balances, totals];
         let tables: Vec<_> = tables.into_iter().filter(|table| !table.is_empty()).collect();
         Ok(tables.join("\n"))
     }

@@ -1,4 +1,3 @@
-use std::fmt::Write;
 
 use impinge::body::{PeakPart, Reading};
 use impinge::model::{Cache, Model, ModelError, State};
@@ -13,9 +12,6 @@ use super::units::{decimal, engineering, kelvin};
 const BALANCED: f64 = 1e-9;
 /// The same with particle conduction, which conserves heat only approximately on graded meshes.
 const BALANCED_BY_PARTICLES: f64 = 5e-2;
-
-/// Most values of probes that a run's report lists.
-const MOST_PROBED: usize = 40;
 
 /// Outputs of a body that are zero until it yields or creeps.
 const IS_FLOW: [&str; 2] = ["max_plastic_strain", "plastic_work"];
@@ -117,38 +113,9 @@ pub fn balance_table(balances: &[Balance]) -> String {
     table(["body", "heat in", "stored", "lost", "residual"], &rows)
 }
 
-/// Formats the probes' values at `state` as a table, in the order of the scene; empty without probes.
-pub fn probes_table(model: &Model, state: &State, cache: &mut Cache) -> Result<String, ModelError> {
-    let mut rows = Vec::new();
-    let mut further = 0;
-    for variable in Registry::of(model.scene()).variables {
-        let Slot::Output(output) = &variable.slot else { continue };
-        let Some(quantity) = variable.quantity else { continue };
-        match output.reading {
-            Reading::Point { alone: true, .. } if rows.len() < MOST_PROBED => {
-                let value = model.output(state, cache, output)?;
-                rows.push([variable.name.clone(), shown(value, quantity)]);
-            }
-            Reading::Point { alone: true, .. } => further += 1,
-            _ => {}
-        }
-    }
-    if rows.is_empty() {
-        return Ok(String::new());
-    }
-    let mut text = table(["probes at the end", "value"], &rows);
-    if further > 0 {
-        let _ = writeln!(text, "  {further} more in the table of outputs");
-    }
-    Ok(text)
-}
-
-/// Formats the extremes of each solid and the totals of each droplet at `state` as a table.
-pub fn extremes_table(
-    model: &Model,
-    state: &State,
-    cache: &mut Cache,
-) -> Result<String, ModelError> {
+/// Formats the totals at `state` that [`Ranges`](super::ranges::Ranges) does not follow as a table: those of droplets
+/// and reservoirs, and what flows of solids that yield.
+pub fn totals_table(model: &Model, state: &State, cache: &mut Cache) -> Result<String, ModelError> {
     let mut rows = Vec::new();
     for variable in Registry::of(model.scene()).variables {
         let Slot::Output(output) = &variable.slot else { continue };
@@ -156,7 +123,6 @@ pub fn extremes_table(
         let is_total = matches!(output.reading, Reading::Total(_));
         let body = model.scene().body.keys().nth(output.body);
         let is_shown = body.is_none_or(|name| model.scene().solid(name).is_none())
-            || matches!(quantity, Quantity::Temperature | Quantity::Stress)
             || IS_FLOW.iter().any(|key| variable.name.ends_with(key));
         if is_total && is_shown {
             let value = model.output(state, cache, output)?;
@@ -188,7 +154,7 @@ pub fn peaks_table(model: &Model, state: &State, cache: &mut Cache) -> Result<St
     }
 }
 
-fn shown(value: f64, quantity: Quantity) -> String {
+pub fn shown(value: f64, quantity: Quantity) -> String {
     match quantity {
         Quantity::Temperature => kelvin(value),
         Quantity::Count => format!("{value}"),

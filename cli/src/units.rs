@@ -42,6 +42,11 @@ pub fn lasting(seconds: f64) -> String {
     }
 }
 
+/// A size of files in a readable unit, to two digits.
+pub fn megabytes(bytes: f64) -> String {
+    with_prefix(bytes.max(1e3), "B", 2)
+}
+
 /// Digits and power of ten of a value rounded to a number of significant digits.
 fn scientific(value: f64, digits: usize) -> (String, i32) {
     let text = format!("{value:.*e}", digits - 1);

@@ -17,6 +17,8 @@ pub struct CsvTable {
     path: PathBuf,
     file: File,
     columns: Vec<(String, Slot)>,
+    /// Values of the last row.
+    values: Vec<f64>,
 }
 
 impl CsvTable {
@@ -38,7 +40,7 @@ impl CsvTable {
                 columns.push((variable.name, variable.slot));
             }
         }
-        let mut table = Self { path: path.to_owned(), file, columns };
+        let mut table = Self { path: path.to_owned(), file, columns, values: Vec::new() };
         table.write_row(&header)?;
         Ok(table)
     }
@@ -58,19 +60,26 @@ impl CsvTable {
         state: &State,
         cache: &mut Cache,
     ) -> Result<(), OutputError> {
-        let mut row = vec![number(state.time)];
         let mut reader = model.reader(state, cache)?;
+        self.values.clear();
         for (name, column) in &self.columns {
             match column {
-                Slot::Input(at) => row.push(number(state.inputs[*at])),
+                Slot::Input(at) => self.values.push(state.inputs[*at]),
                 Slot::Output(output) => {
                     let failed = |reason| OutputError::Value { name: name.clone(), reason };
-                    row.push(number(reader.value(output).map_err(failed)?));
+                    self.values.push(reader.value(output).map_err(failed)?);
                 }
                 Slot::Parameter(_) | Slot::Threads | Slot::OutputDirectory => {}
             }
         }
+        let row: Vec<_> =
+            [&state.time].into_iter().chain(&self.values).map(|&x| number(x)).collect();
         self.write_row(&row)
+    }
+
+    /// Names of the columns after that of the time, and values of the last row.
+    pub fn last_row(&self) -> impl Iterator<Item = (&str, f64)> {
+        self.columns.iter().map(|(name, _)| name.as_str()).zip(self.values.iter().copied())
     }
 
     fn write_row(&mut self, fields: &[String]) -> Result<(), OutputError> {

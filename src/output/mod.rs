@@ -2,11 +2,13 @@
 
 mod csv;
 mod error;
+mod forecast;
 mod lock;
 mod series;
 mod vtk;
 
 pub use csv::CsvTable;
 pub use error::OutputError;
+pub use forecast::FilesForecast;
 pub use lock::FolderLock;
-pub use series::FieldSeries;
+pub use series::{Discs, FieldSeries};

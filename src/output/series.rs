@@ -15,7 +15,8 @@ use crate::model::{Cache, Model, State};
 use crate::scene::{Body, Drawn, Scene};
 
 /// The fields of all bodies as ParaView time series. For each time `BODY.pvd` lists one `BODY_NNNNNN.vtr` (the nodes of
-/// a box), `.vts` (those of a disc, revolved about its axis) or `.vtp` (the particles of a droplet).
+/// a box, or of a disc's meridian section), `.vts` (those of a disc, revolved about its axis) or `.vtp` (the particles of
+/// a droplet).
 ///
 /// Files appear whole or not at all, and the list is updated after each time, so an interrupted run leaves a readable
 /// series. A time with a file that cannot be written is not listed. A state whose time is not later than the last one
@@ -32,9 +33,9 @@ pub struct FieldSeries {
 impl FieldSeries {
     /// Creates the folder if it is missing, and empty lists in it; removes the files of an earlier series of these
     /// bodies.
-    pub fn create(directory: &Path, model: &Model) -> Result<Self, OutputError> {
+    pub fn create(directory: &Path, model: &Model, discs: Discs) -> Result<Self, OutputError> {
         fs::create_dir_all(directory).map_err(OutputError::at("create the folder", directory))?;
-        let series = Self::of(directory, model.scene());
+        let series = Self::of(directory, model.scene(), discs);
         for body in &series.bodies {
             series.write_list(body)?;
         }
@@ -43,9 +44,9 @@ impl FieldSeries {
     }
 
     /// A series without times, with nothing written yet.
-    fn of(directory: &Path, scene: &Scene) -> Self {
+    fn of(directory: &Path, scene: &Scene, discs: Discs) -> Self {
         let kind = |body: &Body| match body.drawn_as()? {
-            Drawn::Grid if body.is_round() => Some(Kind::Revolved),
+            Drawn::Grid if body.is_round() && discs == Discs::Revolved => Some(Kind::Revolved),
             Drawn::Grid => Some(Kind::Grid),
             Drawn::Particles => Some(Kind::Particles),
         };
@@ -58,7 +59,7 @@ impl FieldSeries {
     /// Removes the series of a model's bodies from a folder, including unfinished files. A file that cannot be removed
     /// is an error: it would be mistaken for a field of a later run.
     pub fn remove(directory: &Path, model: &Model) -> Result<(), OutputError> {
-        let series = Self::of(directory, model.scene());
+        let series = Self::of(directory, model.scene(), Discs::Sections);
         let Ok(entries) = fs::read_dir(directory) else { return Ok(()) };
         let names = entries.flatten().filter_map(|entry| entry.file_name().into_string().ok());
         for name in names.filter(|name| series.is_list(name) || series.is_unlisted(name)) {
@@ -75,7 +76,7 @@ impl FieldSeries {
 
     /// The first file in a folder that a series of a scene's bodies would replace or remove.
     pub fn found_in(directory: &Path, scene: &Scene) -> Option<PathBuf> {
-        let series = Self::of(directory, scene);
+        let series = Self::of(directory, scene, Discs::Sections);
         let entries = fs::read_dir(directory).ok()?;
         let names = entries.flatten().filter_map(|entry| entry.file_name().into_string().ok());
         let own = names.filter(|name| series.is_list(name) || series.is_unlisted(name)).min()?;
@@ -179,6 +180,15 @@ impl FieldSeries {
         let path = self.directory.join(format!("{}.pvd", body.0));
         replace(&path, |out| write_collection(out, body, &self.times))
     }
+}
+
+/// How files show discs, which are modelled in a meridian section.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Discs {
+    /// The section as it is: x is the radius.
+    Sections,
+    /// The section turned about the axis; a file is some 25 times as large.
+    Revolved,
 }
 
 /// Content of a body's files.

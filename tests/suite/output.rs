@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use impinge::model::{Cache, Model, State};
-use impinge::output::FieldSeries;
+use impinge::output::{Discs, FieldSeries};
 use impinge::scene;
 use tempfile::TempDir;
 
@@ -47,7 +47,7 @@ fn listed(folder: &Path) -> Vec<String> {
 fn the_list_is_readable_after_each_time() {
     let folder = TempDir::new().unwrap();
     let model = model();
-    let mut series = FieldSeries::create(folder.path(), &model).unwrap();
+    let mut series = FieldSeries::create(folder.path(), &model, Discs::Sections).unwrap();
     assert_eq!(listed(folder.path()), [""; 0]);
     for (time, expected) in [(0.0, &["0.0"][..]), (1e-7, &["0.0", "1e-7"])] {
         series.write(&model, &at(&model, time), &mut Cache::default()).unwrap();
@@ -62,7 +62,7 @@ fn the_list_is_readable_after_each_time() {
 fn a_restored_state_replaces_what_came_after_it() {
     let folder = TempDir::new().unwrap();
     let model = model();
-    let mut series = FieldSeries::create(folder.path(), &model).unwrap();
+    let mut series = FieldSeries::create(folder.path(), &model, Discs::Sections).unwrap();
     for time in [0.0, 1.0, 2.0, 1.0] {
         series.write(&model, &at(&model, time), &mut Cache::default()).unwrap();
     }
@@ -74,7 +74,10 @@ fn a_folder_that_cannot_be_made_is_named_with_the_reason() {
     let folder = TempDir::new().unwrap();
     let taken = folder.path().join("taken");
     fs::write(&taken, "a file").unwrap();
-    let error = FieldSeries::create(&taken.join("here"), &model()).err().unwrap().to_string();
+    let error = FieldSeries::create(&taken.join("here"), &model(), Discs::Sections)
+        .err()
+        .unwrap()
+        .to_string();
     assert!(error.starts_with("cannot create the folder") && error.contains("taken"), "{error}");
 }
 
@@ -96,7 +99,7 @@ fn files_of_an_earlier_run_do_not_stay() {
     for name in foreign.iter().chain(&ours).chain(&["block.pvd.part", "block_000009.vtp"]) {
         fs::write(folder.path().join(name), "earlier").unwrap();
     }
-    let mut series = FieldSeries::create(folder.path(), &model).unwrap();
+    let mut series = FieldSeries::create(folder.path(), &model, Discs::Sections).unwrap();
     let mut expected = [&foreign[..], &["block.pvd"]].concat();
     expected.sort();
     assert_eq!(files(folder.path()), expected);
@@ -115,7 +118,7 @@ fn files_of_an_earlier_run_do_not_stay() {
 fn a_file_that_cannot_be_written_is_not_listed() {
     let folder = TempDir::new().unwrap();
     let model = model();
-    let mut series = FieldSeries::create(folder.path(), &model).unwrap();
+    let mut series = FieldSeries::create(folder.path(), &model, Discs::Sections).unwrap();
     series.write(&model, &at(&model, 0.0), &mut Cache::default()).unwrap();
     let taken = folder.path().join("block_000001.vtr");
     fs::create_dir(&taken).unwrap();
@@ -136,7 +139,7 @@ fn a_disc_is_written_as_a_body_of_three_dimensions() {
     let text =
         SCENE.replace("box = [4e-4, 4e-4, 1e-4]", "disc = { radius = 2e-4, thickness = 1e-4 }");
     let model = Model::build(&scene::parse(&text, "disc.toml").unwrap(), 1).unwrap();
-    let mut series = FieldSeries::create(folder.path(), &model).unwrap();
+    let mut series = FieldSeries::create(folder.path(), &model, Discs::Revolved).unwrap();
     series.write(&model, &at(&model, 0.0), &mut Cache::default()).unwrap();
     assert_eq!(files(folder.path()), ["block.pvd", "block_000000.vts"]);
     let bytes = fs::read(folder.path().join("block_000000.vts")).unwrap();

@@ -13,6 +13,8 @@ pub struct DropletForecast {
     pub name: String,
     /// Number of particles once all drops are released, without mirror images.
     pub particles: usize,
+    /// The same with mirror images, in files; 0 where nothing moves.
+    pub drawn: usize,
     /// Time step at rest [s].
     pub time_step: f64,
     /// Time steps of the default experiment.
@@ -65,6 +67,12 @@ impl DropletForecast {
         Self {
             name: name.into(),
             particles,
+            drawn: particles
+                * droplet
+                    .mirrors()
+                    .map(|mirrored| if mirrored { 2 } else { 1 })
+                    .iter()
+                    .product::<usize>(),
             time_step,
             steps: effort.steps,
             memory: PARTICLE_MEMORY * particles as f64,

@@ -9,8 +9,8 @@ use crate::coupling::FaceRings;
 use crate::math::chebyshev::products;
 use crate::method::enthalpy::EnthalpyHeat;
 use crate::method::fem::{
-    Geometry, Plan, expected_entries, factor_memory, memory_of_row, particle_cost, solver_memory,
-    suits_conjugate_gradients,
+    Geometry, Mesh, Plan, expected_entries, factor_memory, memory_of_row, particle_cost,
+    solver_memory, suits_conjugate_gradients,
 };
 use crate::scene::{CellShape, CellValues, Coupling, Load, Scene, Solid};
 
@@ -19,6 +19,8 @@ pub struct BodyForecast {
     pub name: String,
     /// Nodes along x, y, z (r, –, z in axisymmetry) of the meshed part.
     pub nodes: [usize; 3],
+    /// Nodes of the whole body, in files.
+    pub drawn: usize,
     /// Unknowns of heat and of displacement.
     pub unknowns: [usize; 2],
     /// Smallest and largest distance of nodes along each axis [m].
@@ -134,6 +136,7 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
     BodyForecast {
         name: name.into(),
         nodes: plan.mesh.node_counts(),
+        drawn: whole(&plan.mesh),
         unknowns,
         spacing,
         order: plan.mesh.order(),
@@ -154,6 +157,14 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
             + passes * links / PRODUCT_RATE,
         notes: plan.notes,
     }
+}
+
+/// Nodes of a mesh and its mirror images.
+fn whole(mesh: &Mesh) -> usize {
+    let [columns, rows, layers] = mesh.node_counts();
+    let [columns, rows] = [(columns, 0), (rows, 1)]
+        .map(|(count, axis)| if mesh.mirrored[axis] { 2 * count - 1 } else { count });
+    columns * rows * layers
 }
 
 /// Number of symmetry classes that may be loaded during a run.

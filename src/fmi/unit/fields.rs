@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::Unit;
 use crate::fmi::gate::answer::Status;
-use crate::output::{FieldSeries, FolderLock};
+use crate::output::{Discs, FieldSeries, FolderLock};
 use crate::runtime::thread::aside;
 
 impl Unit {
@@ -18,7 +18,7 @@ impl Unit {
         let directory = std::path::absolute(named).unwrap_or_else(|_| named.to_owned());
         let open = || {
             let lock = FolderLock::take(&directory)?;
-            Ok((FieldSeries::create(&directory, &run.model)?, lock))
+            Ok((FieldSeries::create(&directory, &run.model, Discs::Sections)?, lock))
         };
         match aside(open) {
             Ok(series) => {

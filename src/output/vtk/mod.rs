@@ -13,7 +13,7 @@ use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 
 pub use grid::write_grid;
 pub use particles::write_particles;
-pub use revolved::write_revolved;
+pub use revolved::{SECTIONS, write_revolved};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 

@@ -1,7 +1,6 @@
 //! The nodes of a disc, whose meridian section is revolved about the axis: a structured grid (`.vts`).
 //!
-//! Viewers do not support meridian sections: they would show the half plane alone. So the section is repeated at equal
-//! angles, with vectors and tensors rotated into components along x, y, z. Values at the angle 0 are those of the
+//! Viewers show a meridian section as the half plane alone. Here it is repeated at equal angles, with vectors and tensors rotated into components along x, y, z. Values at the angle 0 are those of the
 //! section to the bit.
 
 use std::f64::consts::TAU;
@@ -15,6 +14,8 @@ use crate::model::NodalFields;
 
 /// Number of angles: with 24 the outline is within 1 % of a circle.
 const SECTORS: usize = 24;
+/// Number of sections in a file: the first angle stands at the end again.
+pub const SECTIONS: usize = SECTORS + 1;
 
 /// Writes the fields of a disc at `time` [s].
 pub fn write_revolved(out: impl Write, time: f64, fields: &NodalFields) -> io::Result<()> {

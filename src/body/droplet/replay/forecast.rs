@@ -74,6 +74,7 @@ pub fn forecast(scene: &Scene, name: &str, droplet: &Droplet) -> DropletForecast
     DropletForecast {
         name: name.into(),
         particles,
+        drawn: 0,
         time_step,
         steps,
         memory: PARTICLE_MEMORY * particles as f64,

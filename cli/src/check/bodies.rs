@@ -1,0 +1,88 @@
+//! Tables of a scene's bodies.
+
+use impinge::scene::{Droplet, MaterialChoice, Scene, Shape, Solid};
+
+use super::words::{key, metres};
+use crate::table::table;
+use crate::units::{engineering, kelvin};
+
+pub fn bodies(scene: &Scene) -> String {
+    let rows: Vec<_> = scene
+        .solids()
+        .map(|(name, solid)| {
+            [
+                name.to_owned(),
+                shape(&solid.shape),
+                law(solid),
+                kelvin(solid.initial_temperature),
+                key(&solid.heat),
+                key(&solid.symmetry),
+            ]
+        })
+        .collect();
+    table(["body", "shape", "material", "initially", "heat", "symmetry"], &rows)
+}
+
+pub fn lumps(scene: &Scene) -> String {
+    let rows: Vec<_> = scene.lumps().map(|(name, words)| [name.to_owned(), words]).collect();
+    table(["body", "what"], &rows)
+}
+
+pub fn droplets(scene: &Scene) -> String {
+    let rows: Vec<_> = scene
+        .droplets()
+        .map(|(name, droplet)| {
+            let drops = match droplet.drops() {
+                count if droplet.is_on_demand() => {
+                    format!("up to {count} of {}", metres(droplet.diameter))
+                }
+                1 => metres(droplet.diameter),
+                count => format!("{count} of {}", metres(droplet.diameter)),
+            };
+            [
+                name.to_owned(),
+                drops,
+                speed(droplet),
+                kelvin(droplet.initial_temperature),
+                key(&droplet.method),
+                if droplet.has_particles() { metres(droplet.spacing) } else { "none".to_owned() },
+                key(&droplet.kernel),
+            ]
+        })
+        .collect();
+    let heading =
+        ["droplet", "diameter", "speed", "initially", "method", "distance of particles", "kernel"];
+    table(heading, &rows)
+}
+
+fn speed(droplet: &Droplet) -> String {
+    let speed = engineering(droplet.impact_velocity, "m/s");
+    match droplet.is_straight() {
+        true => speed,
+        false => format!("{speed} at {:.1}°", droplet.impact_angle.to_degrees()),
+    }
+}
+
+fn shape(shape: &Shape) -> String {
+    match shape {
+        Shape::Box(extents) => format!("box {}", extents.map(metres).join(" × ")),
+        Shape::Disc(disc) => {
+            format!("disc, radius {}, thickness {}", metres(disc.radius), metres(disc.thickness))
+        }
+    }
+}
+
+/// Names the material of a body: its named material or constitutive law, or its layers.
+fn law(solid: &Solid) -> String {
+    let layers = solid.layers.iter().flatten();
+    let own = solid.material.iter().map(material);
+    let layers =
+        layers.map(|layer| format!("{} {}", metres(layer.thickness), material(&layer.material)));
+    own.chain(layers).collect::<Vec<_>>().join(" on ")
+}
+
+fn material(choice: &MaterialChoice) -> String {
+    let table = toml::Value::try_from(choice.material()).ok();
+    let model = table.as_ref().and_then(|table| table.get("model")?.as_str());
+    choice.name.clone().unwrap_or_else(|| model.unwrap_or_default().to_owned())
+}

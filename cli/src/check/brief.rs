@@ -1,0 +1,94 @@
+//! A scene's report in about ten lines.
+
+use std::fmt::Write;
+
+use impinge::model::tolerance::{BodyEstimate, percent};
+use impinge::model::{Forecast, Timeline};
+use impinge::output::FilesForecast;
+use impinge::scene::Scene;
+
+use super::accuracy::accuracy;
+use super::cost::Preparation;
+use super::omissions::omissions;
+use super::words::key;
+use crate::units::{engineering, megabytes};
+
+/// What a report says beside the scene.
+pub struct Findings<'f> {
+    pub forecast: &'f Forecast,
+    pub preparation: &'f Preparation,
+    pub estimates: &'f [BodyEstimate],
+    pub files: FilesForecast,
+    /// Number of warnings that were printed.
+    pub warnings: usize,
+}
+
+/// Width of the column of topics.
+const TOPICS: usize = 14;
+
+/// The report.
+pub fn brief(scene: &Scene, findings: &Findings) -> String {
+    let mut text = head(scene);
+    let mut add = |topic: &str, lines: &[String]| {
+        for (i, line) in lines.iter().enumerate() {
+            let topic = if i == 0 { topic } else { "" };
+            let _ = writeln!(text, "  {topic:TOPICS$}{line}");
+        }
+    };
+    add("models", &[models(findings.forecast)]);
+    add("takes", &[findings.preparation.cost(findings.forecast)]);
+    add("writes", &[writes(&findings.files, scene)]);
+    add("not modelled", &omissions(scene, findings.forecast));
+    let mut errors = accuracy(scene, findings.estimates);
+    if let Some(first) = errors.first_mut() {
+        let _ = write!(first, " of its range (wanted: {})", percent(scene.fidelity.tolerance));
+    }
+    add("accuracy", &errors);
+    let warnings = match findings.warnings {
+        0 => "none".to_owned(),
+        1 => "1, above".to_owned(),
+        count => format!("{count}, above"),
+    };
+    add("warnings", &[warnings]);
+    add(
+        "more",
+        &["--verbose: conditions, meshes, errors; --list: parameters, inputs, outputs".to_owned()],
+    );
+    text
+}
+
+/// Name, description and steps of a scene.
+fn head(scene: &Scene) -> String {
+    let mut text = scene.name.clone();
+    if !scene.description.is_empty() {
+        let _ = write!(text, ": {}", scene.description);
+    }
+    let steps = Timeline::new(scene.step, scene.stop_time).count;
+    let [step, stop] = [scene.step, scene.stop_time].map(|time| engineering(time, "s"));
+    let (level, tolerance) = (key(&scene.fidelity.level), scene.fidelity.tolerance);
+    let _ = writeln!(
+        text,
+        "\n  {:TOPICS$}{steps} of {step} to {stop}; fidelity {level}, tolerance {tolerance}",
+        "steps"
+    );
+    text
+}
+
+fn models(forecast: &Forecast) -> String {
+    let solids = forecast.bodies.iter().map(|body| {
+        let nodes = body.nodes.iter().filter(|count| **count > 1);
+        let nodes: Vec<_> = nodes.map(usize::to_string).collect();
+        let reduced = if body.reduced.is_some() { ", reduced" } else { "" };
+        format!("{}: {} nodes{reduced}", body.name, nodes.join(" × "))
+    });
+    let droplets = forecast.droplets.iter().map(|body| match body.particles {
+        0 => format!("{}: closed forms", body.name),
+        particles => format!("{}: {particles} particles", body.name),
+    });
+    let all: Vec<_> = solids.chain(droplets).collect();
+    if all.is_empty() { "nothing with an extent".to_owned() } else { all.join("; ") }
+}
+
+fn writes(files: &FilesForecast, scene: &Scene) -> String {
+    format!("{} files, about {} in out/{}", files.count, megabytes(files.bytes), scene.name)
+}

@@ -1,0 +1,116 @@
+//! The command `impinge check`.
+
+mod accuracy;
+mod bodies;
+mod brief;
+mod conditions;
+mod cost;
+mod errors;
+mod model;
+mod omissions;
+mod readings;
+mod variables;
+mod words;
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use impinge::model::tolerance::{self, BodyEstimate};
+use impinge::model::{Forecast, Model, Timeline, check_memory, forecast};
+use impinge::output::{Discs, FilesForecast};
+use impinge::runtime::{Usage, available_memory};
+use impinge::scene::Scene;
+
+use super::patience;
+use super::{CliError, run};
+use brief::{Findings, brief};
+use cost::Preparation;
+use variables::variables;
+
+/// Report what a scene models and leaves out, its cost and its expected errors
+#[derive(Args)]
+pub struct Check {
+    /// The scene, a TOML file
+    scene: PathBuf,
+    /// Add conditions, meshes and the errors of all outputs
+    #[arg(long, short)]
+    verbose: bool,
+    /// List parameters, inputs and outputs
+    #[arg(long)]
+    list: bool,
+    /// List them with the meaning of every output
+    #[arg(long)]
+    outputs: bool,
+}
+
+impl Check {
+    /// Reports on the scene.
+    pub fn execute(&self) -> Result<String, CliError> {
+        let begun = Usage::now();
+        let (scene, mut warnings) = patience::read(&self.scene)?;
+        check_memory(&scene, available_memory()).map_err(CliError::Model)?;
+        if let Some(note) = tolerance::note_on_sample(&scene) {
+            super::print_message("note", &note);
+        }
+        let levels = tolerance::levels(&scene, available_memory());
+        let (scene, estimates) = tolerance::estimates(&levels.scene);
+        let preparation = Preparation { begun, done: Usage::now() };
+        warnings.extend(tolerance::warnings(&scene, &estimates));
+        let reduced =
+            tolerance::reduced_model(&scene, available_memory()).map_err(CliError::Model)?;
+        warnings.extend(reduced.iter().flat_map(Model::reduction_warnings));
+        super::warn(&warnings);
+        let forecast = forecast(&scene);
+        let rows = Timeline::new(scene.step, scene.stop_time).count + 1;
+        let times = run::snapshots(rows - 1, run::default_fields_every(rows - 1));
+        let mut text = brief(
+            &scene,
+            &Findings {
+                forecast: &forecast,
+                preparation: &preparation,
+                estimates: &estimates,
+                files: FilesForecast::of(&scene, &forecast, [rows, times], Discs::Sections),
+                warnings: warnings.len(),
+            },
+        );
+        if self.verbose {
+            text.push_str(&sections(&scene, &forecast, &estimates));
+            text.push_str(&reductions(reduced.as_ref(), &levels.notes));
+        }
+        if self.list || self.outputs {
+            text.push_str(&variables(&scene, self.outputs));
+        }
+        Ok(text)
+    }
+}
+
+/// Everything about the scene's parts.
+fn sections(scene: &Scene, forecast: &Forecast, estimates: &[BodyEstimate]) -> String {
+    let sections = [
+        ("Bodies", bodies::bodies(scene)),
+        ("Bodies without extent", bodies::lumps(scene)),
+        ("Droplets", bodies::droplets(scene)),
+        ("Faces", conditions::faces(scene)),
+        ("Loads", conditions::loads(scene)),
+        ("Probes", readings::probes(scene)),
+        ("Fields", readings::fields(scene)),
+        ("Walls", conditions::walls(scene)),
+        ("Couplings", conditions::couplings(scene)),
+        ("Model", model::notes(forecast)),
+        ("Errors by the mesh", errors::errors(estimates)),
+    ];
+    let mut text = String::new();
+    for (title, body) in sections.iter().filter(|(_, body)| !body.is_empty()) {
+        let _ = write!(text, "\n{title}\n{body}");
+    }
+    text
+}
+
+/// Lists orders and bounds of reduced solids, and the levels chosen for open ones.
+fn reductions(model: Option<&Model>, levels: &[String]) -> String {
+    let mut notes = levels.to_vec();
+    notes.extend(model.into_iter().flat_map(Model::notes));
+    let lines: String = notes.into_iter().map(|note| format!("  {note}\n")).collect();
+    if lines.is_empty() { lines } else { format!("\nReduction\n{lines}") }
+}

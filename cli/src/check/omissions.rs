@@ -1,0 +1,38 @@
+//! What a scene's model leaves out.
+
+use impinge::model::Forecast;
+use impinge::scene::{Droplet, Scene};
+
+/// Acceleration of free fall [m/s²].
+const FREE_FALL: f64 = 9.81;
+/// Bond number ρgD²/σ above which gravity flattens a drop by some per cent.
+const FELT: f64 = 0.1;
+
+/// Lists effects that the model leaves out and that somebody may expect of such a scene.
+pub fn omissions(scene: &Scene, forecast: &Forecast) -> Vec<String> {
+    let mut list = Vec::new();
+    for body in
+        forecast.bodies.iter().filter(|body| body.unknowns[1] == 0 && body.reduced.is_none())
+    {
+        list.push(format!(
+            "stress in {} (nothing reads it, or elastic constants are missing)",
+            body.name
+        ));
+    }
+    let droplets: Vec<_> = scene.droplets().collect();
+    if !droplets.is_empty() {
+        list.push("freezing, boiling and evaporation of liquids, the air, splashing".to_owned());
+    }
+    let heavy = |&(name, droplet): &(&str, &Droplet)| {
+        let bond = bond(droplet);
+        (droplet.gravity == 0.0 && bond > FELT && bond.is_finite())
+            .then(|| format!("gravity on {name} (Bond number {bond:.2}; `gravity = 9.81`)"))
+    };
+    list.extend(droplets.iter().filter_map(heavy));
+    list
+}
+
+fn bond(droplet: &Droplet) -> f64 {
+    let fluid = &droplet.fluid;
+    fluid.density * FREE_FALL * droplet.diameter.powi(2) / fluid.surface_tension
+}
