@@ -1,6 +1,5 @@
 """Reads the ParaView files that units and `impinge run` write."""
 
-import re
 import struct
 import xml.etree.ElementTree as ET
 from pathlib import Path
@@ -23,13 +22,6 @@ def read(path: Path) -> dict[str, np.ndarray]:
         values = np.frombuffer(raw, "<f8", size // 8, at + 8)
         arrays[array.get("Name")] = values.reshape(-1, width) if width > 1 else values
     return arrays
-
-
-def shape(path: Path) -> tuple[int, int, int]:
-    """The numbers of points along z, y and x of a structured file, in the order of its arrays."""
-    extent = re.search(rb'WholeExtent="([^"]+)"', path.read_bytes())[1].split()
-    along_x, along_y, along_z = (int(last) + 1 for last in extent[1::2])
-    return along_z, along_y, along_x
 
 
 def files(folder: Path, body: str) -> dict[float, Path]:

@@ -26,5 +26,5 @@ def add_contents(app, page: str, source: list[str]):
         linked = [posixpath.normpath(posixpath.join(folder, link)) for link in LINK.findall(part)]
         entries = [f"/{posixpath.splitext(path)[0]}" for path in linked]
         if entries:
-            options = f":hidden:\n:caption: {caption}\n"
+            options = f":hidden:\n:titlesonly:\n:caption: {caption}\n"
             source[0] += "\n".join(["", "```{toctree}", options, *entries, "```", ""])

@@ -65,12 +65,11 @@ class Drop:
 
 def plate_section(path: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """x, z [mm] and temperature [°C] of the plate's meridian section on both sides of its axis."""
-    arrays, (levels, angles, radii) = paraview.read(path), paraview.shape(path)
-    places = 1e3 * arrays["position"].reshape(levels, angles, radii, 3)[:, 0]
-    temperature = arrays["temperature"].reshape(levels, angles, radii)[:, 0] - shared.ZERO_CELSIUS
-    radius = places[0, :, 0]
+    arrays = paraview.read(path)
+    radius, z = 1e3 * arrays["x"], 1e3 * arrays["z"]
+    temperature = arrays["temperature"].reshape(len(z), len(radius)) - shared.ZERO_CELSIUS
     both = np.hstack([temperature[:, :0:-1], temperature])
-    return np.r_[-radius[:0:-1], radius], places[:, 0, 2], both
+    return np.r_[-radius[:0:-1], radius], z, both
 
 
 def draw_moment(axes, moment: float, drop: Path, plate: Path):

@@ -111,7 +111,7 @@ class Reader:
         )
         self.printed += ran.stdout + ran.stderr
         if ran.returncode == 0:
-            self.warnings += ran.stderr
+            self.warnings += "".join(re.findall(r".*warning: .*\n", ran.stderr))
         else:
             self.refusal = f"{shlex.join(words)}: {ran.stderr}"
 
