@@ -27,6 +27,7 @@ include_patterns = [
     "CONTRIBUTING.md",
     "CHANGELOG.md",
 ]
+exclude_patterns = [".*", "target", "out"]
 myst_enable_extensions = ["dollarmath"]  # $…$ and $$…$$, which code hosts render, too
 myst_heading_anchors = 4  # the anchors that code hosts give to headings
 suppress_warnings = ["myst.header"]  # docs/scene.md keeps its second level for tables of keys
