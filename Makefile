@@ -8,10 +8,10 @@ MASTERS := .venv-masters
 NAMES := $(sort $(patsubst examples/%/scene.toml,%,$(wildcard examples/*/scene.toml)))
 EXAMPLES := $(sort $(patsubst examples/%/run.py,%,$(wildcard examples/*/run.py)))
 RELEASE := target/release
-PY_FILES := $(wildcard python build-fmu/*.py tests/conftest.py tests/fmpy tests/python tests/verification benches examples)
+PY_FILES := $(wildcard python build-fmu/*.py tests/conftest.py tests/fmpy tests/python tests/verification benches examples docs/conf.py docs/manual)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo units examples test rust-test python-test pytest fuzz verify bench charts maps bench-droplet bench-reduced build clean
+.PHONY: help demo docs units examples test rust-test python-test pytest fuzz verify bench charts maps bench-droplet bench-reduced build clean
 
 help: ## say what there is
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /  make \1\t/' | expand -t 20
@@ -21,6 +21,10 @@ demo: build $(VENV)/ready ## pack the alumina plate, run it and draw pictures
 	$(RELEASE)/build-fmu examples/alumina_plate/scene.toml -o out/alumina_plate.fmu
 	$(BIN)/python examples/alumina_plate/run.py
 	@echo "Pictures:"; find out/alumina_plate -name '*.png' -o -name '*.gif' | sort | sed 's/^/  /'
+
+docs: $(VENV)/ready ## build the manual, which needs no network to be read
+	$(BIN)/python -m sphinx --fail-on-warning --keep-going --quiet -b html -c docs . out/manual
+	@echo "Manual: out/manual/index.html"
 
 units: build ## pack every example that is one unit into out/
 	@mkdir -p out
