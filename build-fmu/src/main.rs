@@ -5,6 +5,7 @@ mod cells;
 mod documentation;
 mod library;
 mod picture;
+mod platform;
 mod reference;
 mod terminals;
 mod version;
@@ -12,6 +13,7 @@ mod words;
 
 use std::fs;
 use std::io::{self, Read, Write};
+use std::iter;
 use std::path::{Path, PathBuf};
 use std::process::{self, ExitCode};
 
@@ -21,6 +23,7 @@ use impinge::advice;
 use impinge::model::{Model, notes_on_walls, records, to_be_recorded, tolerance};
 use impinge::runtime::available_memory;
 use impinge::scene::{self, Scene};
+use platform::Platform;
 use version::Version;
 
 /// Pack a scene as an FMI co-simulation unit, or check a unit
@@ -36,17 +39,20 @@ struct Arguments {
     /// The version of FMI; with 3 rings, tiles and fields are array variables
     #[arg(long, value_name = "VERSION", default_value = "2")]
     fmi: Version,
-    /// The library of impinge [default: the one next to this program]
-    #[arg(long, value_name = "PATH")]
-    library: Option<PathBuf>,
+    /// A library of impinge, for this or another platform; repeatable [default: those installed with this program]
+    #[arg(long, value_name = "[PLATFORM=]PATH", value_parser = library::Named::parse)]
+    library: Vec<library::Named>,
+    /// Pack for these platforms alone, such as linux64 and win64; repeatable [default: all whose library is there]
+    #[arg(long, value_name = "PLATFORM", value_parser = platform::parse)]
+    platform: Vec<Platform>,
     /// Run the default experiment and pack its inputs and outputs too
     #[arg(long)]
     reference: bool,
     /// Write only the modelDescription.xml to this file
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["output", "library", "reference"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["output", "library", "platform", "reference"])]
     xml: Option<PathBuf>,
     /// Check a unit of FMI 2.0, of any tool; its library is loaded to compare the GUID
-    #[arg(long, conflicts_with_all = ["output", "library", "reference", "xml"])]
+    #[arg(long, conflicts_with_all = ["output", "library", "platform", "reference", "xml"])]
     lint: bool,
     /// List the rules
     #[arg(long, requires = "lint")]
@@ -124,11 +130,13 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
         refuse_other_files(target, b"<?xml")?;
         return write(target, arguments.fmi.model_description(&levels.scene, &text).as_bytes());
     }
-    let library_path = library::path(arguments.library.as_deref())?;
+    let libraries = library::find(&arguments.library, &arguments.platform, arguments.fmi)?;
     let target = arguments.output.clone().unwrap_or_else(|| format!("{}.fmu", scene.name).into());
-    refuse_inputs(&target, &[path, &library_path])?;
+    let paths = libraries.iter().map(|library| library.path.as_path());
+    refuse_inputs(&target, &iter::once(path).chain(paths).collect::<Vec<_>>())?;
     refuse_other_files(&target, b"PK")?;
-    let library = library::read(&library_path, arguments.fmi)?;
+    let warn = |warning: &str| complain(&format!("warning: {warning}"));
+    let libraries = library::entries(&libraries, &scene.name, arguments.fmi, warn)?;
     for note in to_be_recorded(&scene).into_iter().chain(tolerance::note_on_sample(&scene)) {
         complain(&format!("note: {note}"));
     }
@@ -150,7 +158,7 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
         Entries::new()
     };
     let notes = reduced.as_ref().map_or(Vec::new(), Model::notes);
-    let unit = unit((&scene, &text), &notes, library, arguments.fmi, reference)?;
+    let unit = unit((&scene, &text), &notes, arguments.fmi, [libraries, reference])?;
     write(&target, &unit)
 }
 
@@ -201,14 +209,14 @@ fn is_same_file(_a: &Path, _b: &Path) -> bool {
     false
 }
 
-/// The bytes of the unit; `notes` describe its reductions, `entries` follow from the options.
+/// The bytes of the unit; `notes` describe its reductions, `others` are its libraries and what the options ask for.
 fn unit(
     (scene, text): (&Scene, &str),
     notes: &[String],
-    library: Vec<u8>,
     fmi: Version,
-    mut entries: Entries,
+    others: [Entries; 2],
 ) -> Result<Vec<u8>, String> {
+    let mut entries: Entries = others.into_iter().flatten().collect();
     entries.append(&mut documentation::licences());
     entries.insert("modelDescription.xml".into(), fmi.model_description(scene, text).into());
     entries.insert("resources/scene.toml".into(), text.into());
@@ -218,7 +226,6 @@ fn unit(
     let icon = picture::png(scene)?;
     entries.append(&mut terminals::entries(scene, fmi, &icon)?);
     entries.insert(fmi.icon().into(), icon);
-    entries.insert(library::entry(&scene.name, fmi), library);
     let records = records(scene, scene.solver.threads);
     for (body, bytes) in records.map_err(|error| format!("no record of its drops: {error}"))? {
         entries.insert(format!("resources/records/{body}.record"), bytes);
@@ -277,8 +284,9 @@ mod tests {
     fn equal_scenes_produce_equal_bytes() {
         let scene = scene::parse(SCENE, "scene.toml").unwrap();
         for version in [Version::Two, Version::Three] {
-            let make =
-                || unit((&scene, SCENE), &[], vec![1, 2, 3], version, Entries::new()).unwrap();
+            let library = Entries::from([("binaries/linux64/Plate.so".into(), vec![1, 2, 3])]);
+            let others = [library, Entries::new()];
+            let make = || unit((&scene, SCENE), &[], version, others.clone()).unwrap();
             assert_eq!(make(), make());
         }
     }
