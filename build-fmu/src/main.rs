@@ -18,7 +18,8 @@ use std::path::{Path, PathBuf};
 use std::process::{self, ExitCode};
 
 use archive::Entries;
-use clap::Parser;
+use clap::{CommandFactory, Parser};
+use clap_complete::Shell;
 use impinge::advice;
 use impinge::model::{Model, notes_on_walls, records, to_be_recorded, tolerance};
 use impinge::runtime::available_memory;
@@ -28,10 +29,10 @@ use version::Version;
 
 /// Pack a scene as an FMI co-simulation unit, or check a unit
 #[derive(Parser)]
-#[command(version)]
+#[command(name = "build-fmu", version)]
 struct Arguments {
     /// The scene, a TOML file; with --lint the unit
-    #[arg(value_name = "SCENE", required_unless_present_any = ["rules", "instantiate"])]
+    #[arg(value_name = "SCENE", required_unless_present_any = ["rules", "instantiate", "completions", "man"])]
     file: Option<PathBuf>,
     /// Path of the unit [default: NAME.fmu]
     #[arg(short, long, value_name = "FILE.fmu")]
@@ -60,6 +61,12 @@ struct Arguments {
     /// Do not load the unit's library; use this for units of unknown origin
     #[arg(long, requires = "lint")]
     no_run: bool,
+    /// Print completions for a shell
+    #[arg(long, value_name = "SHELL", exclusive = true)]
+    completions: Option<Shell>,
+    /// Write the manual page, build-fmu.1, to a folder
+    #[arg(long, value_name = "FOLDER", exclusive = true)]
+    man: Option<PathBuf>,
     #[arg(long, hide = true, num_args = 4, exclusive = true)]
     instantiate: Option<Vec<String>>,
 }
@@ -96,6 +103,12 @@ fn complain(message: &str) {
 /// Executes the command; returns its text and an exit code.
 fn run(arguments: &Arguments) -> Result<(String, ExitCode), String> {
     let file = arguments.file.as_deref().unwrap_or(Path::new(""));
+    if let Some(shell) = arguments.completions {
+        return Ok((completions(shell), ExitCode::SUCCESS));
+    }
+    if let Some(folder) = &arguments.man {
+        return Ok((manual_page(folder)?, ExitCode::SUCCESS));
+    }
     if arguments.rules {
         return Ok((fmu_lint::rules(), ExitCode::SUCCESS));
     }
@@ -104,6 +117,22 @@ fn run(arguments: &Arguments) -> Result<(String, ExitCode), String> {
         return Ok((verdict.text, u8::from(verdict.has_errors).into()));
     }
     Ok((pack(arguments, file)?, ExitCode::SUCCESS))
+}
+
+/// Returns the completions of this program for a shell.
+fn completions(shell: Shell) -> String {
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut Arguments::command(), "build-fmu", &mut script);
+    String::from_utf8_lossy(&script).into_owned()
+}
+
+/// Writes the manual page; returns its path.
+fn manual_page(folder: &Path) -> Result<String, String> {
+    let pages = || clap_mangen::generate_to(Arguments::command(), folder);
+    let written = fs::create_dir_all(folder).and_then(|()| pages());
+    let page = folder.join("build-fmu.1").display().to_string();
+    written.map_err(|error| format!("cannot write {page}: {error}"))?;
+    Ok(page)
 }
 
 /// Packs the scene in `path`; returns a one-line summary.

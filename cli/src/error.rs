@@ -46,6 +46,8 @@ pub enum CliError {
     NoFolder { path: PathBuf },
     #[error("{} could be one of the files of the run; allowed: another folder (--out)", file.display())]
     ReadInFolder { file: PathBuf },
+    #[error("cannot write manual pages to {}: {reason}", folder.display())]
+    Pages { folder: PathBuf, reason: io::Error },
     #[error("cannot print: {0}")]
     Print(io::Error),
 }
