@@ -9,8 +9,8 @@ TOOLS := .venv-dist
 NAMES := $(sort $(patsubst examples/%/scene.toml,%,$(wildcard examples/*/scene.toml)))
 EXAMPLES := $(sort $(patsubst examples/%/run.py,%,$(wildcard examples/*/run.py)))
 RELEASE := target/release
-# Built for C libraries from 2012 on, and for Windows.
-OLDEST_GLIBC := 2.17
+# Built for C libraries from 2018 on, and for Windows.
+OLDEST_GLIBC := 2.28
 LINUX := target/dist/x86_64-unknown-linux-gnu/release
 WINDOWS := target/win64/x86_64-win7-windows-gnu
 WIN64 := $(WINDOWS)/release
@@ -153,7 +153,7 @@ wheels: $(TOOLS)/ready $(VENV)/ready
 		$(BIN)/python packaging/wheel.py target/dist/windows win_amd64 -o dist; }
 	$(TOOLS)/bin/auditwheel show dist/*$(LINUX_TAG).whl
 
-LINUX_TAG := manylinux_2_17_x86_64
+LINUX_TAG := manylinux_2_28_x86_64
 
 dist: ## wheels, units of all examples, completions, manual pages and checksums in dist/
 	rm -rf dist

@@ -1,6 +1,6 @@
 """Makes a wheel of the Python package and an installation laid out by packaging/stage.py.
 
-    python packaging/wheel.py STAGE manylinux_2_17_x86_64 -o dist
+    python packaging/wheel.py STAGE manylinux_2_28_x86_64 -o dist
 
 setuptools builds the package, which is pure Python. Programs and shared data join it in the places
 that the format of wheels has for them (`*.data/scripts` and `*.data/data`). One wheel serves every
