@@ -50,6 +50,8 @@ pub enum CliError {
         "there is no substance `{name}`{hint}; allowed: a name that `impinge substances` lists"
     )]
     UnknownSubstance { name: String, hint: String },
+    #[error("cannot write manual pages to {}: {reason}", folder.display())]
+    Pages { folder: PathBuf, reason: io::Error },
     #[error("cannot print: {0}")]
     Print(io::Error),
 }

@@ -3,6 +3,8 @@
 from importlib import import_module
 from types import ModuleType
 
+from impinge import installation
+
 
 class ImpingeError(Exception):
     """Any error of this package."""
@@ -55,6 +57,9 @@ class StudyError(ImpingeError, RuntimeError):
 
 def extra(name: str) -> str:
     """The command that installs an extra of this package; no index of packages has it."""
+    wheel = installation.wheel()
+    if wheel:
+        return f'pip install "impinge[{name}] @ {wheel}"'
     return f'pip install "./python[{name}]", in the checkout of impinge'
 
 

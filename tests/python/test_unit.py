@@ -374,5 +374,5 @@ def test_programs_are_found_from_within_a_checkout(tmp_path, monkeypatch):
             build.find_program()
     (checkout / "target/release" / build.PROGRAM).unlink()
     monkeypatch.chdir(checkout)
-    with pytest.raises(UnitError, match="neither on PATH nor in .*checkout/target/release"):
+    with pytest.raises(UnitError, match="nor on PATH, nor in .*checkout/target/release"):
         build.find_program()

@@ -6,6 +6,7 @@ use std::process::{Command, Output};
 
 use tempfile::TempDir;
 
+mod descriptions;
 mod inputs;
 mod named_materials;
 mod run_files;
