@@ -28,6 +28,12 @@ class Quantity:
     """Where the reference comes from."""
     has_panel: bool = True
     """Else it stands in the table, and beside what was asked for, alone."""
+    title: str = ""
+    """Its name in the picture, if that is another than in the table."""
+
+    @property
+    def shown(self) -> str:
+        return self.title or self.name
 
 
 @dataclass(frozen=True)
@@ -86,6 +92,10 @@ class Chart:
     title: str
     quantities: list[Quantity]
     methods: list[Method]
+    points: str = ""
+    """What the settings at points are: a sentence below the picture."""
+    has_settings: bool = True
+    """Whether settings stand at the ends of curves: not where these would cover each other."""
 
 
 @dataclass(frozen=True)

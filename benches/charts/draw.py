@@ -9,15 +9,20 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 from chart import Chart, Outcome
-from matplotlib.ticker import FuncFormatter, NullFormatter
+from labels import Labels
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from pictures import save
 from table import error, key
 
 COLOURS = ["#20306b", "#b0303c", "#e08214", "#2a8a7f", "#7b7b7b", "#8e5ea2", "#3b8bc4", "#a0752d"]
 COLOURS += ["#d65f9e", "#111111", "#6b8e23", "#c9a400"]
 MARKERS = "osD^vPX*<>ph"
-SMALLEST = 1e-9
-"""Errors are not drawn below: rounding, and the references' own."""
+FILLS = ("full", "none", "left", "right")
+SMALLEST, LARGEST = 1e-9, 1.0
+"""Errors are not drawn below, which is rounding and the references' own, nor beyond, where a value
+has nothing of the right one: these stand at the upper edge with an arrow."""
+FRONT = {"color": "0.85", "linewidth": 6, "zorder": 0}
 
 
 def front(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
@@ -43,11 +48,12 @@ def curve(chart: Chart, quantity, method, known: dict[tuple[str, str], Outcome])
     return found
 
 
-def between(low: float, high: float):
-    """Tells 2 and 5 between powers of ten where few of these are on the axis."""
-    if high / low > 100.0:
-        return NullFormatter()
-    return FuncFormatter(lambda x, _: f"{x:g}" if f"{x:e}"[0] in "25" else "")
+def plain_seconds(axis, low: float, high: float):
+    """Seconds as they are read, with 2 and 5 between powers of ten where few of these are there."""
+    few = high / low <= 100.0
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,)))
+    axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
+    axis.set_minor_formatter(NullFormatter())
 
 
 GAP = 1e3
@@ -63,7 +69,7 @@ def left_end(times: list[float]) -> float:
 def panel(axes, chart: Chart, quantity, known):
     curves = [curve(chart, quantity, method, known) for method in chart.methods]
     begin = left_end([seconds for found in curves for seconds, *_ in found])
-    every = []
+    every, ends = [], []
     for place, (method, found) in enumerate(zip(chart.methods, curves, strict=True)):
         if not found:
             continue
@@ -72,31 +78,29 @@ def panel(axes, chart: Chart, quantity, known):
         colour, marker = COLOURS[place % len(COLOURS)], MARKERS[place % len(MARKERS)]
         axes.loglog(
             [f[0] for f in found],
-            [f[1] for f in found],
+            [min(f[1], LARGEST) for f in found],
             color=colour,
             marker=marker,
             markersize=5,
             linewidth=1.3,
             label=method.name,
         )
-        for seconds, err, setting, _ in (found[0], found[-1])[: len(found)]:
-            axes.annotate(
-                setting,
-                (seconds, err),
-                (4, 4),
-                textcoords="offset points",
-                fontsize=7,
-                color=colour,
-            )
+        ends += [(point, colour) for point in (found[0], found[-1])[: len(found)]]
     if every:
-        axes.step(
-            *zip(*front(every), strict=True), where="post", color="0.8", linewidth=6, zorder=0
-        )
-    axes.set_title(quantity.name)
+        best = [(seconds, min(err, LARGEST)) for seconds, err in front(every)]
+        axes.step(*zip(*best, strict=True), where="post", **FRONT)
+        axes.set_ylim(top=min(axes.get_ylim()[1], 1.6 * LARGEST))
+    axes.set_title(f"Error of {quantity.shown}")
     axes.set_xlabel("time that a host waits: start, steps and readings [s]")
-    axes.xaxis.set_minor_formatter(between(*axes.get_xlim()))
-    axes.set_ylabel("relative error [1]")
+    plain_seconds(axes.xaxis, *axes.get_xlim())
+    axes.set_ylabel("relative error")
     axes.grid(True, which="major", color="0.92")
+    return [(*seen(*point), colour) for point, colour in ends]
+
+
+def seen(seconds: float, err: float, setting: str, _) -> tuple[float, float, str, str]:
+    """Where a point is drawn, its setting, and its error if that is beyond the edge."""
+    return seconds, min(err, LARGEST), setting, "" if err <= LARGEST else f"↑ {err:.3g}"
 
 
 def beside(begin: float, seconds: float, err: float, setting: str, asked: float | None) -> tuple:
@@ -108,40 +112,41 @@ def beside(begin: float, seconds: float, err: float, setting: str, asked: float 
 
 def asked_over_found(axes, chart: Chart, known):
     """Where a method can be asked for an error: what it kept of that."""
-    drawn = False
+    shown = []
     for place, method in enumerate(chart.methods):
-        for quantity, fill in zip(
-            chart.quantities, ("full", "none", "left", "right"), strict=False
-        ):
+        for quantity, fill in zip(chart.quantities, FILLS, strict=False):
             found = [f for f in curve(chart, quantity, method, known) if f[3] is not None]
             if found:
-                drawn = True
+                shown.append((quantity.shown, fill))
                 axes.loglog(
                     [f[3] for f in found],
                     [f[1] for f in found],
                     color=COLOURS[place % len(COLOURS)],
                     marker=MARKERS[place % len(MARKERS)],
                     fillstyle=fill,
-                    markersize=5,
+                    markersize=6,
                     linewidth=1.0,
-                    label=f"{method.name}: {quantity.name}",
                 )
-    if drawn:
-        ends = axes.get_xlim()
-        axes.loglog(ends, ends, color="black", linestyle=(0, (4, 3)), linewidth=1.0)
-        axes.set_xlim(ends)
-    axes.set_title("asked and found")
-    axes.set_xlabel("error asked for [1]")
-    axes.set_ylabel("error found [1]")
+    ends = axes.get_xlim()
+    bound = {"color": "black", "linestyle": (0, (4, 3)), "linewidth": 1.0}
+    axes.loglog(ends, ends, **bound)
+    axes.set_xlim(ends)
+    axes.set_title("Error found, by the error asked for")
+    axes.set_xlabel("error asked for")
+    axes.set_ylabel("error found (kept below the dashed line)")
     axes.grid(True, which="major", color="0.92")
-    make_room(axes, len(axes.get_legend_handles_labels()[0]))
-    axes.legend(fontsize=7, loc="lower right")
-    return drawn
+    handles = [Line2D([], [], label="found = asked for", **bound)]
+    handles += [
+        Line2D([], [], color="0.3", marker="o", fillstyle=fill, linestyle="none", label=name)
+        for name, fill in dict.fromkeys(shown)
+    ]
+    make_room(axes, len(handles))
+    axes.legend(handles=handles, fontsize=8, loc="lower right")
 
 
 def make_room(axes, entries: int):
     """Leaves the lower part of the panel to a legend of so many entries."""
-    share = 0.038 * entries + 0.03
+    share = 0.045 * entries + 0.03
     low, high = axes.get_ylim()
     axes.set_ylim(high * (low / high) ** (1.0 / (1.0 - share)), high)
 
@@ -162,21 +167,36 @@ def draw(chart: Chart, known: dict[tuple[str, str], Outcome], folder: Path):
     drawn = [quantity for quantity in chart.quantities if quantity.has_panel]
     panels, count = len(drawn), len(drawn) + can_ask
     figure, axes = arranged(count)
-    for place, quantity in enumerate(drawn):
-        panel(axes[place], chart, quantity, known)
+    ends = [panel(axes[i], chart, quantity, known) for i, quantity in enumerate(drawn)]
     if can_ask:
         asked_over_found(axes[panels], chart, known)
+    figure.suptitle(chart.title, x=0.01, ha="left", fontsize=14, fontweight="bold")
+    explain(figure, chart, axes, panels, count)
+    figure.canvas.draw()
+    figure.set_layout_engine("none")
+    for place, points in zip(axes, ends, strict=False):
+        labels = Labels(place)
+        for seconds, err, setting, beyond, colour in points:
+            words = [setting] if chart.has_settings else []
+            labels.put(seconds, err, " ".join([*words, beyond]).strip(), colour)
+    save(figure, folder / f"{chart.name}.png")
+    plt.close(figure)
+
+
+def explain(figure, chart: Chart, axes, panels: int, count: int):
+    """The legend of methods, in the free panel or below all."""
     lines = {line.get_label(): line for place in axes[:panels] for line in place.get_lines()}
     labels = [method.name for method in chart.methods if method.name in lines]
-    figure.suptitle(chart.title, x=0.01, ha="left", fontsize=13)
     handles = [lines[label] for label in labels]
+    handles.append(Line2D([], [], label="best error for the time", **FRONT))
+    labels.append("best error for the time")
     if len(axes) > count:
         axes[-1].axis("off")
         axes[-1].legend(handles, labels, loc="center left", fontsize=10)
+        figure.supxlabel(chart.points, x=0.01, ha="left", fontsize=9, color="0.3")
     else:
-        figure.legend(handles, labels, loc="outside lower center", ncols=3, fontsize=9)
-    save(figure, folder / f"{chart.name}.png")
-    plt.close(figure)
+        about = {"title": chart.points, "title_fontsize": 9, "alignment": "left"}
+        figure.legend(handles, labels, loc="outside lower center", ncols=3, fontsize=9, **about)
 
 
 def arranged(panels: int):

@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from boundary import crossings, is_bad, silent
 from matplotlib.collections import LineCollection
-from matplotlib.colors import LogNorm, Normalize
+from matplotlib.colors import Colormap, LinearSegmentedColormap, LogNorm, Normalize
 from matplotlib.lines import Line2D
 from pictures import save
 from plan import Axis, Map
@@ -24,7 +24,10 @@ STYLE = {
     "axes.spines.right": False,
     "legend.frameon": False,
 }
-THEORY = ["#b0303c", "#20306b", "#2a8a7f"]
+THEORY = ["#7a1fa2", "#0b6e4f", "#111111"]
+GOOD = ["#08306b", "#2f7fb8", "#9fd0e6", "#e9f4f9"]
+BAD = ["#fdeeda", "#fdb366", "#e2622b", "#7f1d0a"]
+"""Colours up to the outcome from which on a cell is bad, and beyond it: pale where it is near."""
 DASHES = [(0, (5, 3)), (0, (1, 2)), (0, (7, 2, 1, 2))]
 
 
@@ -50,11 +53,37 @@ def coloured(axes, of: Map, known: Known):
     norm = LogNorm(low, high, clip=True) if wide else Normalize(low, high, clip=True)
     if wide:
         grid = np.where(grid <= 0, low, grid)
-    palette = plt.get_cmap("YlGnBu").copy()
-    palette.set_bad("0.88")
+    palette = parted(float(np.clip(norm(of.bad), 0.02, 0.98)))
     shown = np.ma.masked_invalid(np.where(np.isposinf(grid), high, grid))
     mesh = axes.pcolormesh(edges(of.x), edges(of.y), shown, cmap=palette, norm=norm)
     return mesh, beyond(grid, low, high)
+
+
+def parted(at: float) -> Colormap:
+    """Blue up to this share of the range and orange beyond it; what was refused is grey."""
+    good = [(at * place / (len(GOOD) - 1), colour) for place, colour in enumerate(GOOD)]
+    bad = [(at + (1.0 - at) * place / (len(BAD) - 1), c) for place, c in enumerate(BAD)]
+    palette = LinearSegmentedColormap.from_list("parted", [*good, *bad], N=512)
+    palette.set_bad("0.82")
+    return palette
+
+
+def bar(figure, axes, of: Map, mesh, ends: str) -> None:
+    """The scale of colours, with a line where outcomes turn bad."""
+    unit = f" [{of.unit}]" if of.unit not in ("", "1") else ""
+    made = figure.colorbar(mesh, ax=axes, label=f"{of.outcome}{unit}", shrink=0.9, extend=ends)
+    if mesh.norm.vmin < of.bad < mesh.norm.vmax:
+        made.ax.axhline(of.bad, color="black", linewidth=1.8)
+        made.ax.annotate(
+            f"{of.bad:g}",
+            (0.0, of.bad),
+            (-3, 0),
+            xycoords=("axes fraction", "data"),
+            textcoords="offset points",
+            ha="right",
+            va="center",
+            fontsize=9,
+        )
 
 
 def beyond(grid: np.ndarray, low: float, high: float) -> str:
@@ -68,8 +97,13 @@ def beyond(grid: np.ndarray, low: float, high: float) -> str:
 def marks(axes, of: Map, known: Known) -> list[Line2D]:
     """Dots where the product warns, crosses where it refuses, rings where it fails in silence."""
     groups = [
-        ("warned", ".", {"color": "#e08214", "markersize": 5}, lambda c: c.said == "warned"),
-        ("refused", "x", {"color": "0.35", "markersize": 5}, lambda c: c.said == "refused"),
+        (
+            "the run warned",
+            "o",
+            {"color": "black", "markersize": 4, "markeredgecolor": "white"},
+            lambda c: c.said == "warned",
+        ),
+        ("refused", "x", {"color": "0.3", "markersize": 5}, lambda c: c.said == "refused"),
     ]
     handles = []
     for label, marker, style, chosen in groups:
@@ -86,9 +120,9 @@ def marks(axes, of: Map, known: Known) -> list[Line2D]:
             [c.x for c in quiet],
             [c.y for c in quiet],
             "o",
-            color="#b0303c",
+            color="black",
             fillstyle="none",
-            markersize=9,
+            markersize=11,
             label="bad, and nothing said",
         )
         handles.append(line)
@@ -122,7 +156,7 @@ def searched(axes, of: Map, known: Known) -> list[Line2D]:
         linewidth=1.8,
         marker="o",
         markersize=3,
-        label=f"measured: {of.outcome} = {of.bad:g}",
+        label=f"measured limit, {of.bad:g}",
     )
 
 
@@ -143,12 +177,11 @@ def outlined(axes, of: Map, known: Known) -> list[Line2D]:
     if not sides:
         return []
     axes.add_collection(LineCollection(sides, colors="black", linewidths=1.8))
-    told = f"{of.outcome} above {of.bad:g}"
-    return [Line2D([], [], color="black", linewidth=1.8, label=f"around cells: {told}")]
+    return [Line2D([], [], color="black", linewidth=1.8, label=f"limit, {of.bad:g}")]
 
 
 def label(axis: Axis) -> str:
-    return f"{axis.name} [{axis.unit}]" if axis.unit else axis.name
+    return axis.name if axis.unit in ("", "1") else f"{axis.name} [{axis.unit}]"
 
 
 def prepare(axes, of: Map) -> None:
@@ -175,7 +208,7 @@ def draw(of: Map, known: Known, folder: Path) -> None:
     mesh, ends = coloured(axes, of, known)
     prepare(axes, of)
     handles = lines(axes, of, known) + marks(axes, of, known)
-    figure.colorbar(mesh, ax=axes, label=f"{of.outcome} [{of.unit}]", shrink=0.9, extend=ends)
+    bar(figure, axes, of, mesh, ends)
     if handles:
         figure.legend(handles=handles, loc="outside lower left", ncols=2, fontsize=8)
     save(figure, folder / f"{of.name}.png")

@@ -15,6 +15,7 @@ STOP, STEP = 2e-3, 2e-4  # s
 FLUX, RADIUS = 3e6, 0.5e-3  # W/m² in the middle of the spot, m
 COATING, ALUMINA = 20e-6, 240e-6  # m
 RESISTANCE = 1e-6  # m² K/W
+START = 20.0  # °C
 TEMPERATURES = ["surface", "coating_at_interface", "alumina_at_interface"]
 UNDER_DROP = ["under_drop", "coating_under_drop", "alumina_under_drop"]
 LABELS = ["surface", "coating at the interface", "alumina at the interface"]
@@ -59,22 +60,27 @@ def report(result: Result):
 
 
 def draw(result: Result, folder: Path):
-    figure, axes = shared.new_figure(1, 3, height=4.5)
-    times = result.times * 1e3
+    figure, axes = shared.new_figure(1, 3, height=5.0)
+    times = np.concatenate([[0.0], result.times * 1e3])
     for plot, values, title in [
-        (axes[0], result.spot, "under the spot"),
-        (axes[1], result.drop, "under the drop"),
+        (axes[0], result.spot, "Hot spot: the contact holds back heat"),
+        (axes[1], result.drop, "Hot drop: the surface follows the film"),
     ]:
+        values = np.vstack([np.full(3, START), values])
+        plot.fill_between(times, values[:, 1], values[:, 2], color="0.88", lw=0)
         for label, column, colour in zip(LABELS, values.T, shared.COLOURS, strict=False):
-            plot.plot(times, column, color=colour, label=label)
-        plot.set(title=title, xlabel="time / ms", ylabel="temperature / °C")
-        plot.legend(frameon=False)
-    for label, column, colour in zip(
-        LABELS[1:], result.stresses.T, shared.COLOURS[1:], strict=False
-    ):
-        axes[2].plot(times, column * 1e-6, color=colour, label=label)
-    axes[2].set(title="under the spot", xlabel="time / ms", ylabel="σ_xx / MPa")
-    axes[2].legend(frameon=False)
+            plot.plot(times, column, color=colour, label=label, marker="o", markersize=3.5)
+        step = f"{values[-1, 1] - values[-1, 2]:.1f} K across the contact"
+        plot.text(times[-1], START + 2, step, ha="right", color="0.35")
+        plot.set(title=title, xlabel="time / ms", ylabel="temperature / °C", ylim=(START, 98))
+        plot.legend(loc="upper left")
+    stresses = np.vstack([np.zeros(2), result.stresses * 1e-6])
+    for label, column, colour in zip(LABELS[1:], stresses.T, shared.COLOURS[1:], strict=False):
+        axes[2].plot(times, column, color=colour, label=label, marker="o", markersize=3.5)
+    axes[2].set(xlabel="time / ms", ylabel="stress along the surface, σ_xx / MPa")
+    axes[2].set_title("Hot spot: the stiff alumina bears more")
+    axes[2].legend()
+    figure.suptitle("20 µm of zirconia on 240 µm of alumina, at both sides of the contact")
     shared.save(figure, folder, NAME)
 
 

@@ -9,10 +9,12 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import paraview  # noqa: E402
 import shared  # noqa: E402
+from matplotlib.colors import LogNorm  # noqa: E402
 
 DIAMETER, TIME = 100.0, 2.0  # µm, µs: the drop and the time in which it flies that far
 SHARES = np.arange(0.25, 1.76, 0.25)  # of TIME
 REACH, DEPTH = 250.0, 22.0  # µm
+HOT = 373.15  # K, of the drop as it comes
 MIDDLE = 40.0  # µm, radius of what counts as the middle of the surface
 COLOURS = shared.plt.cm.viridis(np.linspace(0, 0.92, len(SHARES)))
 
@@ -50,26 +52,36 @@ class Plate:
 
 
 def draw_drop(drops: list[dict], folder: Path):
-    figure, axes = shared.new_figure(4, 2)
+    """The section through the axis: on the left what the wall has cooled, on the right the flow.
+
+    Both halves of the drop are alike. Nearly all of it is as hot as it came, so that cooling is
+    drawn over powers of ten."""
+    figure, axes = shared.new_figure(4, 2, height=8.4)
     for panel, share, drop in zip(axes.flat, SHARES, drops, strict=False):
         x, y, z = 1e6 * drop["position"].T
-        near = np.abs(y) < 2.6  # The section through the axis, a particle on each side of it.
-        dots = panel.scatter(
-            x[near],
-            z[near],
-            c=drop["temperature"][near] - shared.ZERO_CELSIUS,
-            s=3,
-            cmap="coolwarm",
-            vmin=85,
-            vmax=100,
+        near = np.abs(y) < 2.6  # a particle on each side of the section
+        left, right = near & (x < 0), near & (x >= 0)
+        cooled = np.clip(HOT - drop["temperature"], 1e-3, None)
+        speed = np.linalg.norm(drop["velocity"], axis=1)
+        norm = LogNorm(0.1, 50.0)
+        cold = panel.scatter(x[left], z[left], c=cooled[left], s=6, cmap="YlGnBu", norm=norm, lw=0)
+        fast = panel.scatter(
+            x[right], z[right], c=speed[right], s=6, cmap="YlOrRd", vmin=0, vmax=80, lw=0
         )
+        panel.axvline(0, color="0.5", linewidth=0.8)
         panel.set(aspect="equal", xlim=(-REACH, REACH), ylim=(0, 105), ylabel="z / µm")
+        panel.set_facecolor("0.93")
         panel.set_title(f"t = {share:.2f} D/U")
     axes[3, 0].set_xlabel("x / µm")
     axes[2, 1].set_xlabel("x / µm")
     axes[3, 1].axis("off")
-    figure.colorbar(dots, ax=axes, label="temperature / °C", shrink=0.8, extend="min")
-    figure.suptitle("Section of the drop")
+    bars = [axes[3, 1].inset_axes([0.05, place, 0.9, 0.13]) for place in (0.72, 0.12)]
+    for bar, dots, label, extend in (
+        (bars[0], cold, "left half: cooled by / K", "both"),
+        (bars[1], fast, "right half: speed / (m/s)", "max"),
+    ):
+        figure.colorbar(dots, cax=bar, orientation="horizontal", extend=extend, label=label)
+    figure.suptitle("The drop cools in a layer of one particle, and its rim outruns the impact")
     shared.save(figure, folder, "drop_over_time")
 
 

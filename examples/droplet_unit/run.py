@@ -11,6 +11,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import shared  # noqa: E402
 from impinge import Unit  # noqa: E402
+from matplotlib.colors import PowerNorm  # noqa: E402
 
 NAME = "droplet_unit"
 STOP, STEP = 3.5e-6, 5e-8  # s
@@ -21,6 +22,7 @@ EFFUSIVITY = sqrt(10.0 * 3950.0 * 900.0)  # W √s/(m² K), of alumina
 
 EDGES = np.linspace(0, RADIUS, RINGS + 1)
 AREAS = pi * np.diff(EDGES**2)
+SPAN, WIDE = 4, 2  # steps and rings of a mean that is drawn
 SCALARS = [
     "drop.spread_diameter",
     "drop.height",
@@ -118,26 +120,45 @@ def report(result: Result):
 
 
 def draw(result: Result, folder: Path) -> Path:
-    figure, axes = shared.new_figure(2, 2)
-    draw_rings(axes[0, 0], result, result.fluxes / 1e6, "MW/m²", cmap="inferno")
-    axes[0, 0].set_title("Heat flux into the wall")
-    pressures = np.clip(result.pressures / 1e6, 0, None)
-    draw_rings(axes[0, 1], result, pressures, "MPa", cmap="viridis")
-    axes[0, 1].set_title("Pressure on the wall")
+    figure, axes = shared.new_figure(2, 3, height=7.2)
+    cooled = result.fluxes / 1e6, "heat flux / (MW/m²)", "inferno"
+    pressed = result.pressures / 1e6, "pressure / MPa", "viridis"
+    warmed = result.surface - COLD, "rise of the wall / K", "magma"
+    for plot, (values, label, colours), title in zip(
+        axes[0],
+        (cooled, pressed, warmed),
+        ("Heat goes where the rim runs", "The blow is at the centre", "The wall is warm at once"),
+        strict=True,
+    ):
+        draw_rings(plot, result, values, label, colours)
+        plot.set_title(title)
     draw_shape(axes[1, 0], result)
-    draw_energy(axes[1, 1], result)
+    draw_momentum(axes[1, 1], result)
+    draw_energy(axes[1, 2], result)
     figure.suptitle(
-        f"A drop of {DIAMETER * 1e6:.0f} µm hits a wall at {SPEED:.0f} m/s: what the unit gives"
+        f"A drop of {DIAMETER * 1e6:.0f} µm and 100 °C hits a wall at {SPEED:.0f} m/s "
+        f"(means over {SPAN * STEP * 1e6:g} µs and {RADIUS / RINGS * WIDE * 1e6:g} µm of radius)"
     )
     return shared.save(figure, folder, NAME)
 
 
-def draw_rings(plot, result: Result, values: np.ndarray, unit: str, **options):
-    times = np.concatenate([[0], result.times]) * 1e6
-    highest = np.percentile(values, 99.5)
-    mesh = plot.pcolormesh(times, EDGES * 1e6, values.T, vmin=0, vmax=highest, **options)
-    plot.figure.colorbar(mesh, ax=plot, label=unit)
-    plot.set(xlabel="time / µs", ylabel="radius / µm")
+def draw_rings(plot, result: Result, values: np.ndarray, label: str, colours: str):
+    """Values over time and radius, averaged: a ring is as wide as a particle."""
+    steps, rings = len(values) // SPAN * SPAN, RINGS // WIDE
+    by_area = (values * AREAS)[:steps].reshape(-1, SPAN, rings, WIDE).sum(axis=(1, 3))
+    means = np.clip(by_area / SPAN / AREAS.reshape(rings, WIDE).sum(axis=1), 0.0, None)
+    times = np.concatenate([[0], result.times[:steps]])[::SPAN] * 1e6
+    norm = PowerNorm(0.5, 0.0, means.max())
+    mesh = plot.pcolormesh(times, EDGES[::WIDE] * 1e6, means.T, norm=norm, cmap=colours)
+    plot.plot(result.times * 1e6, rim(result) * 1e6, color="white", linewidth=1.2, linestyle=":")
+    plot.figure.colorbar(mesh, ax=plot, label=label)
+    plot.set(xlabel="time / µs", ylabel="radius / µm", ylim=(0, RADIUS * 1e6))
+    plot.set_xlim(0, times[-1])
+
+
+def rim(result: Result) -> np.ndarray:
+    """Radius that the drop has wetted so far [m]."""
+    return np.maximum.accumulate(result.history("drop.spread_diameter")) / 2
 
 
 def draw_shape(plot, result: Result):
@@ -149,13 +170,33 @@ def draw_shape(plot, result: Result):
     plot.legend()
 
 
+def draw_momentum(plot, result: Result):
+    """Impulse of the wall, which is smooth where forces swing with the waves of sound."""
+    came = abs(result.momentum) * 1e9
+    plot.plot(
+        result.times * 1e6, np.abs(result.history("drop.impulse_z")) * 1e9, label="the wall's"
+    )
+    plot.axhline(came, **shared.CLOSED_FORM, label="that of the drop as it came")
+    plot.set(xlabel="time / µs", ylabel="impulse / (nN s)", ylim=(0, 1.35 * came))
+    plot.set_title("The wall stops it within 2 µs")
+    plot.legend(loc="upper left")
+
+
 def draw_energy(plot, result: Result):
+    """Kinetic energy on the left axis, heat, twenty times as much, on the right one."""
     times = result.times * 1e6
-    plot.plot(times, result.history("drop.kinetic_energy") * 1e9, label="kinetic energy / nJ")
-    plot.plot(times, result.history("drop.heat") * 1e8, label="heat lost / 10 nJ")
-    plot.set(xlabel="time / µs", ylim=(0, None))
-    plot.set_title("Energy")
-    plot.legend()
+    heat = plot.twinx()
+    for axes, values, label, colour in (
+        (plot, result.history("drop.kinetic_energy") * 1e9, "kinetic energy / nJ", 0),
+        (heat, result.history("drop.heat") * 1e6, "heat given to the wall / µJ", 1),
+    ):
+        axes.plot(times, values, color=shared.COLOURS[colour])
+        axes.set_ylabel(label, color=shared.COLOURS[colour])
+        axes.tick_params(axis="y", colors=shared.COLOURS[colour])
+        axes.set_ylim(0, None)
+    heat.spines.right.set_visible(True)
+    plot.set(xlabel="time / µs")
+    plot.set_title("It slows down, and gives heat")
 
 
 def main(given: list[str] | None = None) -> Result:

@@ -9,11 +9,14 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import shared  # noqa: E402
 from impinge import Unit  # noqa: E402
+from matplotlib.colors import LogNorm  # noqa: E402
+from matplotlib.ticker import FuncFormatter  # noqa: E402
 
 NAME = "printed_line"
 STEP, PERIOD, STOP = 1e-4, 1e-3, 40e-3  # s
 DROPS, PITCH = 25, 80e-6  # m
 SIZE = (2.4e-3, 0.8e-3)  # m, of the field
+START, LEAST = 320.0, 0.1  # K, of the plate, and the least rise that is drawn
 OUTPUTS = ["drop.heat", "drop.heat_flow", "drop.active", "drop.overlapping", "middle.temperature"]
 
 
@@ -64,16 +67,32 @@ def draw(rows: np.ndarray, fields: list[np.ndarray], folder: Path):
         "on glass of 47 °C"
     )
     size = tuple(1e3 * extent for extent in SIZE)
-    titles = ["Surface after the last drop", f"Surface at {STOP * 1e3:.0f} ms"]
-    for axis, values, title in zip(axes[0], fields, titles, strict=True):
-        image = shared.show_field(axis, values - shared.ZERO_CELSIUS, size, cmap="inferno")
-        shared.add_colour_bar(image, "°C")
-        axis.set(title=title, xlabel="x [mm]", ylabel="y [mm]")
+    moments = [f"{DROPS * PERIOD * 1e3:.0f} ms, after the last drop", f"{STOP * 1e3:.0f} ms"]
+    places = (np.arange(DROPS) - 0.5 * (DROPS - 1)) * PITCH * 1e3
+    for axis, values, moment in zip(axes[0], fields, moments, strict=True):
+        rise = values - START
+        shown = np.clip(rise, LEAST, None)
+        norm = LogNorm(LEAST, 20.0)
+        image = shared.show_field(axis, shown, size, cmap="inferno", norm=norm)
+        axis.plot(places, np.zeros(DROPS), "|", color="white", markersize=5, markeredgewidth=0.6)
+        shared.add_colour_bar(image, "rise / K")
+        image.colorbar.formatter = FuncFormatter(lambda x, _: f"{x:g}")
+        axis.set(title=f"{moment}: up to {rise.max():.1f} K warmer", xlabel="x / mm")
+        axis.set_ylabel("y / mm")
     milliseconds = rows[:, 0] * 1e3
-    axes[1, 0].plot(milliseconds, rows[:, 5] - shared.ZERO_CELSIUS)
-    axes[1, 0].set(title="Middle of the plate", xlabel="t [ms]", ylabel="°C")
-    axes[1, 1].plot(milliseconds, rows[:, 2] * 1e3, label="all drops together")
-    axes[1, 1].set(title="Heat flow into the plate", xlabel="t [ms]", ylabel="mW")
+    middle = rows[:, 5] - shared.ZERO_CELSIUS
+    axes[1, 0].plot(milliseconds, middle)
+    axes[1, 0].annotate(
+        f"drop {DROPS // 2 + 1} lands here",
+        (milliseconds[middle.argmax()], middle.max()),
+        (14, -4),
+        textcoords="offset points",
+    )
+    axes[1, 0].set(xlabel="time / ms", ylabel="temperature / °C")
+    axes[1, 0].set_title("The middle of the plate feels one drop, and its neighbours")
+    axes[1, 1].plot(milliseconds, rows[:, 2] * 1e3, linewidth=1.2)
+    axes[1, 1].set(xlabel="time / ms", ylabel="heat flow / mW", ylim=(0, None))
+    axes[1, 1].set_title("Flows of successive drops add up")
     shared.save(figure, folder, NAME)
 
 

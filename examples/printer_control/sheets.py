@@ -13,10 +13,10 @@ def draw_print(done, folder: Path) -> Path:
     """Control over the run, the bed's surface after each drop, and a drop's milliseconds."""
     figure = shared.new_figure(1, 1, height=8.6)[0]
     figure.clear()
-    grid = figure.add_gridspec(3, 4, height_ratios=[1.25, 0.85, 1.0])
-    draw_control(figure.add_subplot(grid[0, :2]), figure.add_subplot(grid[0, 2:]), done)
-    draw_surfaces([figure.add_subplot(grid[1, k]) for k in range(4)], done)
-    draw_drop([figure.add_subplot(grid[2, :2]), figure.add_subplot(grid[2, 2:])], done)
+    grid = figure.add_gridspec(3, 12, height_ratios=[1.25, 0.85, 1.0])
+    draw_control(figure.add_subplot(grid[0, :6]), figure.add_subplot(grid[0, 6:]), done)
+    draw_surfaces([figure.add_subplot(grid[1, 3 * k : 3 * k + 3]) for k in range(4)], done)
+    draw_drop([figure.add_subplot(grid[2, 4 * k : 4 * k + 4]) for k in range(3)], done)
     figure.suptitle("Drops of 160 °C on a bed that a controller holds at 120 °C")
     return shared.save(figure, folder, "printing")
 
@@ -44,8 +44,10 @@ def draw_control(left, right, done) -> None:
             plot.axvline(t, color="0.8", linewidth=1, zorder=0)
         plot.set(xlabel="time / s", xlim=(begun[0] - 1.0, times[-1]))
         plot.legend(loc="upper left", ncols=3)
-    left.set(ylabel="°C", ylim=(115, 145), title="The bed feels the drops")
-    right.set(ylabel="power / W", ylim=(0, 22), title="The heater makes room for their heat")
+    left.set(ylabel="temperature / °C", ylim=(115, 145))
+    left.set_title("The bed warms where drops land")
+    right.set(ylabel="power / W", ylim=(0, 22))
+    right.set_title("The heater gives way to the heat of the drops")
 
 
 def draw_surfaces(plots, done) -> None:
@@ -57,13 +59,16 @@ def draw_surfaces(plots, done) -> None:
     moments = [*(begun + 0.1), *([times[-1]] * 3)][:4]
     rows = [int(np.argmin(np.abs(times - t))) for t in moments]
     rises = field[rows] - before
+    most = np.abs(rises).max()
     for plot, row, rise in zip(plots, rows, rises, strict=True):
-        image = shared.show_field(
-            plot, rise, SIZE, cmap="inferno", vmin=rises.min(), vmax=rises.max()
-        )
-        plot.set_title(f"{times[row]:.2f} s: up to +{rise.max():.1f} K", fontsize=11)
-        plot.set(xlabel="mm")
-    shared.add_colour_bar(image, "K")
+        image = shared.show_field(plot, rise, SIZE, cmap="RdBu_r", vmin=-most, vmax=most)
+        if rise.min() < 0.0 < rise.max():
+            extent = {"extent": image.get_extent(), "linewidths": 0.8}
+            plot.contour(rise.T, levels=[0.0], colors="0.4", **extent)
+        plot.set_title(f"{times[row]:.2f} s: {rise.min():+.1f} to {rise.max():+.1f} K", fontsize=11)
+        plot.set(xlabel="x / mm")
+    plots[0].set_ylabel("y / mm")
+    shared.add_colour_bar(image, "since the first\ndrop / K")
 
 
 def draw_drop(plots, done) -> None:
@@ -71,13 +76,15 @@ def draw_drop(plots, done) -> None:
     ms = drop["time"] * 1e3
     plots[0].plot(ms, drop["drop.spread_diameter"] * 1e3, label="diameter on the bed")
     plots[0].plot(ms, drop["drop.height"] * 1e3, label="height")
-    plots[0].set(ylabel="mm", title="The first drop, millisecond by millisecond")
-    plots[1].plot(ms, drop["drop.heat"] * 1e3, label="heat given / mJ")
-    plots[1].plot(ms, drop["exact"] * 1e3, **shared.CLOSED_FORM, label="half spaces at rest / mJ")
-    plots[1].plot(ms, drop["rise"] * 100, label="rise of the surface / 0.01 K")
-    plots[1].set_title("The heat of contact")
+    plots[0].set(ylabel="length / mm", title="The first drop spreads")
+    plots[1].plot(ms, drop["drop.heat"] * 1e3, label="the drop")
+    plots[1].plot(ms, drop["exact"] * 1e3, **shared.CLOSED_FORM, label="half spaces at rest")
+    plots[1].set(ylabel="heat / mJ", title="It gives heat")
+    plots[2].plot(ms, drop["rise"])
+    plots[2].set(ylabel="rise / K", title="The bed below it is warmer")
     for plot in plots:
         plot.set(xlabel="time since its release / ms", ylim=(0, None))
+    for plot in plots[:2]:
         plot.legend()
 
 

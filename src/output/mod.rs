@@ -1,5 +1,6 @@
 //! Output files for people and viewers, made from Model and State only.
 
+mod collection;
 mod csv;
 mod error;
 mod forecast;

@@ -6,9 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use quick_xml::Writer;
-use quick_xml::events::{BytesDecl, Event};
-
+use super::collection::{Entry, write_collection};
 use super::{OutputError, vtk};
 use crate::body::Fields;
 use crate::model::{Cache, Model, State};
@@ -16,7 +14,10 @@ use crate::scene::{Body, Drawn, Scene};
 
 /// The fields of all bodies as ParaView time series. For each time `BODY.pvd` lists one `BODY_NNNNNN.vtr` (the nodes of
 /// a box, or of a disc's meridian section), `.vts` (those of a disc, revolved about its axis) or `.vtp` (the particles of
-/// a droplet).
+/// a droplet). `all-bodies.pvd` lists those of all bodies, so that a viewer opens them at once.
+///
+/// Bodies without nodes or particles have no files: reduced solids, recorded drops and films. A droplet has none at times
+/// at which no drop has been released yet.
 ///
 /// Files appear whole or not at all, and the list is updated after each time, so an interrupted run leaves a readable
 /// series. A time with a file that cannot be written is not listed. A state whose time is not later than the last one
@@ -24,10 +25,18 @@ use crate::scene::{Body, Drawn, Scene};
 /// earlier run.
 pub struct FieldSeries {
     directory: PathBuf,
-    /// Names of the bodies, and kinds of their files.
-    bodies: Vec<(String, Kind)>,
+    bodies: Vec<Drawing>,
     /// Times written so far, ascending [s].
     times: Vec<f64>,
+}
+
+/// The files of a body.
+struct Drawing {
+    body: String,
+    /// Content of its files; `None` for a body that has nothing to draw, of which files may remain from other runs.
+    kind: Option<Kind>,
+    /// For each time, whether there is a file.
+    written: Vec<bool>,
 }
 
 impl FieldSeries {
@@ -36,23 +45,23 @@ impl FieldSeries {
     pub fn create(directory: &Path, model: &Model, discs: Discs) -> Result<Self, OutputError> {
         fs::create_dir_all(directory).map_err(OutputError::at("create the folder", directory))?;
         let series = Self::of(directory, model.scene(), discs);
-        for body in &series.bodies {
-            series.write_list(body)?;
-        }
+        series.write_lists()?;
         series.remove_unlisted();
         Ok(series)
     }
 
     /// A series without times, with nothing written yet.
     fn of(directory: &Path, scene: &Scene, discs: Discs) -> Self {
-        let kind = |body: &Body| match body.drawn_as()? {
-            Drawn::Grid if body.is_round() && discs == Discs::Revolved => Some(Kind::Revolved),
-            Drawn::Grid => Some(Kind::Grid),
-            Drawn::Particles => Some(Kind::Particles),
+        let drawing = |(name, body): (&str, &Body)| {
+            let kind = match body.drawn_as()? {
+                _ if !scene.is_drawn(name) => None,
+                Drawn::Grid if body.is_round() && discs == Discs::Revolved => Some(Kind::Revolved),
+                Drawn::Grid => Some(Kind::Grid),
+                Drawn::Particles => Some(Kind::Particles),
+            };
+            Some(Drawing { body: name.to_owned(), kind, written: Vec::new() })
         };
-        let bodies = scene.bodies_by_kind().into_iter();
-        let bodies =
-            bodies.filter_map(|(name, body)| Some((name.to_owned(), kind(body)?))).collect();
+        let bodies = scene.bodies_by_kind().into_iter().filter_map(drawing).collect();
         Self { directory: directory.to_owned(), bodies, times: Vec::new() }
     }
 
@@ -71,7 +80,7 @@ impl FieldSeries {
 
     /// Returns true if a name is that of a list of the series.
     fn is_list(&self, name: &str) -> bool {
-        self.bodies.iter().any(|(body, _)| name.strip_suffix(".pvd") == Some(body.as_str()))
+        name == ALL || self.bodies.iter().any(|drawing| name == drawing.list_name())
     }
 
     /// The first file in a folder that a series of a scene's bodies would replace or remove.
@@ -85,11 +94,12 @@ impl FieldSeries {
 
     /// Checks that the lists and all their files exist.
     pub fn check_present(&self) -> Result<(), OutputError> {
-        let files = self.bodies.iter().flat_map(|body| {
-            let files = (0..self.times.len()).map(|place| file_name(body, place));
-            files.chain([format!("{}.pvd", body.0)])
+        let drawn = || self.bodies.iter().filter(|drawing| drawing.kind.is_some());
+        let files = drawn().flat_map(|drawing| {
+            drawing.entries(&self.times).map(|entry| entry.file).chain([drawing.list_name()])
         });
-        let mut paths = files.map(|name| self.directory.join(name));
+        let all = drawn().next().map(|_| ALL.to_owned());
+        let mut paths = files.chain(all).map(|name| self.directory.join(name));
         match paths.find(|path| !path.exists()) {
             None => Ok(()),
             Some(path) => Err(OutputError::Gone { path }),
@@ -98,10 +108,16 @@ impl FieldSeries {
 
     /// Discards the times after `time` [s], when a state of that time was restored.
     pub fn go_back(&mut self, time: f64) -> Result<(), OutputError> {
-        self.times.retain(|&written| written <= time);
-        self.bodies.iter().try_for_each(|body| self.write_list(body))?;
+        self.keep(|written| written <= time);
+        self.write_lists()?;
         self.remove_unlisted();
         Ok(())
+    }
+
+    /// Keeps the times that fulfil a condition, which ends with one of them.
+    fn keep(&mut self, is_kept: impl Fn(f64) -> bool) {
+        self.times.retain(|&time| is_kept(time));
+        self.bodies.iter_mut().for_each(|drawing| drawing.written.truncate(self.times.len()));
     }
 
     /// Removes unlisted files of the series, complete or not. Files that cannot be removed do no harm.
@@ -119,16 +135,19 @@ impl FieldSeries {
             Some((whole, _)) => (whole, true),
             None => (name, false),
         };
-        self.bodies.iter().any(|(body, _)| {
-            let Some(rest) = whole.strip_prefix(body.as_str()) else { return false };
+        if whole == ALL {
+            return is_unfinished || !self.bodies.iter().any(|drawing| drawing.kind.is_some());
+        }
+        self.bodies.iter().any(|drawing| {
+            let Some(rest) = whole.strip_prefix(drawing.body.as_str()) else { return false };
             if rest == ".pvd" {
-                return is_unfinished;
+                return is_unfinished || drawing.kind.is_none();
             }
             let number = rest.strip_prefix('_').and_then(|rest| rest.split_once('.'));
             let Some((digits, ending)) = number else { return false };
             let is_ours = digits.len() >= DIGITS && ["vtr", "vts", "vtp"].contains(&ending);
             let place: Option<usize> = digits.parse().ok().filter(|_| is_ours);
-            place.is_some_and(|place| is_unfinished || place >= self.times.len())
+            place.is_some_and(|place| is_unfinished || !drawing.has_file(place))
         })
     }
 
@@ -140,47 +159,96 @@ impl FieldSeries {
         cache: &mut Cache,
     ) -> Result<(), OutputError> {
         if self.times.last().is_some_and(|&last| last >= state.time) {
-            self.times.retain(|&time| time < state.time);
+            self.keep(|time| time < state.time);
             // Files are unlisted while they are replaced.
-            self.bodies.iter().try_for_each(|body| self.write_list(body))?;
+            self.write_lists()?;
             self.remove_unlisted();
         }
-        let written =
-            self.bodies.iter().try_for_each(|body| self.write_body(body, model, state, cache));
-        if let Err(error) = written {
-            self.remove_unlisted();
-            return Err(error);
+        let write = |drawing: &Drawing| self.write_body(drawing, model, state, cache);
+        match self.bodies.iter().map(write).collect::<Result<Vec<bool>, _>>() {
+            Err(error) => {
+                self.remove_unlisted();
+                return Err(error);
+            }
+            Ok(written) => {
+                self.bodies.iter_mut().zip(written).for_each(|(body, is)| body.written.push(is));
+            }
         }
         self.times.push(state.time);
-        self.bodies.iter().try_for_each(|body| self.write_list(body))
+        self.write_lists()
     }
 
-    /// Writes a body's fields at the next time.
+    /// Writes a body's fields at the next time, unless it has none; returns true if it has.
     fn write_body(
         &self,
-        body: &(String, Kind),
+        drawing: &Drawing,
         model: &Model,
         state: &State,
         cache: &mut Cache,
-    ) -> Result<(), OutputError> {
-        let path = self.directory.join(file_name(body, self.times.len()));
+    ) -> Result<bool, OutputError> {
+        let Some(kind) = drawing.kind else { return Ok(false) };
+        let path = self.directory.join(drawing.file_name(kind, self.times.len()));
         let time = state.time;
-        match model.fields(state, cache, &body.0)? {
-            Fields::Nodes(fields) if body.1 == Kind::Revolved => {
+        match model.fields(state, cache, &drawing.body)? {
+            Fields::Nodes(fields) if kind == Kind::Revolved => {
                 replace(&path, |out| vtk::write_revolved(out, time, &fields))
             }
             Fields::Nodes(fields) => replace(&path, |out| vtk::write_grid(out, time, &fields)),
+            Fields::Particles(fields) if fields.position.is_empty() => return Ok(false),
             Fields::Particles(fields) => {
                 replace(&path, |out| vtk::write_particles(out, time, &fields))
             }
-        }
+        }?;
+        Ok(true)
     }
 
-    fn write_list(&self, body: &(String, Kind)) -> Result<(), OutputError> {
-        let path = self.directory.join(format!("{}.pvd", body.0));
-        replace(&path, |out| write_collection(out, body, &self.times))
+    /// Writes the list of each body that is drawn, and that of all.
+    fn write_lists(&self) -> Result<(), OutputError> {
+        let drawn: Vec<_> = self.bodies.iter().filter(|body| body.kind.is_some()).collect();
+        for drawing in &drawn {
+            let path = self.directory.join(drawing.list_name());
+            replace(&path, |out| write_collection(out, drawing.entries(&self.times)))?;
+        }
+        if drawn.is_empty() {
+            return Ok(());
+        }
+        let parts = drawn.iter().enumerate();
+        let mut entries: Vec<_> = parts
+            .flat_map(|(part, body)| body.entries(&self.times).map(move |e| Entry { part, ..e }))
+            .collect();
+        entries.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.part.cmp(&b.part)));
+        replace(&self.directory.join(ALL), |out| write_collection(out, entries.into_iter()))
     }
 }
+
+impl Drawing {
+    /// Name of the list of the body's files.
+    fn list_name(&self) -> String {
+        format!("{}.pvd", self.body)
+    }
+
+    /// Name of the file at the `place`-th time.
+    fn file_name(&self, kind: Kind, place: usize) -> String {
+        format!("{}_{place:0DIGITS$}.{}", self.body, kind.ending())
+    }
+
+    /// Returns true if there is a file of the `place`-th time.
+    fn has_file(&self, place: usize) -> bool {
+        self.written.get(place).is_some_and(|is_written| *is_written)
+    }
+
+    /// The files that there are, of all times [s].
+    fn entries<'a>(&'a self, times: &'a [f64]) -> impl Iterator<Item = Entry<'a>> {
+        let places = times.iter().enumerate().filter(|(place, _)| self.has_file(*place));
+        places.filter_map(|(place, &time)| {
+            let file = self.file_name(self.kind?, place);
+            Some(Entry { time, part: 0, name: &self.body, file })
+        })
+    }
+}
+
+/// Name of the list of all bodies' files; no body has a name with a hyphen.
+const ALL: &str = "all-bodies.pvd";
 
 /// How files show discs, which are modelled in a meridian section.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -202,39 +270,14 @@ enum Kind {
 /// Smallest number of digits of a file's number.
 const DIGITS: usize = 6;
 
-/// Name of the file of a body at its `place`-th time.
-fn file_name((body, kind): &(String, Kind), place: usize) -> String {
-    let ending = match kind {
-        Kind::Grid => "vtr",
-        Kind::Revolved => "vts",
-        Kind::Particles => "vtp",
-    };
-    format!("{body}_{place:0DIGITS$}.{ending}")
-}
-
-/// Writes a ParaView collection of a body's files at `times` [s].
-fn write_collection(out: impl Write, body: &(String, Kind), times: &[f64]) -> io::Result<()> {
-    let mut xml = Writer::new_with_indent(out, b' ', 2);
-    xml.write_event(Event::Decl(BytesDecl::new("1.0", None, None)))?;
-    let file = xml.create_element("VTKFile").with_attributes([
-        ("type", "Collection"),
-        ("version", "1.0"),
-        ("byte_order", "LittleEndian"),
-    ]);
-    file.write_inner_content(|xml| {
-        xml.create_element("Collection").write_inner_content(|xml| {
-            for (place, time) in times.iter().enumerate() {
-                xml.create_element("DataSet")
-                    .with_attribute(("timestep", format!("{time:?}").as_str()))
-                    .with_attribute(("part", "0"))
-                    .with_attribute(("file", file_name(body, place).as_str()))
-                    .write_empty()?;
-            }
-            Ok(())
-        })?;
-        Ok(())
-    })?;
-    Ok(())
+impl Kind {
+    fn ending(self) -> &'static str {
+        match self {
+            Kind::Grid => "vtr",
+            Kind::Revolved => "vts",
+            Kind::Particles => "vtp",
+        }
+    }
 }
 
 /// Writes a temporary file next to `path` and renames it once it is complete; leaves no temporary file.

@@ -126,6 +126,11 @@ impl Scene {
         own.map(|(name, body)| (name.as_str(), body))
     }
 
+    /// Returns true if a body has nodes or particles to draw: reduced solids and replayed drops have none.
+    pub fn is_drawn(&self, name: &str) -> bool {
+        !self.is_reduced(name) && !self.droplet(name).is_some_and(Droplet::is_replayed)
+    }
+
     /// Returns true if drops fall in the scene.
     pub fn has_drops(&self) -> bool {
         self.droplets().next().is_some()

@@ -84,6 +84,11 @@ impl Warning {
         &self.subject
     }
 
+    /// Returns the body, variable or file that it is about.
+    pub fn place(&self) -> &str {
+        &self.place
+    }
+
     /// Returns message and remedy, without the place.
     pub fn finding(&self) -> &Finding {
         &self.finding

@@ -39,6 +39,7 @@ from impinge.master.participant import Participant
 from impinge.master.record import Record
 from impinge.master.stepping import Graded, Schedule
 from impinge.master.watch import Watch
+from impinge.summary import Summary, Table, listed, variables
 from impinge.unit import Unit
 
 
@@ -149,6 +150,37 @@ class Master:
         )
         self.steps = self.rejected = self.most_iterations = self.unconverged = 0
         self._has_begun = False
+
+    # Description
+
+    def __repr__(self) -> str:
+        return self._summary().text()
+
+    def _repr_html_(self) -> str:
+        return self._summary().html()
+
+    def _summary(self) -> Summary:
+        units = {name: f"{unit.name} (FMI {unit.package.fmi})" for name, unit in self.units.items()}
+        pairs = [(link.connection.source, link.connection.target) for link in self.links]
+        scheme = f"{self.scheme}, {self.acceleration}" if self._iterates() else self.scheme
+        step = "adaptive, first" if self.adaptive else "of"
+        lines = [
+            ("units", listed(f"{name} = {words}" for name, words in units.items())),
+            ("connections", listed(f"{source} → {target}" for source, target in pairs)),
+            ("scheme", f"{scheme}; order {self.order}, tolerance {self.tolerance:g}"),
+            ("steps", f"{self.steps} so far, {step} {self._schedule.step:g} s"),
+            ("records", listed(self._record.names)),
+            ("notes", "; ".join(self.notes)),
+        ]
+        tables = [
+            Table("connections", ("from", "to"), pairs),
+            *(variables(f"inputs of {name}", unit.inputs) for name, unit in self.units.items()),
+            *(variables(f"outputs of {name}", unit.outputs) for name, unit in self.units.items()),
+        ]
+        return Summary(f"<impinge.Master at {self.time!r} s>", lines, tables)
+
+    def _iterates(self) -> bool:
+        return any(component.iterates for component in self.components)
 
     # Making
 
@@ -520,7 +552,7 @@ class Master:
             "notes": "; ".join(self.notes),
             "impinge": impinge.__version__,
         }
-        if any(component.iterates for component in self.components):
+        if self._iterates():
             told["acceleration"] = self.acceleration
         for name, participant in self.participants.items():
             told[f"unit_steps.{name}"] = participant.steps

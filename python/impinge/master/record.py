@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import xarray
 
+import impinge.results  # noqa: F401 - gives datasets `result.impinge`
 from impinge.errors import UnitError
 from impinge.master.any_unit import AnyUnit
 from impinge.master.connection import split
@@ -29,6 +30,7 @@ class Record:
         for name in dict.fromkeys(names):
             unit, variable = split(name, units)
             wanted.setdefault(unit, []).append(variable)
+        self.names = [f"{unit}.{name}" for unit, names in wanted.items() for name in names]
         self._readers = {unit: units[unit].reader(names) for unit, names in wanted.items()}
         self.clear()
 

@@ -15,6 +15,7 @@ import numpy as np
 import xarray as xr
 
 import impinge
+import impinge.results  # gives datasets `result.impinge`
 from impinge.errors import StudyError, UnitError
 from impinge.unit.variable import stem_of
 

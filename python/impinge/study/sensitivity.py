@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from impinge.errors import extra, need
+from impinge.results import words
 
 from .sampling import unit_problem
 
@@ -39,11 +40,11 @@ def sobol_indices(
     if results.attrs.get("sampler_kind") != "Sobol":
         kind = results.attrs.get("sampler_kind", "no sampler")
         raise ValueError(f"a study with {kind} (allowed: the sampler Sobol)")
-    parameters = _words(results.attrs["varying"])
+    parameters = words(results.attrs["varying"])
     has_second = bool(results.attrs["second_order"])
     length = (2 * len(parameters) + 2) if has_second else len(parameters) + 2
     whole = _whole_blocks(results, length)
-    series = _series(results, outputs or _words(results.attrs["outputs"]))
+    series = _series(results, outputs or words(results.attrs["outputs"]))
     names = list(series)
     shape = (len(names), len(parameters))
     found = {key: np.full(shape, np.nan) for key in ("S1", "S1_conf", "ST", "ST_conf")}
@@ -79,11 +80,6 @@ def sobol_indices(
         coordinates["parameter_2"] = parameters
     attributes = {"confidence": confidence, "resamples": resamples, "blocks": whole.sum() // length}
     return xr.Dataset(data, coordinates, attributes)
-
-
-def _words(stored: str | Sequence[str] | np.ndarray) -> list[str]:
-    """Names, which a NetCDF file gives back as a text where there is one alone."""
-    return [stored] if isinstance(stored, str) else [str(word) for word in stored]
 
 
 def _whole_blocks(results: xr.Dataset, length: int) -> np.ndarray:

@@ -18,6 +18,7 @@ import xarray as xr
 from tqdm import tqdm
 
 from impinge.errors import UnitError
+from impinge.summary import Summary, Table, listed, name_with_unit
 from impinge.unit import Package, open_package
 from impinge.unit.temporary import temporary_folder
 
@@ -91,7 +92,30 @@ class Study:
         self.keys = [identity.key_of_row(shared, row) for row in self.rows]
 
     def __repr__(self) -> str:
-        return f"<impinge.Study of {self.package.name}: {len(self.rows)} rows, {self.sampler}>"
+        return self._summary().text()
+
+    def _repr_html_(self) -> str:
+        return self._summary().html()
+
+    def _summary(self) -> Summary:
+        names = self.parameters
+        parameters = [(name, self.unit_of(name), f"{d}") for name, d in names.items()]
+        of = self.experiment
+        lines = [
+            ("parameters", listed(name_with_unit(name, unit) for name, unit, _ in parameters)),
+            ("inputs", listed(of.inputs)),
+            ("outputs", listed(output.name for output in of.outputs)),
+            ("steps", f"of {of.step:g} s to {of.stop:g} s"),
+        ]
+        about = [self.description_of(name) for name in names]
+        rows = [(*row, words) for row, words in zip(parameters, about, strict=True)]
+        outputs = [(output.name, output.kind, ", ".join(output.needs)) for output in of.outputs]
+        tables = [
+            Table("parameters", ("name", "unit", "values", "meaning"), rows),
+            Table("outputs", ("name", "kind", "of"), outputs),
+        ]
+        count = f"{len(self.rows)} rows, {self.sampler}"
+        return Summary(f"<impinge.Study of {self.package.name}: {count}>", lines, tables)
 
     @property
     def varying(self) -> list[str]:

@@ -16,6 +16,7 @@ import numpy as np
 
 from impinge.errors import StepDiscarded, UnitError
 from impinge.measure import Measure
+from impinge.summary import Summary, listed, name_with_unit, variables
 from impinge.unit.access import PathWriter, Reader, Writer
 from impinge.unit.fmi2 import Fmi2
 from impinge.unit.fmi3 import Fmi3
@@ -133,10 +134,28 @@ class Unit:
             pass
 
     def __repr__(self) -> str:
+        return self._summary().text()
+
+    def _repr_html_(self) -> str:
+        return self._summary().html()
+
+    def _summary(self) -> Summary:
         life = f"at {self.time!r} s" if self.is_open else "closed"
         if self.slave.fatal is not None:
             life = "failed fatally"
-        return f"<impinge.Unit {self.log.name} (FMI {self.package.fmi}) {life}>"
+        kinds = {"inputs": self.inputs, "outputs": self.outputs, "parameters": self.parameters}
+        lines = [
+            (kind, listed(name_with_unit(v.name, v.unit, v.shape) for v in of.values()))
+            for kind, of in kinds.items()
+        ]
+        if self.default_step and self.default_stop:
+            proposed = f"steps of {self.default_step:g} s to {self.default_stop:g} s"
+            lines.append(("proposes", proposed))
+        return Summary(
+            f"<impinge.Unit {self.log.name} (FMI {self.package.fmi}) {life}>",
+            lines,
+            [variables(kind, of) for kind, of in kinds.items()],
+        )
 
     def _must_be_open(self) -> None:
         if not self.is_open:

@@ -20,7 +20,7 @@ def reduced() -> Chart:
     rise = disc.answer(disc.STOP)
     modes = "all modes of the same elements, assembled apart (NumPy, SciPy)"
     quantities = [
-        Quantity(disc.DIFFERENCE, "K", 0.0, rise, modes),
+        Quantity(disc.DIFFERENCE, "K", 0.0, rise, modes, title="the reduction alone"),
         Quantity(disc.BOUND, "K", 0.0, rise, "none: what the unit says it errs by", False),
         Quantity(
             disc.CENTRE, "K", disc.half_space(), rise, "closed form, Carslaw & Jaeger 1959, § 10.5"
@@ -40,4 +40,6 @@ def reduced() -> Chart:
         Method("full unit, elements by tolerance", finer),
         Method("pyMOR, balanced truncation", peer),
     ]
-    return Chart("reduced", "A plate under a flickering spot, reduced", quantities, methods)
+    points = "At the ends of curves: tolerance, or number of unknowns."
+    title = "A plate under a flickering spot, reduced"
+    return Chart("reduced", title, quantities, methods, points)

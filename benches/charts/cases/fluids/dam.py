@@ -30,8 +30,8 @@ def dam() -> Chart:
     front, middle = (Measured(FINEST, f"{ACROSS}", name) for name in (FRONT, MIDDLE))
     source = f"{ACROSS} particles over the width"
     quantities = [
-        Quantity(FRONT, "1", front, None, source),
-        Quantity(MIDDLE, "1", middle, None, source),
+        Quantity(FRONT, "1", front, None, source, title="the position of the front"),
+        Quantity(MIDDLE, "1", middle, None, source, title="the position of the middle"),
     ]
     sides = [10, 14, 20, 28, 40]
     pysph = "pysph_dam.py"
@@ -47,4 +47,5 @@ def dam() -> Chart:
         Method("PySPH, damped", theirs(pysph, [10, 20], scheme="edac")),
         Method("SPlisHSPlasH, DFSPH", theirs("splishsplash_dam.py", [10, 14, 20, 28, 40])),
     ]
-    return Chart("dam", "A column of water that is let go", quantities, methods)
+    points = "At the ends of curves: particles over the width of the column."
+    return Chart("dam", "A column of water that is let go", quantities, methods, points)

@@ -41,4 +41,5 @@ def impact() -> Chart:
         Method("quarter", impacts([12, 16, 20, 24], **quarter)),
         Method("whole", impacts([16], symmetry="none")),
     ]
-    return Chart("impact", "A drop that hits a wall", quantities, methods)
+    points = "At the ends of curves: particles over the diameter."
+    return Chart("impact", "A drop that hits a wall", quantities, methods, points)

@@ -74,9 +74,23 @@ def records() -> Chart:
     of_finest = Measured(finest, f"{FINEST}", HEAT)
     as_fine = Measured("particles", f"{ACROSS}", HEAT)
     quantities = [
-        Quantity(HEAT, "J", of_finest, None, finest),
-        Quantity(OWN, "J", as_fine, None, f"{ACROSS} particles across"),
-        Quantity(IMPULSE, "N s", BROUGHT, -BROUGHT, "ρπD³U/6, of a drop that comes to rest"),
+        Quantity(HEAT, "J", of_finest, None, finest, title="the transferred heat"),
+        Quantity(
+            OWN,
+            "J",
+            as_fine,
+            None,
+            f"{ACROSS} particles across",
+            title=f"heat, against {ACROSS} particles across",
+        ),
+        Quantity(
+            IMPULSE,
+            "N s",
+            BROUGHT,
+            -BROUGHT,
+            "ρπD³U/6, of a drop that comes to rest",
+            title="the transferred momentum",
+        ),
     ]
     methods = [
         Method(finest, drops("sph", [FINEST]), is_reference=True),
@@ -86,4 +100,9 @@ def records() -> Chart:
         Method(f"record of D/Δx {ACROSS}, cut short", cut_short([1.0, 2.0, 3.0, 5.0])),
         Method(f"particles of D/Δx {ACROSS}, in other steps", exchanged([0.02])),
     ]
-    return Chart("records", "A drop of ink on alumina, repeated", quantities, methods)
+    settings = (
+        "At the ends of curves: particles over the diameter D; or, over the time D/U of the impact,"
+        " the duration of a record and the interval of exchanges."
+    )
+    title = "A recorded drop of ink on alumina, compared with particles"
+    return Chart("records", title, quantities, methods, settings)

@@ -17,7 +17,10 @@ def swings(across: list[float], **settings) -> list[Point]:
 
 def swing() -> Chart:
     source = "normal mode of a viscous drop, Reid 1960, doi 10.1090/qam/114449"
-    quantities = [Quantity(name, "1", 1.0, 1.0, source) for name in (FREQUENCY, DECAY)]
+    quantities = [
+        Quantity(FREQUENCY, "1", 1.0, 1.0, source, title="the frequency"),
+        Quantity(DECAY, "1", 1.0, 1.0, source, title="the rate of decay"),
+    ]
     methods = [
         Method("rings", swings([12, 16, 20, 28, 40], model="rings")),
         Method("rings, double precision", swings([12, 20, 28], model="rings", precision="double")),
@@ -26,4 +29,6 @@ def swing() -> Chart:
         Method("quarter", swings([10, 12, 16, 20], model="quarter")),
         Method("whole", swings([10, 12, 16], model="whole")),
     ]
-    return Chart("swing", "A drop that swings, Oh 0.1, over 1.3 periods", quantities, methods)
+    points = "At the ends of curves: particles over the diameter."
+    title = "A drop that swings, Oh 0.1, over 1.3 periods"
+    return Chart("swing", title, quantities, methods, points)

@@ -44,7 +44,10 @@ def theirs(scheme: str, sides: list[int], scatter: float = 0.0, **settings) -> l
 
 def vortices() -> Chart:
     source = "closed form, Taylor & Green 1937, doi 10.1098/rspa.1937.0036"
-    quantities = [Quantity(ERROR, "1", 0.0, 1.0, source), Quantity(DECAY, "1", 1.0, 1.0, source)]
+    quantities = [
+        Quantity(ERROR, "1", 0.0, 1.0, source, title="velocities"),
+        Quantity(DECAY, "1", 1.0, 1.0, source, title="the rate of decay"),
+    ]
     sides = [5, 7, 10, 14, 20]
     methods = [
         Method("H = 3Δx", ours(sides)),
@@ -59,5 +62,9 @@ def vortices() -> Chart:
         Method("PySPH, compressible, scattered", theirs("wcsph", [25], SCATTER)),
     ]
     return Chart(
-        "vortices", "Taylor and Green's vortices, Re 100, after half a turn", quantities, methods
+        "vortices",
+        "Taylor and Green's vortices, Re 100, after half a turn",
+        quantities,
+        methods,
+        "At the ends of curves: particles along the side of the square.",
     )

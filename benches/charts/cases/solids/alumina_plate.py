@@ -192,4 +192,8 @@ def alumina_plate() -> Chart:
         Method("scikit-fem, PARDISO", scikit(), of_disc),
     ]
     title = "The alumina plate under an impact's heat and pressure"
-    return Chart("alumina_plate", title, quantities, methods)
+    points = (
+        "At the ends of curves: tolerance; or distance of nodes (of NGSolve and scikit-fem, the"
+        " smallest elements) over the spot's radius R."
+    )
+    return Chart("alumina_plate", title, quantities, methods, points)

@@ -95,4 +95,9 @@ def contact() -> Chart:
     ]
     methods.append(Method("quadratic elements of √(at)/32, by exchanges", points))
     methods.append(Method("scikit-fem, PARDISO", peer()))
-    return Chart("contact", "Hot alumina set down on cold copper", quantities, methods)
+    settings = (
+        "At the ends of curves: tolerance; distance of nodes over the depth √(at) of the heat;"
+        " or number of exchanges."
+    )
+    title = "Hot alumina set down on cold copper"
+    return Chart("contact", title, quantities, methods, settings)

@@ -90,7 +90,9 @@ def layers() -> Chart:
     for order, name in ((2, "quadratic elements"), (1, "linear elements")):
         points = [Point(f"{1e6 * spacing:g} µm", spaced(order, spacing)) for spacing in spacings]
         methods.append(Method(name, points))
-    return Chart("layers", "A polymer film on alumina, heated for 1 ms", quantities, methods)
+    points = "At the ends of curves: tolerance, or distance of nodes."
+    title = "A polymer film on alumina, heated for 1 ms"
+    return Chart("layers", title, quantities, methods, points)
 
 
 MELTING, LATENT, HOT, DEEP, MELTING_STOP = 1000.0, 2.0e5, 1500.0, 1e-3, 5e-3
@@ -140,4 +142,5 @@ def melting() -> Chart:
             [Point(f"{1e6 * s:g} µm", spaced(s)) for s in (40e-6, 20e-6, 10e-6)],
         ),
     ]
-    return Chart("melting", "Steel that melts from its hot face", [quantity], methods)
+    points = "At the ends of curves: tolerance, or distance of nodes."
+    return Chart("melting", "Steel that melts from its hot face", [quantity], methods, points)

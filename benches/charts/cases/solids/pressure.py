@@ -88,4 +88,8 @@ def pressure() -> Chart:
         Method("NGSolve, order 2", ngsolve(2)),
         Method("NGSolve, order 4", ngsolve(4)),
     ]
-    return Chart("pressure", "A pressed disc on a deep block", quantities, methods)
+    points = (
+        "At the ends of curves: tolerance; or distance of nodes (of NGSolve, the smallest elements)"
+        " over the disc's radius R."
+    )
+    return Chart("pressure", "A pressed disc on a deep block", quantities, methods, points)

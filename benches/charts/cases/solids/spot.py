@@ -176,4 +176,8 @@ def spot() -> Chart:
         Method("NGSolve, order 2", ngsolve(2), of_disc),
         Method("NGSolve, order 4", ngsolve(4), of_disc),
     ]
-    return Chart("spot", "A hot spot on alumina for 10 µs", quantities, methods)
+    points = (
+        "At the ends of curves: tolerance; distance of nodes or particles; or the smallest elements"
+        " over the spot's radius R."
+    )
+    return Chart("spot", "A hot spot on alumina for 10 µs", quantities, methods, points)

@@ -104,8 +104,11 @@ def equal(parts: int, order: int) -> dict:
 def yielding() -> Chart:
     source = "closed forms, Carslaw & Jaeger 1959, § 3.8, and Hill 1950, § II"
     quantities = [
-        Quantity(name, "Pa", left_over(depth), YIELD, source)
-        for name, depth in ((FACE, 0.0), (INSIDE, DEPTH))
+        Quantity(name, "Pa", left_over(depth), YIELD, source, title=f"residual stress {place}")
+        for name, depth, place in (
+            (FACE, 0.0, "at the face"),
+            (INSIDE, DEPTH, "at a quarter of the depth"),
+        )
     ]
     tolerances = (1e-1, 3e-2, 1e-2)
     methods = [
@@ -119,4 +122,9 @@ def yielding() -> Chart:
         methods.append(Method(f"{name} elements, {STEPS} steps", points))
     points = [Point(f"{n}", run(n, equal(PARTS, 2))) for n in (2, 4, 8, 16, 64, 128)]
     methods.append(Method(f"quadratic elements of 1/{PARTS}, by steps", points))
-    return Chart("yielding", "Steel that yields under a pulse of heat", quantities, methods)
+    settings = (
+        "At the ends of curves: tolerance; elements over the thickness; or, of the curve by steps,"
+        " their number."
+    )
+    title = "Steel that yields under a pulse of heat"
+    return Chart("yielding", title, quantities, methods, settings)

@@ -100,7 +100,7 @@ def pairs(name: str, title: str, outcome: str, which: int, method: str = "sph") 
         title=title,
         x=Axis("substrate", "", list(range(len(SOLIDS))), False, list(SOLIDS)),
         y=Axis("liquid", "", list(range(len(LIQUIDS))), False, list(LIQUIDS)),
-        outcome=f"{outcome} off that of {FINE:g} particles across",
+        outcome=f"{outcome}, relative difference to {FINE:g} particles across",
         unit="1",
         bad=BAD_OF_FILMS if method == "film" else BAD,
         work=partial(work, method=method),
@@ -111,7 +111,7 @@ def pairs(name: str, title: str, outcome: str, which: int, method: str = "sph") 
 
 
 def heat_of_pairs() -> Map:
-    title = f"Heat that a substrate takes by {STOP:g} D/U, {ACROSS:g} particles across"
+    title = f"Error of heat up to {STOP:g} D/U, {ACROSS:g} particles across"
     return pairs("coupling_pairs_heat", title, "heat", 0)
 
 
@@ -121,7 +121,7 @@ def temperature_of_pairs() -> Map:
 
 
 def heat_of_films() -> Map:
-    title = f"Heat that a substrate takes by {STOP:g} D/U of a film of closed forms"
+    title = f"Error of heat up to {STOP:g} D/U, film of closed forms"
     return pairs("coupling_films_heat", title, "heat", 0, "film")
 
 

@@ -105,9 +105,9 @@ def gauss_seidel() -> Map:
 def iterate() -> Map:
     return lumped(
         "coupling_iterate",
-        "Two bodies, iterated steps",
+        "Error of two bodies in iterated steps",
         "iterate",
-        outcome="largest error over the first difference",
+        outcome="largest error over the first temperature difference",
         unit="1",
         bad=0.1,
         judge=error,

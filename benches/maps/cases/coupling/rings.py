@@ -102,10 +102,10 @@ def error(answer: Answer, width: float, across: float) -> float:
 def rings() -> Map:
     return Map(
         name="coupling_rings",
-        title="A drop's unit and a plate's, joined by rings",
+        title="Error in the middle where rings join a drop's unit to a plate's",
         x=Axis("width of a ring over the distance of particles", "1", WIDTHS),
         y=Axis("particles over the diameter", "1", ACROSS),
-        outcome="error of the temperature in the middle (rms)",
+        outcome="relative error of the middle's rise (rms)",
         unit="1",
         bad=0.1,
         work=work,

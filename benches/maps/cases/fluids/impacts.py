@@ -62,10 +62,10 @@ def spreads() -> Map:
 
     return Map(
         name="spreads",
-        title=f"Spread of whole impacts, {across:g} particles across",
+        title=f"Error of the largest spread, {across:g} particles across",
         x=Axis("Weber number", "1", [3, 10, 30, 100, 300, 1000]),
         y=Axis("Ohnesorge number", "1", [0.003, 0.01, 0.03, 0.1, 0.3]),
-        outcome="largest spread off a fit of measurements",
+        outcome="relative difference to a fit of measurements",
         unit="1",
         bad=0.3,
         work=work,
@@ -132,7 +132,7 @@ def kernels() -> Map:
             [2.0, 2.25, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0],
         ),
         y=Axis("kernel", "", list(range(len(names))), False, names),
-        outcome="heat off that of 64 particles across",
+        outcome="heat, relative difference to 64 particles across",
         unit="1",
         bad=0.3,
         work=work,
@@ -150,7 +150,7 @@ def of_readings(name: str, title: str, x: Axis, work: Callable[[float, float], d
         title=title,
         x=x,
         y=of_quantities(),
-        outcome="off that of 64 particles across",
+        outcome="relative difference to 64 particles across",
         unit="1",
         bad=0.3,
         work=work,
@@ -175,7 +175,9 @@ def resolution() -> Map:
         return impact_work(case(WEBER, REYNOLDS, x, STOP), [QUANTITIES[round(y)]], 20)
 
     axis = Axis("particles across D/Δx", "1", [3, 6, 8, 10, 12, 16, 20, 24, 32])
-    return of_readings("resolution", "Particles across a drop and what is read of it", axis, work)
+    return of_readings(
+        "resolution", "Error of what is read of a drop, by particles across", axis, work
+    )
 
 
 FILMS = [(10.0, 100.0), (30.0, 100.0), (30.0, 1000.0), (100.0, 1000.0), (300.0, 1000.0)]
@@ -199,7 +201,7 @@ def films() -> Map:
 
     return Map(
         name="films",
-        title="Heat of films by their particles",
+        title="Error of heat, by flow and particles across",
         x=Axis("particles across D/Δx", "1", [6, 8, 10, 12, 16, 20, 24]),
         y=Axis(
             "We, Re",
@@ -208,7 +210,7 @@ def films() -> Map:
             False,
             [f"{weber:g}, {reynolds:g}" for weber, reynolds in FILMS],
         ),
-        outcome="heat off that of 48 particles across",
+        outcome="heat, relative difference to 48 particles across",
         unit="1",
         bad=0.3,
         work=work,

@@ -47,10 +47,10 @@ def of_small(answer: Answer, size: float, _: float) -> float:
 def small_spots() -> Map:
     return Map(
         name="small_spots",
-        title="Spots smaller than an element",
+        title="Error under a spot smaller than an element",
         x=Axis("radius over the distance of nodes", "1", SIZES),
         y=Axis("offset of the centre over an element", "1", OFFSETS, is_logarithmic=False),
-        outcome="error of the centre's rise, and of the heat",
+        outcome="relative error of the centre's rise and of the heat",
         unit="1",
         bad=0.05,
         work=small,
@@ -141,7 +141,7 @@ def off_its_place(
         title=title,
         x=x,
         y=Axis("growth of elements", "1", growths),
-        outcome="error of the centre's rise",
+        outcome="relative error of the centre's rise",
         unit="1",
         bad=0.05,
         work=work,
@@ -155,7 +155,7 @@ def moved_spots() -> Map:
     ways = [0.0, 1.0, 2.0, 4.0, 8.0, 16.0, 28.0]
     return off_its_place(
         "moved_spots",
-        "Spots that an input moves off the fine mesh",
+        "Error under a spot that an input moves off the fine mesh",
         Axis("way from where it starts over the radius", "1", ways, is_logarithmic=False),
         [1.1, 1.2, 1.35, 1.6, 2.0],
         moved,

@@ -108,7 +108,7 @@ def map_of(name: str, title: str, has_slopes: bool) -> Map:
         title=title,
         x=Axis("frequency of the input ω L²/a", "1", BEATS),
         y=Axis("communication step ω Δt", "1", ROTATIONS),
-        outcome="error of the swing",
+        outcome="relative error of the swing",
         unit="1",
         bad=0.05,
         work=of(has_slopes),
@@ -123,7 +123,9 @@ def map_of(name: str, title: str, has_slopes: bool) -> Map:
 
 
 def held_inputs() -> Map:
-    return map_of("held_inputs", "Inputs held over a communication step", has_slopes=False)
+    return map_of(
+        "held_inputs", "Error of an input held over a communication step", has_slopes=False
+    )
 
 
 def sloping_inputs() -> Map:

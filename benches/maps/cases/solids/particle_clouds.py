@@ -127,10 +127,10 @@ def error(answer: Answer, *_) -> float:
 def particle_grading() -> Map:
     return Map(
         name="particle_grading",
-        title="Particles on graded meshes under a spot",
+        title="Error under a spot, by support and grading of particles",
         x=Axis("growth of distances", "1", GROWTHS),
         y=Axis("support over spacing", "1", SUPPORTS),
-        outcome="error of the centre's rise",
+        outcome="relative error of the centre's rise",
         unit="1",
         bad=0.05,
         work=graded,

@@ -1,0 +1,58 @@
+//! Messages to standard error, and what of them has been printed so far.
+
+use std::fmt::Display;
+use std::io::{self, Write};
+use std::sync::{Mutex, PoisonError};
+
+use impinge::warning::Warning;
+use serde::{Deserialize, Serialize};
+
+/// A message of a run, for its report.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Message {
+    /// `warning`, `note` or `error`.
+    pub kind: String,
+    /// The body, variable or file that it is about; empty for others.
+    pub place: String,
+    pub message: String,
+    /// Empty if there is none.
+    pub remedy: String,
+}
+
+/// Messages that this process has printed.
+static PRINTED: Mutex<Vec<Message>> = Mutex::new(Vec::new());
+
+/// Prints warnings.
+pub fn warn(warnings: &[Warning]) {
+    for warning in warnings {
+        let finding = warning.finding();
+        write("warning", warning);
+        keep(Message {
+            kind: "warning".to_owned(),
+            place: warning.place().to_owned(),
+            message: finding.message.clone(),
+            remedy: finding.remedy.clone(),
+        });
+    }
+}
+
+/// Prints a message that is no warning of the library's table.
+pub fn print_message(kind: &str, what: &dyn Display) {
+    write(kind, what);
+    let (kind, message) = (kind.to_owned(), what.to_string());
+    keep(Message { kind, place: String::new(), message, remedy: String::new() });
+}
+
+/// Returns what has been printed so far.
+pub fn printed() -> Vec<Message> {
+    PRINTED.lock().unwrap_or_else(PoisonError::into_inner).clone()
+}
+
+fn keep(message: Message) {
+    PRINTED.lock().unwrap_or_else(PoisonError::into_inner).push(message);
+}
+
+/// Writes to standard error; ignores a failure to do so.
+fn write(kind: &str, what: &dyn Display) {
+    let _ = writeln!(io::stderr(), "{kind}: {what}");
+}

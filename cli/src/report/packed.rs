@@ -1,0 +1,98 @@
+//! Arrays of a document: short numbers, or 16 bits a value.
+
+use serde::{Deserialize, Serialize};
+
+/// Code of a missing value.
+const MISSING: u16 = u16::MAX;
+
+/// Digits of a number that is written as text, besides the first.
+const DIGITS: usize = 6;
+
+/// Values of a document.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Array {
+    /// Numbers; missing ones are null.
+    Numbers(Vec<Option<f64>>),
+    /// `low + (high − low) code / 65534` with codes of 16 bits, the lower byte first, as base64.
+    Packed { low: f64, high: f64, data: String },
+}
+
+impl Array {
+    /// Keeps seven digits of each number.
+    pub fn rounded(values: impl IntoIterator<Item = f64>) -> Self {
+        let short = |value: f64| {
+            let rounded = format!("{value:.DIGITS$e}").parse().unwrap_or(value);
+            value.is_finite().then_some(rounded)
+        };
+        Self::Numbers(values.into_iter().map(short).collect())
+    }
+
+    /// Keeps each value to 1/65534 of their range.
+    pub fn packed(values: &[f64]) -> Self {
+        let finite = || values.iter().copied().filter(|value| value.is_finite());
+        let (low, high) = finite().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+            (low.min(value), high.max(value))
+        });
+        if low > high {
+            return Self::Packed { low: 0.0, high: 0.0, data: base64(&codes(values, 0.0, 0.0)) };
+        }
+        Self::Packed { low, high, data: base64(&codes(values, low, high)) }
+    }
+}
+
+/// Codes of values, two bytes each.
+fn codes(values: &[f64], low: f64, high: f64) -> Vec<u8> {
+    let scale = if high > low { f64::from(MISSING - 1) / (high - low) } else { 0.0 };
+    let code = |value: &f64| match value.is_finite() {
+        true => (((value - low) * scale).round() as u16).min(MISSING - 1),
+        false => MISSING,
+    };
+    values.iter().flat_map(|value| code(value).to_le_bytes()).collect()
+}
+
+/// Base64 with the standard alphabet and padding (RFC 4648, § 4).
+fn base64(bytes: &[u8]) -> String {
+    const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for part in bytes.chunks(3) {
+        let byte = |i: usize| u32::from(part.get(i).copied().unwrap_or(0));
+        let word = byte(0) << 16 | byte(1) << 8 | byte(2);
+        for i in 0..4 {
+            let letter = ALPHABET[(word >> (18 - 6 * i) & 63) as usize];
+            text.push(if i <= part.len() { char::from(letter) } else { '=' });
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn base64_follows_the_vectors_of_its_standard() {
+        for (plain, coded) in [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")] {
+            assert_eq!(base64(plain.as_bytes()), coded);
+        }
+    }
+
+    #[test]
+    fn codes_reach_both_ends_and_mark_what_is_missing() {
+        let bytes = codes(&[1.0, 2.0, 3.0, f64::NAN], 1.0, 3.0);
+        let words: Vec<u16> = bytes.chunks(2).map(|two| u16::from_le_bytes([two[0], two[1]])).collect();
+        assert_eq!(words, [0, 32767, 65534, 65535]);
+    }
+
+    #[test]
+    fn equal_values_are_packed_without_a_division_by_zero() {
+        let Array::Packed { low, high, .. } = Array::packed(&[293.15; 3]) else { panic!() };
+        assert_eq!((low, high), (293.15, 293.15));
+    }
+
+    #[test]
+    fn rounded_numbers_keep_seven_digits() {
+        let Array::Numbers(values) = Array::rounded([1.0 / 3.0, f64::INFINITY]) else { panic!() };
+        assert_eq!(values, [Some(0.3333333), None]);
+    }
+}
