@@ -7,6 +7,7 @@ use impinge::scene::{Scene, SceneError};
 use impinge::variables::{Registry, Slot};
 
 use super::inputs::TableError;
+use super::report::ReportError;
 use super::set::SetErrors;
 
 /// Reasons why a command failed.
@@ -52,6 +53,12 @@ pub enum CliError {
     UnknownSubstance { name: String, hint: String },
     #[error("cannot write manual pages to {}: {reason}", folder.display())]
     Pages { folder: PathBuf, reason: io::Error },
+    #[error("{option} is a setting of a run, and {what} is reported as it is; allowed: a scene")]
+    NoRun { option: &'static str, what: String },
+    #[error(transparent)]
+    Report(#[from] ReportError),
+    #[error("cannot write the scene as it runs: {0}")]
+    Text(#[from] toml::ser::Error),
     #[error("cannot print: {0}")]
     Print(io::Error),
 }

@@ -8,8 +8,10 @@ mod error;
 mod idle;
 mod inputs;
 mod man;
+mod messages;
 mod patience;
 mod ranges;
+mod report;
 mod run;
 mod schema;
 mod set;
@@ -18,14 +20,12 @@ mod summary;
 mod table;
 mod units;
 
-use std::fmt::Display;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use impinge::warning::Warning;
-
 use error::CliError;
+use messages::{print_message, warn};
 
 /// Heat and stress in a surface hit by a hot droplet
 #[derive(Parser)]
@@ -39,6 +39,7 @@ struct Arguments {
 enum Command {
     Check(check::Check),
     Run(run::Run),
+    Report(report::Report),
     Schema(schema::Schema),
     Substances(substances::Substances),
     Completions(completions::Completions),
@@ -50,6 +51,7 @@ fn main() -> ExitCode {
     let report = match Arguments::parse().command {
         Command::Check(command) => command.execute(),
         Command::Run(command) => command.execute(),
+        Command::Report(command) => command.execute(),
         Command::Schema(command) => command.execute(),
         Command::Substances(command) => command.execute(),
         Command::Completions(command) => command.execute(),
@@ -62,18 +64,6 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
-}
-
-/// Prints warnings about implausible values of a scene to standard error.
-fn warn(warnings: &[Warning]) {
-    for warning in warnings {
-        print_message("warning", warning);
-    }
-}
-
-/// Prints a message to standard error; ignores a failure to do so.
-fn print_message(kind: &str, what: &dyn Display) {
-    let _ = writeln!(io::stderr(), "{kind}: {what}");
 }
 
 /// Prints a report; a reader that closes the pipe early is not an error.

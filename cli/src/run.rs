@@ -18,6 +18,7 @@ use super::idle;
 use super::inputs::{Between, InputTable};
 use super::patience;
 use super::ranges::Ranges;
+use super::report::{self, Fact, Stopwatch, Story};
 use super::set::{self, Assignment, InputValue};
 use super::summary::{self, Balance, BalanceOutputs};
 use super::units::{engineering, megabytes};
@@ -39,16 +40,23 @@ pub fn snapshots(steps: usize, every: usize) -> usize {
 const ROWS_PER_STEP: usize = 10;
 
 /// Name of the file of variables over time.
-const TABLE: &str = "outputs.csv";
+pub const TABLE: &str = "outputs.csv";
 
-/// Extensions of files that runs write.
-const WRITTEN: [&str; 5] = ["csv", "pvd", "vtp", "vtr", "vtu"];
+/// Extensions of files that runs and their reports write.
+const WRITTEN: [&str; 7] = ["csv", "html", "json", "pvd", "vtp", "vtr", "vts"];
 
 /// Run a scene, and write its variables and fields over time
 #[derive(Args)]
 pub struct Run {
     /// The scene, a TOML file
     scene: PathBuf,
+    #[command(flatten)]
+    options: Options,
+}
+
+/// Settings of a run.
+#[derive(Args)]
+pub struct Options {
     /// Set a parameter or an input by name; `impinge check` lists them
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<Assignment>,
@@ -86,10 +94,45 @@ fn positive(text: &str) -> Result<f64, &'static str> {
     value.ok_or("expected a positive number of seconds")
 }
 
+impl Options {
+    /// Returns true if files of an earlier run may be replaced.
+    pub fn overwrites(&self) -> bool {
+        self.overwrite
+    }
+
+    /// Refuses settings of a run where none is made.
+    pub fn refuse_settings(&self, what: &str) -> Result<(), CliError> {
+        let given = [
+            ("--set", !self.set.is_empty()),
+            ("--until", self.until.is_some()),
+            ("--step", self.step.is_some()),
+            ("--out", self.out.is_some()),
+            ("--inputs", self.inputs.is_some()),
+            ("--rows-every", self.rows_every != 1),
+            ("--fields-every", self.fields_every.is_some()),
+            ("--revolve", self.revolve),
+        ];
+        match given.into_iter().find(|(_, is_given)| *is_given) {
+            Some((option, _)) => Err(CliError::NoRun { option, what: what.to_owned() }),
+            None => Ok(()),
+        }
+    }
+}
+
 impl Run {
+    pub fn of(scene: PathBuf, options: Options) -> Self {
+        Self { scene, options }
+    }
+
     /// Runs the scene and reports the heat balance.
     pub fn execute(&self) -> Result<String, CliError> {
+        self.execute_in_folder().map(|(report, _)| report)
+    }
+
+    /// Runs the scene; returns the report and the folder of the files.
+    pub fn execute_in_folder(&self) -> Result<(String, PathBuf), CliError> {
         let started = Instant::now();
+        let mut stopwatch = Stopwatch::start();
         let (scene, inputs) = self.modified_scene()?;
         // Errors of files are reported before meshes are assessed, which takes time.
         let table = self.input_table(&scene, &inputs)?;
@@ -106,14 +149,12 @@ impl Run {
             super::print_message("note", note);
         }
         let (scene, estimates) = tolerance::estimates(&levels.scene);
-        for warning in tolerance::warnings(&scene, &estimates) {
-            super::print_message("warning", &warning);
-        }
+        super::warn(&tolerance::warnings(&scene, &estimates));
+        stopwatch.lap("reading the scene, choosing and judging meshes");
         let model = Model::build(&scene, scene.solver.threads)
             .map_err(|error| CliError::from_model(error, &scene))?;
-        for warning in model.reduction_warnings() {
-            super::print_message("warning", &warning);
-        }
+        super::warn(&model.reduction_warnings().collect::<Vec<_>>());
+        stopwatch.lap("building the model");
         let timeline = Timeline::new(scene.step, scene.stop_time);
         let rows = table.as_ref().map_or(0, |table| table.rows_until(scene.stop_time));
         if rows > ROWS_PER_STEP * timeline.count {
@@ -136,32 +177,47 @@ impl Run {
             model: &model,
         };
         let note = || idle::note(&scene, &run.state.inputs);
-        if let Some(note) = self.inputs.is_none().then(note).flatten() {
+        if let Some(note) = self.options.inputs.is_none().then(note).flatten() {
             super::print_message("note", &note);
         }
         super::print_message("note", &self.announcement(&run));
         let mut record = self.record(&run)?;
+        let folder = self.folder(&scene);
+        let mut story = Story::begin(&model, &estimates, &self.source())?;
+        story.write(&folder)?;
+        report::remove_page(&folder)?;
         run.finish(&mut record)?;
+        stopwatch.lap("steps, readings and files");
         let spent = engineering(started.elapsed().as_secs_f64(), "s");
         let report = run.report()?;
-        Ok(format!(
-            "{}: {spent}, {} steps\n\n{report}\n{}",
-            scene.name, run.timeline.count, record.place
-        ))
+        story.end(&stopwatch);
+        story.write(&folder)?;
+        let place = &record.place;
+        let text =
+            format!("{}: {spent}, {} steps\n\n{report}\n{place}", scene.name, run.timeline.count);
+        Ok((text, folder))
+    }
+
+    /// Files and settings that the run follows from.
+    fn source(&self) -> Vec<Fact> {
+        let path = |path: &PathBuf| path.display().to_string();
+        let options = &self.options;
+        let mut facts = vec![Fact::new("scene", path(&self.scene))];
+        facts.extend(options.set.iter().map(|one| Fact::new("set", one.to_string())));
+        facts.extend(options.inputs.iter().map(|file| Fact::new("inputs over time", path(file))));
+        facts
     }
 
     /// The scene with all modifications of the command line, and the inputs that it sets.
     fn modified_scene(&self) -> Result<(Scene, Vec<InputValue>), CliError> {
         let (mut scene, warnings) = patience::read(&self.scene)?;
         let read = scene.clone();
-        scene.stop_time = self.until.unwrap_or(scene.stop_time);
-        scene.step = self.step.unwrap_or(scene.step);
-        let inputs = set::apply(&mut scene, &self.set)?;
+        scene.stop_time = self.options.until.unwrap_or(scene.stop_time);
+        scene.step = self.options.step.unwrap_or(scene.step);
+        let inputs = set::apply(&mut scene, &self.options.set)?;
         scene::check(&scene)?;
         super::warn(&if scene == read { warnings } else { advice::warnings(&scene) });
-        for warning in set::implausible(&scene, &inputs) {
-            super::print_message("warning", &warning);
-        }
+        super::warn(&set::implausible(&scene, &inputs));
         Ok((scene, inputs))
     }
 
@@ -171,11 +227,9 @@ impl Run {
         scene: &Scene,
         set: &[InputValue],
     ) -> Result<Option<InputTable>, CliError> {
-        let Some(path) = &self.inputs else { return Ok(None) };
-        let table = InputTable::read(path, self.between, scene)?;
-        for warning in set::implausible(scene, &table.samples(scene)) {
-            super::print_message("warning", &warning);
-        }
+        let Some(path) = &self.options.inputs else { return Ok(None) };
+        let table = InputTable::read(path, self.options.between, scene)?;
+        super::warn(&set::implausible(scene, &table.samples(scene)));
         if let Some((kind, message)) = table.remark(path, scene.stop_time) {
             super::print_message(kind, &message);
         }
@@ -194,7 +248,10 @@ impl Run {
             let extension = place.extension().and_then(|extension| extension.to_str());
             is_there && extension.is_some_and(|name| WRITTEN.contains(&name))
         };
-        match [Some(&self.scene), self.inputs.as_ref()].into_iter().flatten().find(could_be_written)
+        match [Some(&self.scene), self.options.inputs.as_ref()]
+            .into_iter()
+            .flatten()
+            .find(could_be_written)
         {
             Some(file) => Err(CliError::ReadInFolder { file: file.clone() }),
             None => Ok(()),
@@ -203,15 +260,16 @@ impl Run {
 
     /// Folder of the run's files.
     fn folder(&self, scene: &Scene) -> PathBuf {
-        self.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&scene.name))
+        self.options.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&scene.name))
     }
 
     /// Refuses a folder that holds another run or files being read, and anything that is not a folder.
     fn check_folder(&self, folder: &Path, scene: &Scene) -> Result<(), CliError> {
         let table = folder.join(TABLE);
-        let own = table.symlink_metadata().is_ok().then_some(table);
+        let own = [table, folder.join(report::FILE)];
+        let own = own.into_iter().find(|file| file.symlink_metadata().is_ok());
         let taken = own.or_else(|| FieldSeries::found_in(folder, scene));
-        if let Some(file) = taken.filter(|_| !self.overwrite) {
+        if let Some(file) = taken.filter(|_| !self.options.overwrite) {
             return Err(CliError::Taken { folder: folder.to_owned(), file });
         }
         if folder.exists() && !folder.is_dir() {
@@ -222,27 +280,26 @@ impl Run {
 
     /// Number of steps between two times of fields; 0 for none.
     fn fields_every(&self, run: &Running) -> usize {
-        self.fields_every.unwrap_or(default_fields_every(run.timeline.count))
+        self.options.fields_every.unwrap_or(default_fields_every(run.timeline.count))
     }
 
     fn discs(&self) -> Discs {
-        if self.revolve { Discs::Revolved } else { Discs::Sections }
+        if self.options.revolve { Discs::Revolved } else { Discs::Sections }
     }
 
     /// Says what the run will write.
     fn announcement(&self, run: &Running) -> String {
         let scene = run.model.scene();
         let steps = run.timeline.count;
-        let rows_every = usize::try_from(self.rows_every).unwrap_or(usize::MAX);
+        let rows_every = usize::try_from(self.options.rows_every).unwrap_or(usize::MAX);
         let rows = 1 + steps.div_ceil(rows_every);
         let times = snapshots(steps, self.fields_every(run));
         let forecast = model::forecast(scene);
         let files = FilesForecast::of(scene, &forecast, [rows, times], self.discs());
         let folder = self.folder(scene);
-        let word = if files.count == 1 { "file" } else { "files" };
         format!(
-            "writes {} {word}, about {}, in {}",
-            files.count,
+            "writes {} files, about {}, in {}",
+            files.count + 1,
             megabytes(files.bytes),
             folder.display()
         )
@@ -265,7 +322,7 @@ impl Run {
             _ => Some(FieldSeries::create(&folder, run.model, self.discs())?),
         };
         let place = format!("files in {}\n", folder.display());
-        let rows_every = usize::try_from(self.rows_every).unwrap_or(usize::MAX);
+        let rows_every = usize::try_from(self.options.rows_every).unwrap_or(usize::MAX);
         Ok(Record { table, fields, every, rows_every, place, _lock: lock })
     }
 }
@@ -387,7 +444,7 @@ impl Running<'_> {
     fn warn_of_length(&mut self, length: f64) {
         if let Some(warning) = self.model.warning_on_step(length).filter(|_| !self.warned_of_length)
         {
-            super::print_message("warning", &warning);
+            super::warn(&[warning]);
             self.warned_of_length = true;
         }
     }
@@ -397,8 +454,8 @@ impl Running<'_> {
         let told = &self.warned_of_phases;
         let warnings = self.model.phase_warnings(&self.state, |subject| told.contains(subject));
         for warning in warnings {
-            super::print_message("warning", &warning);
             self.warned_of_phases.insert(warning.subject().to_owned());
+            super::warn(&[warning]);
         }
     }
 
@@ -436,9 +493,8 @@ impl Running<'_> {
         let overflows = self.model.warnings(&self.state);
         let strays = self.model.closing_warnings(&self.state);
         let balances_off = self.balances.iter().filter_map(Balance::warning);
-        for warning in balances_off.chain(overflows).chain(strays).chain(of_values) {
-            super::print_message("warning", &warning);
-        }
+        let warnings = balances_off.chain(overflows).chain(strays).chain(of_values);
+        super::warn(&warnings.collect::<Vec<_>>());
         let balances = summary::balance_table(&self.balances);
         let tables = [self.ranges.table(), peaks, balances, totals];
         let tables: Vec<_> = tables.into_iter().filter(|table| !table.is_empty()).collect();

@@ -23,6 +23,12 @@ impl FromStr for Assignment {
     }
 }
 
+impl fmt::Display for Assignment {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{} = {}", self.name, self.value)
+    }
+}
+
 /// Index into a state's inputs, and its value.
 pub type InputValue = (usize, f64);
 

@@ -83,8 +83,7 @@ impl BalanceOutputs {
                 Some(output.clone())
             };
             let outputs = [output("heat_in")?, output("heat_stored")?, output("heat_lost")?];
-            let by_particles = scene.solid(body).is_some_and(|solid| solid.sph().is_some());
-            let expected = if by_particles { BALANCED_BY_PARTICLES } else { BALANCED };
+            let expected = expected_residual(scene, body);
             Some(Self { body: body.clone(), outputs, expected })
         };
         scene.body.keys().filter_map(of_body).collect()
@@ -104,6 +103,12 @@ impl BalanceOutputs {
         let (body, expected) = (self.body.clone(), self.expected);
         Ok(Balance { body, heat_in, stored, lost, largest, expected })
     }
+}
+
+/// Largest acceptable relative residual of the heat balance of a body.
+pub fn expected_residual(scene: &Scene, body: &str) -> f64 {
+    let by_particles = scene.solid(body).is_some_and(|solid| solid.sph().is_some());
+    if by_particles { BALANCED_BY_PARTICLES } else { BALANCED }
 }
 
 /// Formats the balances as a table.

@@ -55,7 +55,7 @@ pub fn droplets(scene: &Scene) -> String {
     table(heading, &rows)
 }
 
-fn speed(droplet: &Droplet) -> String {
+pub fn speed(droplet: &Droplet) -> String {
     let speed = engineering(droplet.impact_velocity, "m/s");
     match droplet.is_straight() {
         true => speed,
@@ -63,7 +63,7 @@ fn speed(droplet: &Droplet) -> String {
     }
 }
 
-fn shape(shape: &Shape) -> String {
+pub fn shape(shape: &Shape) -> String {
     match shape {
         Shape::Box(extents) => format!("box {}", extents.map(metres).join(" × ")),
         Shape::Disc(disc) => {
@@ -73,7 +73,7 @@ fn shape(shape: &Shape) -> String {
 }
 
 /// Names the material of a body: its named material or constitutive law, or its layers.
-fn law(solid: &Solid) -> String {
+pub fn law(solid: &Solid) -> String {
     let layers = solid.layers.iter().flatten();
     let own = solid.material.iter().map(material);
     let layers =
@@ -81,7 +81,7 @@ fn law(solid: &Solid) -> String {
     own.chain(layers).collect::<Vec<_>>().join(" on ")
 }
 
-fn material(choice: &MaterialChoice) -> String {
+pub fn material(choice: &MaterialChoice) -> String {
     let table = toml::Value::try_from(choice.material()).ok();
     let model = table.as_ref().and_then(|table| table.get("model")?.as_str());
     choice.name.clone().unwrap_or_else(|| model.unwrap_or_default().to_owned())

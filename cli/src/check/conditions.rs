@@ -50,7 +50,7 @@ pub fn couplings(scene: &Scene) -> String {
     table(["from", "to", "carries"], &rows)
 }
 
-fn thermal(face: &Face) -> String {
+pub fn thermal(face: &Face) -> String {
     if let Some(temperature) = face.temperature {
         kelvin(temperature)
     } else if let Some(convection) = face.convection {
@@ -62,7 +62,7 @@ fn thermal(face: &Face) -> String {
     }
 }
 
-fn mechanical(face: &Face) -> &'static str {
+pub fn mechanical(face: &Face) -> &'static str {
     match (face.clamped, face.roller) {
         (true, _) => "clamped",
         (false, true) => "roller",

@@ -1,16 +1,16 @@
 //! The command `impinge check`.
 
 mod accuracy;
-mod bodies;
+pub mod bodies;
 mod brief;
-mod conditions;
+pub mod conditions;
 mod cost;
 mod errors;
 mod model;
-mod omissions;
+pub mod omissions;
 mod readings;
 mod variables;
-mod words;
+pub mod words;
 
 use std::fmt::Write;
 use std::path::PathBuf;

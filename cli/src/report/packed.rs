@@ -31,9 +31,10 @@ impl Array {
     /// Keeps each value to 1/65534 of their range.
     pub fn packed(values: &[f64]) -> Self {
         let finite = || values.iter().copied().filter(|value| value.is_finite());
-        let (low, high) = finite().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-            (low.min(value), high.max(value))
-        });
+        let (low, high) = finite()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+                (low.min(value), high.max(value))
+            });
         if low > high {
             return Self::Packed { low: 0.0, high: 0.0, data: base64(&codes(values, 0.0, 0.0)) };
         }
@@ -72,7 +73,9 @@ mod tests {
 
     #[test]
     fn base64_follows_the_vectors_of_its_standard() {
-        for (plain, coded) in [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")] {
+        for (plain, coded) in
+            [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")]
+        {
             assert_eq!(base64(plain.as_bytes()), coded);
         }
     }
@@ -80,7 +83,8 @@ mod tests {
     #[test]
     fn codes_reach_both_ends_and_mark_what_is_missing() {
         let bytes = codes(&[1.0, 2.0, 3.0, f64::NAN], 1.0, 3.0);
-        let words: Vec<u16> = bytes.chunks(2).map(|two| u16::from_le_bytes([two[0], two[1]])).collect();
+        let words: Vec<u16> =
+            bytes.chunks(2).map(|two| u16::from_le_bytes([two[0], two[1]])).collect();
         assert_eq!(words, [0, 32767, 65534, 65535]);
     }
 

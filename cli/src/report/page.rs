@@ -29,8 +29,12 @@ pub fn page(document: &Document) -> Result<String, serde_json::Error> {
     let mut html = String::with_capacity(TEMPLATE.len() + data.len() + script.len() + STYLE.len());
     // Filled from left to right, so that no text that is put in is taken for a place.
     let mut rest = TEMPLATE;
-    let places =
-        [("{{title}}", &*title), ("{{style}}", STYLE), ("{{data}}", &data), ("{{script}}", &script)];
+    let places = [
+        ("{{title}}", &*title),
+        ("{{style}}", STYLE),
+        ("{{data}}", &data),
+        ("{{script}}", &script),
+    ];
     for (place, text) in places {
         if let Some((before, after)) = rest.split_once(place) {
             html.push_str(before);
@@ -59,12 +63,19 @@ mod tests {
     #[test]
     fn texts_of_users_never_become_markup() {
         let title = "</title></script><script>alert(1)</script> {{data}} {{script}}";
-        let document =
-            Document { title: title.to_owned(), description: title.to_owned(), ..Document::default() };
+        let document = Document {
+            title: title.to_owned(),
+            description: title.to_owned(),
+            ..Document::default()
+        };
         let html = page(&document).unwrap();
         assert_eq!(html.matches("<script").count(), 2, "the document and the script of the page");
         assert_eq!(html.matches("</script>").count(), 2);
-        assert_eq!(html.matches("alert(1)").count(), 3, "title, title and description of the document");
+        assert_eq!(
+            html.matches("alert(1)").count(),
+            3,
+            "title, title and description of the document"
+        );
         assert!(html.contains("<title>&lt;/title&gt;&lt;/script&gt;"));
     }
 

@@ -31,8 +31,8 @@ function balanceOf({ title, unit, terms, residual, expected, about }) {
     el("h3", {}, title),
     el("table", { class: "balance" }, el("tbody", {}, terms.map(({ label, value }) =>
       el("tr", {}, el("th", { scope: "row" }, label), el("td", { class: "number" }, quantity(value, unit)), el("td", {}, bar(Math.abs(value) / most)))))),
-    el("p", { class: isFine ? "good" : "bad" },
-      `${isFine ? "✓" : "✗"} residual ${digits(residual, 2)} of the largest${expected === null ? "" : `, at most ${digits(expected, 2)} expected`}`),
+    residual === null ? null : el("p", { class: isFine ? "good" : "bad" },
+      `${isFine ? "✓" : "✗"} missing: ${digits(residual, 2)} of the largest${expected === null ? "" : `, at most ${digits(expected, 2)} expected`}`),
     about ? el("p", { class: "small soft" }, about) : null);
 }
 
