@@ -5,22 +5,33 @@ VENV := .venv
 BIN := $(VENV)/bin
 PEERS := .venv-peers
 MASTERS := .venv-masters
+TOOLS := .venv-dist
 NAMES := $(sort $(patsubst examples/%/scene.toml,%,$(wildcard examples/*/scene.toml)))
 EXAMPLES := $(sort $(patsubst examples/%/run.py,%,$(wildcard examples/*/run.py)))
 RELEASE := target/release
-PY_FILES := $(wildcard python build-fmu/*.py tests/conftest.py tests/fmpy tests/python tests/verification benches examples)
+# Built for C libraries from 2018 on, and for Windows.
+OLDEST_GLIBC := 2.28
+LINUX := target/dist/x86_64-unknown-linux-gnu/release
+WINDOWS := target/win64/x86_64-win7-windows-gnu
+WIN64 := $(WINDOWS)/release
+PY_FILES := $(wildcard python build-fmu/*.py tests/conftest.py tests/fmpy tests/python tests/verification benches examples docs/conf.py docs/manual packaging tests/windows tests/wheel)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo units examples test rust-test python-test pytest fuzz verify bench charts maps bench-droplet bench-reduced build clean
+
+.PHONY: help install dist wheels win64 win64-test wheel-test demo docs units examples test rust-test python-test pytest fuzz verify bench charts maps bench-droplet bench-reduced build clean
 
 help: ## say what there is
-	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /  make \1\t/' | expand -t 20
+	@grep -hE '^[a-z0-9-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z0-9-]+):.*## /  make \1\t/' | expand -t 20
 
 demo: build $(VENV)/ready ## pack the alumina plate, run it and draw pictures
 	@mkdir -p out
 	$(RELEASE)/build-fmu examples/alumina_plate/scene.toml -o out/alumina_plate.fmu
 	$(BIN)/python examples/alumina_plate/run.py
 	@echo "Pictures:"; find out/alumina_plate -name '*.png' -o -name '*.gif' | sort | sed 's/^/  /'
+
+docs: $(VENV)/ready ## build the manual, which needs no network to be read
+	$(BIN)/python -m sphinx --fail-on-warning --keep-going --quiet -b html -c docs . out/manual
+	@echo "Manual: out/manual/index.html"
 
 units: build ## pack every example that is one unit into out/
 	@mkdir -p out
@@ -110,15 +121,71 @@ bench-reduced: build $(VENV)/ready $(PEERS)/ready ## time reduced solids, and th
 build:
 	cargo build --release --workspace
 
+PREFIX ?= $(HOME)/.local
+
+install: build ## programs, library, completions and manual pages below PREFIX (~/.local), without the Python package
+	$(PYTHON) packaging/stage.py $(PREFIX) --programs $(RELEASE) --library linux64=$(RELEASE)/libimpinge.so
+
+# The library and the programs for Windows, with the packages of Debian 12 alone: its compiler brings the sources of the
+# standard library. Their own checkout of Rust and the usual one do not meet: the former is on the PATH of this rule only.
+WIN64_PACKAGES := rustc-web cargo-web rust-web-src gcc-mingw-w64-x86-64
+
+win64: ## the library and the programs for Windows; units packed from then on carry both (Debian 12, installs packages)
+	@dpkg -s $(WIN64_PACKAGES) > /dev/null 2>&1 || $(call apt,$(WIN64_PACKAGES))
+	PATH=/usr/bin:/bin RUSTC_BOOTSTRAP=1 CARGO_TARGET_X86_64_WIN7_WINDOWS_GNU_LINKER=x86_64-w64-mingw32-gcc \
+		cargo build -Zbuild-std=std,panic_unwind --target x86_64-win7-windows-gnu --target-dir target/win64 \
+		--release --package impinge --package impinge-cli --package build-fmu
+	@mkdir -p $(RELEASE)/win64
+	cp $(WIN64)/impinge.dll $(RELEASE)/win64/
+
+win64-test: win64 build $(VENV)/ready ## drive Windows units under Wine, beside the same on Linux (installs wine)
+	@dpkg -s wine64 > /dev/null 2>&1 || $(call apt,wine wine64)
+	IMPINGE_BIN=$(CURDIR)/$(RELEASE) IMPINGE_WIN64=$(CURDIR)/$(WIN64) $(BIN)/python -m pytest tests/windows
+
+# What `make win64` has built goes into the wheels; nothing else does.
+DLL = $(wildcard $(WIN64)/impinge.dll)
+LIBRARIES = --library linux64=$(LINUX)/libimpinge.so $(DLL:%=--library win64=%)
+
+wheels: $(TOOLS)/ready $(VENV)/ready
+	PATH=$(CURDIR)/$(TOOLS)/bin:$$PATH cargo zigbuild --target x86_64-unknown-linux-gnu.$(OLDEST_GLIBC) \
+		--target-dir target/dist --release --package impinge --package impinge-cli --package build-fmu
+	rm -rf target/dist/linux target/dist/windows
+	$(BIN)/python packaging/stage.py target/dist/linux --programs $(LINUX) $(LIBRARIES)
+	$(BIN)/python packaging/wheel.py target/dist/linux $(LINUX_TAG) -o dist
+	@set -e; [ -z "$(DLL)" ] || { \
+		$(BIN)/python packaging/stage.py target/dist/windows --programs $(WIN64) --describe $(LINUX) $(LIBRARIES); \
+		$(BIN)/python packaging/wheel.py target/dist/windows win_amd64 -o dist; }
+	$(TOOLS)/bin/auditwheel show dist/*$(LINUX_TAG).whl
+
+LINUX_TAG := manylinux_2_28_x86_64
+
+dist: ## wheels, units of all examples, completions, manual pages and checksums in dist/
+	rm -rf dist
+	@$(MAKE) --no-print-directory wheels
+	@mkdir -p dist/units
+	@set -e; for name in $(NAMES); do \
+		target/dist/linux/bin/build-fmu examples/$$name/scene.toml -o dist/units/$$name.fmu \
+			--platform linux64 $(if $(DLL),--platform win64); done
+	cp -r target/dist/linux/share dist/share && rm -r dist/share/impinge/*64
+	@cd dist && find . -type f ! -name SHA256SUMS | LC_ALL=C sort | xargs sha256sum > SHA256SUMS
+	@cd dist && sha256sum --check --quiet SHA256SUMS && ls -lh . units
+
+wheel-test: wheels ## install the wheel in a fresh environment; pack, run and plot a unit
+	$(BIN)/python -m pytest tests/wheel
+
+# Installs packages of Debian.
+define apt
+{ command -v apt-get > /dev/null || { echo "This needs Debian's packages: $(1)" >&2; exit 1; }; \
+	sudo=; [ "$$(id -u)" = 0 ] || sudo=sudo; \
+	$$sudo apt-get update && $$sudo apt-get install -y --no-install-recommends $(1); }
+endef
+
 # Debian ships `venv` apart from Python; it is installed only if it is missing.
 $(VENV)/bin/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' \
 		|| { echo "Python 3.11 or later is needed; set PYTHON=…" >&2; exit 1; }
 	@$(PYTHON) -m venv $(VENV) || { rm -rf $(VENV); \
-		command -v apt-get > /dev/null || exit 1; \
-		sudo=; [ "$$(id -u)" = 0 ] || sudo=sudo; \
-		$$sudo apt-get update && $$sudo apt-get install -y --no-install-recommends python3-venv \
-		&& $(PYTHON) -m venv $(VENV); }
+		$(call apt,python3-venv) && $(PYTHON) -m venv $(VENV); }
 
 # The package is installed as it stands: changes of its sources need no new installation.
 $(VENV)/ready: python/requirements.txt python/pyproject.toml | $(VENV)/bin/python
@@ -140,7 +207,12 @@ $(MASTERS)/ready: python/requirements-masters.txt | $(VENV)/bin/python
 	$(MASTERS)/bin/python -m pip install --quiet --disable-pip-version-check -r python/requirements-masters.txt
 	@touch $@
 
+$(TOOLS)/ready: python/requirements-dist.txt | $(VENV)/bin/python
+	@$(BIN)/python -m venv $(TOOLS)
+	$(TOOLS)/bin/python -m pip install --quiet --disable-pip-version-check -r python/requirements-dist.txt
+	@touch $@
+
 clean: ## remove everything that was built
 	cargo clean
-	rm -rf $(VENV) $(PEERS) $(MASTERS) out .pytest_cache .ruff_cache python/build python/impinge.egg-info
+	rm -rf $(VENV) $(PEERS) $(MASTERS) $(TOOLS) out dist .pytest_cache .ruff_cache python/build python/impinge.egg-info
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -1,4 +1,4 @@
-"""Writes THIRD-PARTY.md: the crates linked into the library, with version and licence.
+"""Writes THIRD-PARTY.md: the crates linked into library and programs, with version and licence.
 
 Run it at the repository root after a change of dependencies: python build-fmu/third-party.py
 """
@@ -11,18 +11,24 @@ HEAD = """# Third-party software
 
 The library in a unit is linked with these crates, under the licences they declare.
 Made by `build-fmu/third-party.py` from the locked dependencies.
-
+"""
+PROGRAMS = """
+## The programs alone
+`impinge` and `build-fmu` are linked with these, too. Libraries and programs for Windows contain the
+start-up code of mingw-w64 (public domain and ZPL 2.1) and parts of GCC's run-time library (GPL 3
+with its exception for such use).
+"""
+TABLE = """
 | crate | version | licence | source |
 |---|---|---|---|
 """
 
 
-def linked(metadata):
-    """Ids of all packages that the package `impinge` depends on outside of builds and tests."""
+def linked(metadata, *names):
+    """Packages of others that those of these names depend on outside of builds and tests."""
     nodes = {node["id"]: node for node in metadata["resolve"]["nodes"]}
     packages = {package["id"]: package for package in metadata["packages"]}
-    start = next(i for i, package in packages.items() if package["name"] == "impinge")
-    found, left = set(), [start]
+    found, left = set(), [i for i, package in packages.items() if package["name"] in names]
     while left:
         for dependency in nodes[left.pop()]["deps"]:
             normal = any(kind["kind"] is None for kind in dependency["dep_kinds"])
@@ -35,17 +41,24 @@ def linked(metadata):
     return sorted(others, key=lambda package: (package["name"], package["version"]))
 
 
+def table(packages):
+    rows = []
+    for package in packages:
+        licence = package["license"] or package["license_file"]
+        cells = [package["name"], package["version"], licence, package["repository"] or ""]
+        rows.append(f"| {' | '.join(cells)} |\n")
+    return TABLE + "".join(rows)
+
+
 def main():
     root = pathlib.Path(__file__).parent.parent
     command = ["cargo", "metadata", "--locked", "--format-version", "1"]
     command += ["--filter-platform", "x86_64-unknown-linux-gnu"]
     metadata = json.loads(subprocess.run(command, cwd=root, check=True, capture_output=True).stdout)
-    rows = []
-    for package in linked(metadata):
-        licence = package["license"] or package["license_file"]
-        cells = [package["name"], package["version"], licence, package["repository"] or ""]
-        rows.append(f"| {' | '.join(cells)} |\n")
-    (root / "THIRD-PARTY.md").write_text(HEAD + "".join(rows))
+    library = linked(metadata, "impinge")
+    programs = [p for p in linked(metadata, "impinge-cli", "build-fmu") if p not in library]
+    text = HEAD + table(library) + PROGRAMS + table(programs)
+    (root / "THIRD-PARTY.md").write_text(text)
 
 
 if __name__ == "__main__":

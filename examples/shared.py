@@ -84,14 +84,16 @@ def add_colour_bar(image, label: str):
     axes.figure.colorbar(image, cax=axes.inset_axes([1.03, 0, 0.04, 1]), label=label)
 
 
-def save(figure, folder: Path, name: str) -> Path:
-    """Writes the picture, of few colours and thus small, and says where it is."""
+def save(figure, folder: Path, name: str, smooth: bool = False) -> Path:
+    """Writes the picture and says where it is: of few colours and thus small, or `smooth`."""
     path = folder / f"{name}.png"
     figure.savefig(path, dpi=110)
     with Image.open(path) as image:
+        drawn = image.convert("RGB")
+    if not smooth:
         coverage = Image.Quantize.MAXCOVERAGE
-        few = image.convert("RGB").quantize(256, coverage, kmeans=3, dither=Image.Dither.NONE)
-    few.save(path, optimize=True)
+        drawn = drawn.quantize(256, coverage, kmeans=3, dither=Image.Dither.NONE)
+    drawn.save(path, optimize=True)
     plt.close(figure)
     print(f"picture: {path}")
     return path

@@ -35,6 +35,10 @@ COARSE = {
         "\nspacing = 2.5e-6": "\nspacing = 6e-6",
         "spacing = 7.5e-6, depth_spacing = 0.3e-6": "spacing = 20e-6, depth_spacing = 0.6e-6",
     },
+    "hot_drop": {
+        "\nspacing = 10e-6": "\nspacing = 50e-6",
+        "{ spacing = 10e-6 }": "{ spacing = 50e-6 }",
+    },
     "moving_spot": {
         "spacing = 40e-6, depth_spacing = 10e-6, growth = 1.4": "spacing = 1e-4, "
         "depth_spacing = 2e-5, growth = 2.0"

@@ -5,6 +5,7 @@ mod cells;
 mod documentation;
 mod library;
 mod picture;
+mod platform;
 mod reference;
 mod terminals;
 mod version;
@@ -12,23 +13,26 @@ mod words;
 
 use std::fs;
 use std::io::{self, Read, Write};
+use std::iter;
 use std::path::{Path, PathBuf};
 use std::process::{self, ExitCode};
 
 use archive::Entries;
-use clap::Parser;
+use clap::{CommandFactory, Parser};
+use clap_complete::Shell;
 use impinge::advice;
 use impinge::model::{Model, notes_on_walls, records, to_be_recorded, tolerance};
 use impinge::runtime::available_memory;
 use impinge::scene::{self, Scene};
+use platform::Platform;
 use version::Version;
 
 /// Pack a scene as an FMI co-simulation unit, or check a unit
 #[derive(Parser)]
-#[command(version)]
+#[command(name = "build-fmu", version)]
 struct Arguments {
     /// The scene, a TOML file; with --lint the unit
-    #[arg(value_name = "SCENE", required_unless_present_any = ["rules", "instantiate"])]
+    #[arg(value_name = "SCENE", required_unless_present_any = ["rules", "instantiate", "completions", "man"])]
     file: Option<PathBuf>,
     /// Path of the unit [default: NAME.fmu]
     #[arg(short, long, value_name = "FILE.fmu")]
@@ -36,17 +40,20 @@ struct Arguments {
     /// The version of FMI; with 3 rings, tiles and fields are array variables
     #[arg(long, value_name = "VERSION", default_value = "2")]
     fmi: Version,
-    /// The library of impinge [default: the one next to this program]
-    #[arg(long, value_name = "PATH")]
-    library: Option<PathBuf>,
+    /// A library of impinge, for this or another platform; repeatable [default: those installed with this program]
+    #[arg(long, value_name = "[PLATFORM=]PATH", value_parser = library::Named::parse)]
+    library: Vec<library::Named>,
+    /// Pack for these platforms alone, such as linux64 and win64; repeatable [default: all whose library is there]
+    #[arg(long, value_name = "PLATFORM", value_parser = platform::parse)]
+    platform: Vec<Platform>,
     /// Run the default experiment and pack its inputs and outputs too
     #[arg(long)]
     reference: bool,
     /// Write only the modelDescription.xml to this file
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["output", "library", "reference"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["output", "library", "platform", "reference"])]
     xml: Option<PathBuf>,
     /// Check a unit of FMI 2.0, of any tool; its library is loaded to compare the GUID
-    #[arg(long, conflicts_with_all = ["output", "library", "reference", "xml"])]
+    #[arg(long, conflicts_with_all = ["output", "library", "platform", "reference", "xml"])]
     lint: bool,
     /// List the rules
     #[arg(long, requires = "lint")]
@@ -54,6 +61,12 @@ struct Arguments {
     /// Do not load the unit's library; use this for units of unknown origin
     #[arg(long, requires = "lint")]
     no_run: bool,
+    /// Print completions for a shell
+    #[arg(long, value_name = "SHELL", exclusive = true)]
+    completions: Option<Shell>,
+    /// Write the manual page, build-fmu.1, to a folder
+    #[arg(long, value_name = "FOLDER", exclusive = true)]
+    man: Option<PathBuf>,
     #[arg(long, hide = true, num_args = 4, exclusive = true)]
     instantiate: Option<Vec<String>>,
 }
@@ -90,6 +103,12 @@ fn complain(message: &str) {
 /// Executes the command; returns its text and an exit code.
 fn run(arguments: &Arguments) -> Result<(String, ExitCode), String> {
     let file = arguments.file.as_deref().unwrap_or(Path::new(""));
+    if let Some(shell) = arguments.completions {
+        return Ok((completions(shell), ExitCode::SUCCESS));
+    }
+    if let Some(folder) = &arguments.man {
+        return Ok((manual_page(folder)?, ExitCode::SUCCESS));
+    }
     if arguments.rules {
         return Ok((fmu_lint::rules(), ExitCode::SUCCESS));
     }
@@ -98,6 +117,22 @@ fn run(arguments: &Arguments) -> Result<(String, ExitCode), String> {
         return Ok((verdict.text, u8::from(verdict.has_errors).into()));
     }
     Ok((pack(arguments, file)?, ExitCode::SUCCESS))
+}
+
+/// Returns the completions of this program for a shell.
+fn completions(shell: Shell) -> String {
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut Arguments::command(), "build-fmu", &mut script);
+    String::from_utf8_lossy(&script).into_owned()
+}
+
+/// Writes the manual page; returns its path.
+fn manual_page(folder: &Path) -> Result<String, String> {
+    let pages = || clap_mangen::generate_to(Arguments::command(), folder);
+    let written = fs::create_dir_all(folder).and_then(|()| pages());
+    let page = folder.join("build-fmu.1").display().to_string();
+    written.map_err(|error| format!("cannot write {page}: {error}"))?;
+    Ok(page)
 }
 
 /// Packs the scene in `path`; returns a one-line summary.
@@ -124,11 +159,13 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
         refuse_other_files(target, b"<?xml")?;
         return write(target, arguments.fmi.model_description(&levels.scene, &text).as_bytes());
     }
-    let library_path = library::path(arguments.library.as_deref())?;
+    let libraries = library::find(&arguments.library, &arguments.platform, arguments.fmi)?;
     let target = arguments.output.clone().unwrap_or_else(|| format!("{}.fmu", scene.name).into());
-    refuse_inputs(&target, &[path, &library_path])?;
+    let paths = libraries.iter().map(|library| library.path.as_path());
+    refuse_inputs(&target, &iter::once(path).chain(paths).collect::<Vec<_>>())?;
     refuse_other_files(&target, b"PK")?;
-    let library = library::read(&library_path, arguments.fmi)?;
+    let warn = |warning: &str| complain(&format!("warning: {warning}"));
+    let libraries = library::entries(&libraries, &scene.name, arguments.fmi, warn)?;
     for note in to_be_recorded(&scene).into_iter().chain(tolerance::note_on_sample(&scene)) {
         complain(&format!("note: {note}"));
     }
@@ -150,7 +187,7 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
         Entries::new()
     };
     let notes = reduced.as_ref().map_or(Vec::new(), Model::notes);
-    let unit = unit((&scene, &text), &notes, library, arguments.fmi, reference)?;
+    let unit = unit((&scene, &text), &notes, arguments.fmi, [libraries, reference])?;
     write(&target, &unit)
 }
 
@@ -201,14 +238,14 @@ fn is_same_file(_a: &Path, _b: &Path) -> bool {
     false
 }
 
-/// The bytes of the unit; `notes` describe its reductions, `entries` follow from the options.
+/// The bytes of the unit; `notes` describe its reductions, `others` are its libraries and what the options ask for.
 fn unit(
     (scene, text): (&Scene, &str),
     notes: &[String],
-    library: Vec<u8>,
     fmi: Version,
-    mut entries: Entries,
+    others: [Entries; 2],
 ) -> Result<Vec<u8>, String> {
+    let mut entries: Entries = others.into_iter().flatten().collect();
     entries.append(&mut documentation::licences());
     entries.insert("modelDescription.xml".into(), fmi.model_description(scene, text).into());
     entries.insert("resources/scene.toml".into(), text.into());
@@ -218,7 +255,6 @@ fn unit(
     let icon = picture::png(scene)?;
     entries.append(&mut terminals::entries(scene, fmi, &icon)?);
     entries.insert(fmi.icon().into(), icon);
-    entries.insert(library::entry(&scene.name, fmi), library);
     let records = records(scene, scene.solver.threads);
     for (body, bytes) in records.map_err(|error| format!("no record of its drops: {error}"))? {
         entries.insert(format!("resources/records/{body}.record"), bytes);
@@ -277,8 +313,9 @@ mod tests {
     fn equal_scenes_produce_equal_bytes() {
         let scene = scene::parse(SCENE, "scene.toml").unwrap();
         for version in [Version::Two, Version::Three] {
-            let make =
-                || unit((&scene, SCENE), &[], vec![1, 2, 3], version, Entries::new()).unwrap();
+            let library = Entries::from([("binaries/linux64/Plate.so".into(), vec![1, 2, 3])]);
+            let others = [library, Entries::new()];
+            let make = || unit((&scene, SCENE), &[], version, others.clone()).unwrap();
             assert_eq!(make(), make());
         }
     }

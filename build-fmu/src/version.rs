@@ -1,7 +1,5 @@
 //! The versions of FMI that units are packed for.
 
-use std::env::consts;
-
 use clap::ValueEnum;
 use impinge::fmi::{three, two};
 use impinge::scene::Scene;
@@ -29,11 +27,11 @@ impl Version {
         }
     }
 
-    /// A function that a library for this version exports.
-    pub fn step_function(self) -> &'static str {
+    /// Functions that a library for this version exports: the one that makes an instance, and those that act on it.
+    pub fn functions(self) -> Vec<&'static str> {
         match self {
-            Version::Two => "fmi2DoStep",
-            Version::Three => "fmi3DoStep",
+            Version::Two => two::functions().chain(["fmi2Instantiate"]).collect(),
+            Version::Three => three::functions().chain(["fmi3InstantiateCoSimulation"]).collect(),
         }
     }
 
@@ -43,29 +41,5 @@ impl Version {
             Version::Two => "model.png",
             Version::Three => "terminalsAndIcons/icon.png",
         }
-    }
-
-    /// The standard's name of this platform: FMI 2.0.4, section 2.3; FMI 3.0, section 2.5.
-    pub fn platform(self) -> String {
-        let system = consts::OS;
-        match (self, system) {
-            (Version::Two, "windows") => "win64".into(),
-            (Version::Two, "macos") => "darwin64".into(),
-            (Version::Two, _) => "linux64".into(),
-            (Version::Three, "macos") => format!("{}-darwin", consts::ARCH),
-            (Version::Three, _) => format!("{}-{system}", consts::ARCH),
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
-    fn platforms_have_the_names_of_the_standard() {
-        assert_eq!(Version::Two.platform(), "linux64");
-        assert_eq!(Version::Three.platform(), "x86_64-linux");
     }
 }

@@ -112,13 +112,107 @@ fn files_that_are_no_units_are_not_replaced() {
 fn a_library_of_another_build_is_not_packed() {
     let place = Place::new();
     let mut bytes = fs::read(library()).unwrap();
-    let key = b"contact_resistance\": {";
-    let places = bytes.windows(key.len()).enumerate().filter(|(_, window)| window == key);
-    let places: Vec<usize> = places.map(|(place, _)| place).collect();
-    assert!(!places.is_empty());
-    places.into_iter().for_each(|place| bytes[place] = b'k');
+    let mark = b" (sources ";
+    let found = bytes.windows(mark.len()).position(|window| window == mark).unwrap();
+    bytes[found + mark.len()] = b'x';
     fs::write(place.path("old.so"), bytes).unwrap();
-    place.refused("scene.toml --library old.so", "its scene keys differ");
+    place.refused("scene.toml --library old.so", "its sources differ from those of this program");
+}
+
+/// A library of Windows without functions: headers alone.
+fn empty_dll() -> Vec<u8> {
+    let mut bytes = vec![0; 328];
+    let parts: [(usize, &[u8]); 7] = [
+        (0, b"MZ"),
+        (60, &[64]),
+        (64, b"PE\0\0"),
+        (68, &[0x64, 0x86]),
+        (84, &[240, 0, 0x22, 0x20]),
+        (88, &[0x0b, 2]),
+        (196, &[16]),
+    ];
+    for (place, part) in parts {
+        bytes[place..place + part.len()].copy_from_slice(part);
+    }
+    bytes
+}
+
+#[test]
+fn libraries_are_those_of_their_platforms() {
+    let place = Place::new();
+    fs::write(place.path("empty.dll"), empty_dll()).unwrap();
+    for (arguments, words) in [
+        ("--library win64=lib.so", "is no shared library for win64"),
+        ("--library empty.dll", "is no shared library for linux64"),
+        ("--library win64=empty.dll", "does not export fmi2"),
+        ("--fmi 3 --library x86_64-windows=empty.dll", "does not export fmi3"),
+        ("--library lib.so --library linux64=lib.so", "two libraries are for linux64"),
+        ("--platform win64 --library win64=nothing.dll", "cannot read the library nothing.dll"),
+    ] {
+        place.refused(&format!("scene.toml {arguments}"), words);
+    }
+    assert_eq!(place.shell("scene.toml --platform win32").status.code(), Some(2));
+    assert_eq!(place.names(), ["empty.dll", "lib.so", "scene.toml"]);
+}
+
+/// Copies the program into the layout of an installation.
+fn install(place: &Place) -> PathBuf {
+    let program = place.path("bin/build-fmu");
+    fs::create_dir(place.path("bin")).unwrap();
+    fs::copy(PROGRAM, &program).unwrap();
+    program
+}
+
+#[test]
+fn an_installation_packs_the_libraries_that_it_shares() {
+    let place = Place::new();
+    let program = install(&place);
+    let pack = |arguments: &str| {
+        Command::new(&program)
+            .current_dir(place.0.path())
+            .args(arguments.split(' '))
+            .output()
+            .unwrap()
+    };
+    let missing = pack("scene.toml");
+    let said = String::from_utf8_lossy(&missing.stderr);
+    assert!(!missing.status.success() && said.contains("no library for linux64 at "), "{said}");
+    let shared = place.path("share/impinge");
+    for platform in ["linux64", "win64"] {
+        fs::create_dir_all(shared.join(platform)).unwrap();
+    }
+    fs::copy(library(), shared.join("linux64/libimpinge.so")).unwrap();
+    fs::write(shared.join("win64/impinge.dll"), empty_dll()).unwrap();
+
+    let packed = pack("scene.toml -o unit.fmu");
+    let said = String::from_utf8_lossy(&packed.stderr);
+    assert!(packed.status.success() && said.contains("the unit cannot run on win64"), "{said}");
+    let files = texts(&place.path("unit.fmu"));
+    let libraries: Vec<_> = files.keys().filter(|name| name.starts_with("binaries/")).collect();
+    assert_eq!(libraries, ["binaries/linux64/SmallPlate.so"]);
+
+    let required = pack("scene.toml --platform linux64 --platform win64");
+    let said = String::from_utf8_lossy(&required.stderr);
+    assert!(!required.status.success() && said.contains("does not export"), "{said}");
+    let alone = pack("scene.toml -o alone.fmu --platform linux64");
+    assert!(!String::from_utf8_lossy(&alone.stderr).contains("win64"));
+    assert_eq!(
+        fs::read(place.path("alone.fmu")).unwrap(),
+        fs::read(place.path("unit.fmu")).unwrap()
+    );
+}
+
+#[test]
+fn shells_and_man_are_given_every_option() {
+    let place = Place::new();
+    for shell in ["bash", "zsh", "fish", "powershell"] {
+        let script = place.shell(&format!("--completions {shell}"));
+        let script = String::from_utf8_lossy(&script.stdout).into_owned();
+        assert!(script.contains("platform") && script.contains("build-fmu"), "{script}");
+    }
+    assert!(place.shell("--man pages").status.success());
+    let page = fs::read_to_string(place.path("pages/build-fmu.1")).unwrap();
+    assert!(page.starts_with(".ie") && page.contains("platform"), "{page}");
 }
 
 #[test]

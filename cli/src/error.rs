@@ -51,6 +51,8 @@ pub enum CliError {
         "there is no substance `{name}`{hint}; allowed: a name that `impinge substances` lists"
     )]
     UnknownSubstance { name: String, hint: String },
+    #[error("cannot write manual pages to {}: {reason}", folder.display())]
+    Pages { folder: PathBuf, reason: io::Error },
     #[error("{option} is a setting of a run, and {what} is reported as it is; allowed: a scene")]
     NoRun { option: &'static str, what: String },
     #[error(transparent)]

@@ -1,10 +1,13 @@
-//! The command line: `impinge check SCENE`, `impinge run SCENE`, `impinge schema`, `impinge substances`. Reports go to
-//! standard output; errors, warnings and progress to standard error. Exit status: 0 done, 1 refused or failed, 2 wrong usage.
+//! The command line: `impinge check SCENE`, `impinge run SCENE`, `impinge schema`, `impinge substances`; `impinge
+//! completions SHELL` and `impinge man FOLDER` describe it to shells and to `man`. Reports go to standard output; errors,
+//! warnings and progress to standard error. Exit status: 0 done, 1 refused or failed, 2 wrong usage.
 
 mod check;
+mod completions;
 mod error;
 mod idle;
 mod inputs;
+mod man;
 mod messages;
 mod patience;
 mod ranges;
@@ -39,6 +42,8 @@ enum Command {
     Report(report::Report),
     Schema(schema::Schema),
     Substances(substances::Substances),
+    Completions(completions::Completions),
+    Man(man::Man),
 }
 
 fn main() -> ExitCode {
@@ -49,6 +54,8 @@ fn main() -> ExitCode {
         Command::Report(command) => command.execute(),
         Command::Schema(command) => command.execute(),
         Command::Substances(command) => command.execute(),
+        Command::Completions(command) => command.execute(),
+        Command::Man(command) => command.execute(),
     };
     match report.and_then(|report| print(&report)) {
         Ok(()) => ExitCode::SUCCESS,

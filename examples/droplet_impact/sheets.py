@@ -1,14 +1,13 @@
 """Draws drop and plate over time from the ParaView files of a run of the scene."""
 
 import argparse
-import struct
 import sys
-import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+import paraview  # noqa: E402
 import shared  # noqa: E402
 from matplotlib.colors import LogNorm  # noqa: E402
 
@@ -20,30 +19,13 @@ MIDDLE = 40.0  # µm, radius of what counts as the middle of the surface
 COLOURS = shared.plt.cm.viridis(np.linspace(0, 0.92, len(SHARES)))
 
 
-def read(path: Path) -> dict[str, np.ndarray]:
-    """The arrays of a ParaView file of raw appended doubles by name."""
-    raw = path.read_bytes()
-    start = raw.index(b"<AppendedData")
-    begin = raw.index(b"_", raw.index(b">", start)) + 1
-    arrays = {}
-    for array in ET.fromstring(raw[:start] + b"</VTKFile>").iter("DataArray"):
-        if array.get("type") != "Float64":
-            continue
-        at = begin + int(array.get("offset"))
-        (size,) = struct.unpack_from("<Q", raw, at)
-        width = int(array.get("NumberOfComponents", 1))
-        values = np.frombuffer(raw, "<f8", size // 8, at + 8)
-        arrays[array.get("Name")] = values.reshape(-1, width) if width > 1 else values
-    return arrays
-
-
 def at_time(folder: Path, body: str, share: float) -> dict[str, np.ndarray]:
     """What a body was at a share of the time."""
-    names = [entry.attrib for entry in ET.parse(folder / f"{body}.pvd").iter("DataSet")]
-    found = [n["file"] for n in names if abs(float(n["timestep"]) * 1e6 / TIME - share) < 1e-6]
+    series = paraview.files(folder, body).items()
+    found = [path for time, path in series if abs(time * 1e6 / TIME - share) < 1e-6]
     if len(found) != 1:
         sys.exit(f"{folder}/{body}.pvd: no time {share * TIME} µs; run the scene with --step 5e-7")
-    return read(folder / found[0])
+    return paraview.read(found[0])
 
 
 class Plate:

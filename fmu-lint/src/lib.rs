@@ -9,7 +9,7 @@ mod description;
 mod document;
 mod extent;
 mod finding;
-mod library;
+pub mod library;
 mod package;
 mod platform;
 mod probe;

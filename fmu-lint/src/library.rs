@@ -13,6 +13,7 @@ pub struct Library {
     pub symbols: BTreeSet<String>,
 }
 
+/// Parses a file: a shared library, or a universal Mach-O file of several.
 pub fn read(bytes: &[u8]) -> Result<Vec<Library>, String> {
     let slices = slices(bytes).map_err(|error| error.to_string())?;
     slices.into_iter().map(|slice| one(slice).map_err(|error| error.to_string())).collect()

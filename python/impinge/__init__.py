@@ -1,8 +1,8 @@
 """Units of impinge, and of any tool that makes FMI co-simulation units, from Python.
 
-`Unit` drives one unit by names, `Master` couples several, `Surface` maps fields between their cells
-and foreign meshes, `Study` runs many, `linear_map` is what a linear unit makes of its inputs.
-Nothing here computes physics: units do.
+`Unit` drives one unit by names, `Master` couples several, `Function` makes a unit of a Python
+function, `Surface` maps fields between cells of units and foreign meshes, `Study` runs many,
+`linear_map` is what a linear unit makes of its inputs. Nothing here computes physics: units do.
 """
 
 from importlib import import_module
@@ -10,10 +10,11 @@ from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, Any
 
 from impinge import errors
-from impinge.errors import ImpingeError, StepDiscarded, StudyError, UnitError
+from impinge.errors import FunctionError, ImpingeError, StepDiscarded, StudyError, UnitError
 from impinge.unit import State, Unit, Variable
 
 if TYPE_CHECKING:
+    from impinge.function import Function
     from impinge.linear import linear_map, step_sensitivity
     from impinge.master import Connection, Master
     from impinge.study import Study
@@ -26,6 +27,8 @@ except PackageNotFoundError:  # run from a checkout that is not installed
 
 __all__ = [
     "Connection",
+    "Function",
+    "FunctionError",
     "ImpingeError",
     "Master",
     "State",
@@ -43,6 +46,7 @@ __all__ = [
 # Where names live that are imported when they are first asked for, and the extra that they need.
 _LATER = {
     "Connection": ("impinge.master", None),
+    "Function": ("impinge.function", None),
     "Master": ("impinge.master", None),
     "Surface": ("impinge.surface", "surface"),
     "Study": ("impinge.study", "study"),

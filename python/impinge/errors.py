@@ -3,6 +3,8 @@
 from importlib import import_module
 from types import ModuleType
 
+from impinge import installation
+
 
 class ImpingeError(Exception):
     """Any error of this package."""
@@ -35,12 +37,29 @@ class StepDiscarded(UnitError):
         self.terminated = terminated
 
 
+class FunctionError(UnitError):
+    """A `Function` does not fit what it declares, or fails; what it raised itself is the cause.
+
+    `function` is its name in the master, `time` [s] when it failed, None while it is made, and
+    `variable` the input or output at fault, if it is one.
+    """
+
+    def __init__(
+        self, what: str, function: str = "", time: float | None = None, variable: str | None = None
+    ):
+        super().__init__(what)
+        self.function, self.time, self.variable = function, time, variable
+
+
 class StudyError(ImpingeError, RuntimeError):
     """The folder of a study is in use, or holds files that are none of a study."""
 
 
 def extra(name: str) -> str:
     """The command that installs an extra of this package; no index of packages has it."""
+    wheel = installation.wheel()
+    if wheel:
+        return f'pip install "impinge[{name}] @ {wheel}"'
     return f'pip install "./python[{name}]", in the checkout of impinge'
 
 

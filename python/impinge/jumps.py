@@ -67,11 +67,11 @@ class Watched:
 
     def before(self, time: float, size: float) -> np.ndarray:
         """u(t⁻), where a step of `size` [s] ends."""
-        return self._beside(time, -_near(time, size))
+        return self._beside(time, -near(time, size))
 
     def after(self, time: float, size: float) -> np.ndarray:
         """u(t⁺), where a step of `size` [s] begins."""
-        return self._beside(time, _near(time, size))
+        return self._beside(time, near(time, size))
 
     def _beside(self, time: float, distance: float) -> np.ndarray:
         if self.is_constant:
@@ -92,12 +92,12 @@ class Watched:
         """Times within a step just after which u is another than just before, ascending."""
         found: list[float] = []
         open_parts = [] if self.is_constant else [(begin, end)]
-        near = _near(end, end - begin)
+        apart = near(end, end - begin)
         while open_parts and len(found) < _MOST:
             first, last = open_parts.pop()
-            if last - first <= 4 * near or self.misfit(first, last) <= self.tolerance:
+            if last - first <= 4 * apart or self.misfit(first, last) <= self.tolerance:
                 continue
-            time = self._find(first + near, last - near, near / 1000)
+            time = self._find(first + apart, last - apart, apart / 1000)
             if time is not None:
                 found.append(time)
                 open_parts += [(first, time), (time, last)]
@@ -136,7 +136,8 @@ class Watched:
         return self.misfit(begin, end) > _STEEP * self.range + self.tolerance
 
 
-def _near(time: float, size: float) -> float:
+def near(time: float, size: float) -> float:
+    """How far [s] "just before" and "just after" a time are, for steps of `size` [s]."""
     return max(_NEAR * size, 8 * float(np.spacing(abs(time))))
 
 

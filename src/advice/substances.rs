@@ -7,11 +7,13 @@ use crate::scene::schema::Schema;
 use crate::scene::{NamedSubstance, Source};
 use crate::warning;
 
-/// Warns of each substance that a body is colder or hotter than, on the first of its temperatures.
+/// Warns of each substance whose constants are taken beyond their range, or that a body is colder or hotter than, on the
+/// first such temperature.
 pub fn review(reviewer: &mut Reviewer, schema: &Schema) {
     for named in reviewer.source.substances() {
         let [low, high] = named.substance.sheet().valid;
-        let mut outside = None;
+        let at = named.at.filter(|at| !(low..=high).contains(at));
+        let mut outside = at.map(|at| (named.table.clone(), at));
         schema.numbers(reviewer.source, &mut |place, limits, value| {
             if limits.noun != Some(TEMPERATURE) || (low..=high).contains(&value) {
                 return;

@@ -12,7 +12,11 @@ mod table;
 mod unit;
 
 /// Program and version, embedded in every library that serves units.
-pub const MARK: &str = concat!("impinge ", env!("CARGO_PKG_VERSION"));
+pub const RELEASE: &str = concat!("impinge ", env!("CARGO_PKG_VERSION"));
+
+/// The same with a checksum of the sources: libraries of one build for several platforms have it in common.
+pub const MARK: &str =
+    concat!("impinge ", env!("CARGO_PKG_VERSION"), " (sources ", env!("IMPINGE_SOURCES"), ")");
 
 pub mod guid;
 pub mod terminals;

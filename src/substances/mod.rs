@@ -51,7 +51,7 @@ impl Kind {
         let is_named = |substance: &&Substance| {
             substance.name == name
                 || (self == Self::Fluid && substance.name == melt)
-                || substance.sheet().aliases.iter().any(|alias| *alias == name)
+                || substance.sheet().aliases.contains(&name)
         };
         self.all().iter().find(is_named).copied()
     }

@@ -80,6 +80,22 @@ class Late(Base):
         return True
 """
 
+STAGES = """
+class Stages(Base):
+    def __init__(self, **kwargs):
+        super().__init__(**kwargs)
+        self.numbers(u=("input", 0.0), y=("output", 0.0))
+        self.n, self.count = 0, 1
+        told = {"variability": Fmi2Variability.discrete}
+        self.register_variable(Integer("n", causality=Fmi2Causality.input, **told))
+        self.register_variable(Integer("count", causality=Fmi2Causality.output, **told))
+
+    def do_step(self, time, step):
+        self.y = 10.0 * self.n - 0.5 * self.u
+        self.count += 1
+        return True
+"""
+
 
 def python_unit(folder, name, code, *, states=True, declared=False):
     """Packs the class `name` of this code into `name.fmu`; made once for a folder.

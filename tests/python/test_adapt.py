@@ -354,15 +354,17 @@ def test_linear_fields_of_a_box_are_exact_and_places_off_it_refused():
         body("heat", points, 1.0)
 
 
-def test_fields_of_a_disc_come_onto_a_mesh(tmp_path, capsys):
+@pytest.mark.parametrize("ending", ["vtr", "vts"])
+def test_fields_of_a_disc_come_onto_a_mesh(ending, tmp_path, capsys):
     """Displacement along the radius, stress of a ring: components follow the angle."""
     scene = tmp_path / "disc.toml"
     text = SCENE.replace("box = [4e-4, 4e-4, 1e-4]", "disc = { radius = 2e-4, thickness = 1e-4 }")
     scene.write_text(
         text.replace("tiles = { count = [4, 5], size = [2e-4, 1e-4] }", "disc = { radius = 1e-4 }")
     )
-    _, out = run(scene, "--set", "laser.heat_flux=1e8", "--fields-every", "4")
-    body = Body.read(out / "block_000001.vts")
+    revolved = ["--revolve"] if ending == "vts" else []
+    _, out = run(scene, "--set", "laser.heat_flux=1e8", "--fields-every", "4", *revolved)
+    body = Body.read(out / f"block_000001.{ending}")
     assert body.axes[0][[0, -1]] == pytest.approx([0, 2e-4])
     radius, angle = body.axes[0][3], np.array([0.0, 0.7, 2.0, -1.5])
     points = np.column_stack([radius * np.cos(angle), radius * np.sin(angle), np.zeros(4)])

@@ -366,6 +366,48 @@ def test_gains_maps_and_units_of_measurement(folder):
         assert master.run(0.1)["b.u"].values[-1] == pytest.approx(3 * (300.0 - 273.15))
 
 
+def cooled(folder, y_unit, u_unit, per_watt, **more):
+    """A store of 1 J/K at 400 K that loses 2 W/K to 300 K by the map of its one connection."""
+    store = make(
+        folder, "cooled", [0.0], [per_watt], [1.0], x=[400.0], u_unit=u_unit, y_unit=y_unit
+    )
+    with Master({"a": store}, [Connection("a.y", "a.u", **more)], step=0.02, energy=["a.y"]) as m:
+        return m.run(1.0)
+
+
+def test_a_map_may_change_the_kind_of_quantity(folder):
+    """T = 300 K + 100 K e^(−2 t), with fluxes in W/m2 and kW/m2; what has left is 1 J/K × ΔT."""
+    law = {"map": lambda kelvin: 2.0 * (300.0 - kelvin), "unit": "W/m2"}
+    plain = cooled(folder, "K", "W/m2", 1.0, **law)
+    assert plain["a.y"].values == pytest.approx(
+        300 + 100 * np.exp(-2 * plain.time.values), abs=0.01
+    )
+    passed = plain["energy_passed.a.y"].values
+    assert passed == pytest.approx(plain["a.y"].values - 400.0, abs=0.01)
+    kilo = cooled(folder, "K", "kW/m2", 1e3, **law)
+    assert kilo["a.y"].values == pytest.approx(plain["a.y"].values, rel=1e-9)
+    assert kilo["energy_passed.a.y"].values == pytest.approx(passed, abs=1e-6)
+    # It gets what the source says, in the source's own unit.
+    celsius = cooled(folder, "degC", "W/m2", 1.0, **law)
+    assert celsius["a.y"].values == pytest.approx(plain["a.y"].values, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "told"),
+    [
+        ({}, "a.y is in K, a.u in W/m2; a `map` may lead there, whose `unit` is that of what"),
+        ({"map": np.negative}, "a.y is in K, a.u in W/m2; a `map` may lead there"),
+        ({"map": np.negative, "unit": "W"}, "the map of a.y -> a.u gives W, a.u in W/m2"),
+        ({"map": np.negative, "unit": "w/m2"}, "`w` is no unit that is known here; is it `W`?"),
+        ({"unit": "W/m2"}, "a.y -> a.u: `unit` is that of a `map`, and there is none"),
+    ],
+)
+def test_maps_to_other_quantities_name_their_unit(folder, wrong, told):
+    with pytest.raises(MasterError) as refused:
+        cooled(folder, "K", "W/m2", 1.0, **wrong)
+    assert told in str(refused.value)
+
+
 def test_families_connect_whole_and_inputs_follow_functions(pack, folder):
     """Rings of a plate get what a drop gives its wall; a flux jumps in the middle of a run."""
     rings = pack("rings")

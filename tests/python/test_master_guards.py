@@ -5,7 +5,7 @@ import pytest
 from impinge import Connection, Master, Unit
 from impinge.master import Bond, Graded, MasterError, MasterWarning
 from linear_unit import make
-from python_unit import BODY, CUBE, LATE, LINK, python_unit
+from python_unit import BODY, CUBE, LATE, LINK, STAGES, python_unit
 
 
 @pytest.fixture(scope="session")
@@ -166,6 +166,23 @@ def test_what_is_computed_in_steps_is_still_known_for_that(folder):
         result = master.run(1.0)
         assert master.participants["l"].held == "end" and master.notes == []
     assert result["l.y"].values[1:] == pytest.approx(np.full(10, 2.0), rel=1e-4)
+
+
+@pytest.mark.parametrize("acceleration", ["none", "aitken", "anderson", "iqn-ils"])
+def test_whole_numbers_arrive_in_rings_that_iterate(folder, acceleration):
+    """A unit that counts its steps for itself: each step heats by 10 W more, 0.5 W/K get lost."""
+    stages = python_unit(folder, "Stages", STAGES)
+    store = make(folder, "pot", [0.0], [1.0], [1.0])
+    ring = [("p.y", "s.u"), ("s.y", "p.u"), ("s.count", "s.n")]
+    options = {"step": 0.1, "order": 0, "acceleration": acceleration, "outputs": ["s.n"]}
+    with Master({"p": store, "s": stages}, ring, **options) as master:
+        result = master.run(1.0)
+    assert result["s.n"].values.tolist() == list(range(1, 12))
+    heat, wanted = 0.0, [0.0]
+    for count in range(1, 11):  # T₁ = T₀ + H (10 n₀ − T₁/2)
+        heat = (heat + 0.1 * 10.0 * count) / 1.05
+        wanted.append(heat)
+    assert result["p.y"].values == pytest.approx(wanted, rel=1e-5)
 
 
 @pytest.mark.parametrize("scheme", ["jacobi", "gauss-seidel"])

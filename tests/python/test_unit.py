@@ -66,6 +66,40 @@ def test_arrays_and_numbers_come_in_one_call_in_order(pack, fmi):
 
 
 @both
+def test_elements_that_are_set_together_all_keep_their_values(pack, fmi):
+    """In any order and beside the whole array; those without a value stay as they are."""
+    with Unit(pack("tiles", fmi=fmi)) as unit:
+        unit["patch.heat_flux"] = FLUX
+        names = ["patch.heat_flux[2,3]", "patch.heat_flux[1,2]", "patch.heat_flux[2,1]"]
+        unit.set({names[0]: 9e6, "patch.pressure": 1e6, names[1]: 7e6, names[2]: 8e6})
+        wanted = np.array(FLUX)
+        wanted[1, 2], wanted[0, 1], wanted[1, 0] = 9e6, 7e6, 8e6
+        assert np.array_equal(unit["patch.heat_flux"], wanted)
+        read = unit.get([*names, "patch.heat_flux", "patch.pressure[1,1]", names[0]])
+        assert read.tolist() == [9e6, 7e6, 8e6, *wanted.ravel(), 1e6, 9e6]
+
+
+def test_elements_of_an_array_of_fmi_3_are_set_by_one_reference(pack, monkeypatch):
+    """However many they are: one copy of the array passes, not one for each of them."""
+    names = [f"patch.heat_flux[{i},{j}]" for i in (1, 2) for j in (1, 2, 3)]
+    with Unit(pack("tiles", fmi=3)) as unit:
+        passed = []
+        access = unit.slave.access
+        monkeypatch.setattr(
+            unit.slave,
+            "access",
+            lambda verb, kind, references, values: (
+                passed.append((verb, references.size, values.size))
+                or access(verb, kind, references, values)
+            ),
+        )
+        unit.set(dict.fromkeys(names, 1e6))
+        unit.set(dict.fromkeys(names[:4], 2e6))
+        assert passed == [("Set", 1, 6), ("Set", 1, 6), ("Get", 1, 6)]
+        assert unit["patch.heat_flux"].ravel().tolist() == [2e6] * 4 + [1e6] * 2
+
+
+@both
 def test_states_go_on_to_the_bit_here_there_and_as_bytes(pack, fmi):
     file = pack("plate", fmi=fmi)
     with Unit(file, parameters={"spot.heat_flux": 1e8, "plate.young": 2e11}) as unit:
@@ -340,5 +374,5 @@ def test_programs_are_found_from_within_a_checkout(tmp_path, monkeypatch):
             build.find_program()
     (checkout / "target/release" / build.PROGRAM).unlink()
     monkeypatch.chdir(checkout)
-    with pytest.raises(UnitError, match="neither on PATH nor in .*checkout/target/release"):
+    with pytest.raises(UnitError, match="nor on PATH, nor in .*checkout/target/release"):
         build.find_program()

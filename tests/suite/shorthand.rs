@@ -182,6 +182,8 @@ fn unknown_substances_are_refused_with_a_suggestion() {
     let material = "material = { model = \"thermoelastic\", density = 3950.0, specific_heat = 900.0, conductivity = 10.0, young = 300e9, poisson = 0.21, expansion = 8.1e-6 }";
     let text = refusal(&with(IMPACT, material, "material = \"coper\""));
     assert!(text.contains("did you mean `copper`?"), "{text}");
+    let text = refusal(&with(IMPACT, material, "material = { substance = 3 }"));
+    assert!(text.contains("not the name of a substance"), "{text}");
     let text = refusal(&with(IMPACT, material, "material = { substance = \"coper\" }"));
     assert!(text.contains("did you mean `copper`?"), "{text}");
     assert_eq!(text.matches("allowed").count(), 1, "{text}");
@@ -196,6 +198,11 @@ fn temperatures_beyond_the_range_of_a_substance_are_warned_of() {
     let [_, high] = Kind::Fluid.find("acetone").unwrap().sheet().valid;
     let wanted = format!("to {} K", number(high));
     assert!(found.iter().any(|warning| warning.to_string().contains(&wanted)), "{found:?}");
+
+    // 20 is meant in °C.
+    let text = with(IMPACT, own, "fluid = { substance = \"water\", at = 20 }");
+    let found = parse_with_warnings(&text, "scene.toml").unwrap().1;
+    assert!(found.iter().any(|warning| warning.to_string().contains("this is 20 K")), "{found:?}");
 }
 
 /// Every substance makes a scene whose values nothing is said about in the middle of its range.

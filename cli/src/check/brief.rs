@@ -90,5 +90,6 @@ fn models(forecast: &Forecast) -> String {
 }
 
 fn writes(files: &FilesForecast, scene: &Scene) -> String {
-    format!("{} files, about {} in out/{}", files.count, megabytes(files.bytes), scene.name)
+    // With the file from which a report is made.
+    format!("{} files, about {} in out/{}", files.count + 1, megabytes(files.bytes), scene.name)
 }

@@ -6,6 +6,7 @@ use std::process::{Command, Output};
 
 use tempfile::TempDir;
 
+mod descriptions;
 mod inputs;
 mod named_materials;
 mod run_files;
@@ -142,10 +143,17 @@ impl Called {
 
 #[test]
 fn check_describes_the_model() {
-    let report = Workplace::new().call(&["check", "scene.toml"]).succeeds().stdout();
+    let place = Workplace::new();
+    let brief = place.call(&["check", "scene.toml"]).succeeds().stdout();
+    assert!(brief.lines().count() <= 12, "{brief}");
+    for words in ["13 files, about 18 MB in out/HotSpot", "✗ plate.max_temperature", "1, above"] {
+        assert!(brief.contains(words), "`{words}` is missing in: {brief}");
+    }
+    let report = place.call(&["check", "scene.toml", "--verbose", "--list"]).succeeds().stdout();
+    assert!(report.starts_with(brief.split("\n  takes").next().unwrap()), "{report}");
     for words in [
         "HotSpot: A small plate under a hot spot",
-        "10 steps of 100 ns to 1 µs",
+        "10 of 100 ns to 1 µs",
         "box 400 µm × 400 µm × 100 µm",
         "disc, radius 60 µm",
         "plate.bottom",
@@ -202,7 +210,7 @@ fn implausible_array_input_warns_once() {
 fn run_without_any_load_prints_a_note() {
     let place = Workplace::new();
     let said = place.run(&[]).succeeds().stderr();
-    assert!(!said.contains("note:"), "{said}");
+    assert!(!said.contains("note: nothing acts"), "{said}");
     let said = place.run(&["--overwrite", "--set", "spot.heat_flux=0"]).succeeds().stderr();
     for words in ["note: nothing acts", "spot.heat_flux, spot.pressure", "--set "] {
         assert!(said.contains(words), "`{words}` is missing in: {said}");
@@ -210,7 +218,7 @@ fn run_without_any_load_prints_a_note() {
     let settings =
         ["--overwrite", "--set", "spot.heat_flux=0", "--set", "plate.bottom.temperature=310"];
     let said = place.run(&settings).succeeds().stderr();
-    assert!(!said.contains("note:"), "{said}");
+    assert!(!said.contains("note: nothing acts"), "{said}");
 }
 
 /// Three steps of 333.33 ns leave 10 ps of a microsecond.
@@ -262,7 +270,7 @@ fn check_describes_particle_conduction() {
     let place = Workplace::new();
     let scene = SCENE.replace("mesh = { spacing", "heat = \"sph\"\nmesh = { spacing");
     fs::write(place.path("scene.toml"), scene).unwrap();
-    let text = place.call(&["check", "scene.toml"]).succeeds().stdout();
+    let text = place.call(&["check", "scene.toml", "-v", "--list"]).succeeds().stdout();
     for words in [
         "neighbours; about 1 sub-step of",
         "products a communication step",
@@ -404,7 +412,7 @@ footprint = { tiles = { count = [2, 2], size = [2e-4, 2e-4] } }
 fn check_forecasts_the_cost_of_a_droplet() {
     let place = Workplace::new();
     fs::write(place.path("drop.toml"), DROP).unwrap();
-    let report = place.call(&["check", "drop.toml"]).succeeds().stdout();
+    let report = place.call(&["check", "drop.toml", "-v", "--list"]).succeeds().stdout();
     for words in [
         "drop     100 µm",
         "2 × 2 tiles, 200 µm × 200 µm",
@@ -416,7 +424,7 @@ fn check_forecasts_the_cost_of_a_droplet() {
         "wall.shear_y[2,2]",
         "drop.spread_diameter",
         "drop.viscosity",
-        "`impinge run` takes about",
+        "takes         about",
     ] {
         assert!(report.contains(words), "`{words}` is missing in: {report}");
     }
@@ -439,7 +447,7 @@ fn check_reports_the_governing_numbers_of_a_droplet() {
     let with_tension =
         DROP.replace("conductivity = 0.6", "conductivity = 0.6, surface_tension = 0.11");
     fs::write(place.path("drop.toml"), &with_tension).unwrap();
-    let report = place.call(&["check", "drop.toml"]).succeeds().stdout();
+    let report = place.call(&["check", "drop.toml", "-v", "--list"]).succeeds().stdout();
     for words in [
         "contact angle 90°",
         "speed of sound is artificial",
@@ -459,7 +467,7 @@ fn check_reports_the_governing_numbers_of_a_droplet() {
     }
     let held = with_tension.replace("under = \"drop\"", "under = \"drop\"\neffusivity = 6000.0");
     fs::write(place.path("drop.toml"), held).unwrap();
-    let report = place.call(&["check", "drop.toml"]).succeeds().stdout();
+    let report = place.call(&["check", "drop.toml", "-v", "--list"]).succeeds().stdout();
     assert!(!report.contains("names no `effusivity`"), "{report}");
 }
 
@@ -478,7 +486,7 @@ fn check_gives_no_fitted_error_outside_of_the_fitted_range() {
         .replace("4180.0, conductivity = 0.6", "1350.0, conductivity = 1.7, surface_tension = 0.3")
         .replace("size = [2e-4, 2e-4]", "size = [6e-3, 6e-3]");
     fs::write(place.path("glass.toml"), &glass).unwrap();
-    let report = place.call(&["check", "glass.toml"]).succeeds().stdout();
+    let report = place.call(&["check", "glass.toml", "-v"]).succeeds().stdout();
     for words in [
         "up to 60 % either way for heat by the stop time, as Re 0.72 (fitted on Re 6 to 44000)",
         "Re 0.72 (fitted on Re 27 to 2000) and We 24 (fitted on We 27 to 400)",
@@ -488,7 +496,7 @@ fn check_gives_no_fitted_error_outside_of_the_fitted_range() {
     }
     let thin = glass.replace("viscosity = 10.0", "viscosity = 0.05");
     fs::write(place.path("thin.toml"), thin).unwrap();
-    let report = place.call(&["check", "thin.toml"]).succeeds().stdout();
+    let report = place.call(&["check", "thin.toml", "-v"]).succeeds().stdout();
     assert!(report.contains(" % for heat by the stop time ("), "{report}");
 }
 
@@ -496,7 +504,7 @@ fn check_gives_no_fitted_error_outside_of_the_fitted_range() {
 fn check_describes_outputs_on_request() {
     let place = Workplace::new();
     fs::write(place.path("drop.toml"), DROP).unwrap();
-    let short = place.call(&["check", "drop.toml"]).succeeds().stdout();
+    let short = place.call(&["check", "drop.toml", "-v", "--list"]).succeeds().stdout();
     let long = place.call(&["check", "drop.toml", "--outputs"]).succeeds().stdout();
     let what = "diameter of the film on the wall";
     assert!(long.contains(what) && !short.contains(what), "{long}");

@@ -47,7 +47,7 @@ fn run_reports_running_maxima_with_times_and_positions() {
         assert_eq!(row[column("plate.peak_temperature_time [s]")], row[0], "ever hotter");
         assert_eq!(row[column("plate.peak_temperature_z [m]")], 0.0);
     }
-    let notes = place.call(&["check", "scene.toml"]).succeeds().stdout();
+    let notes = place.call(&["check", "scene.toml", "-v"]).succeeds().stdout();
     assert!(notes.contains("stress is solved at every communication point"), "{notes}");
 }
 

@@ -22,7 +22,8 @@ STRESS = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
 
 @dataclass(frozen=True)
 class Body:
-    """Fields at the nodes of a box (.vtr) or of a disc turned round its axis (.vts), at one time.
+    """Fields at the nodes of a box, or of a disc by its section (.vtr) or turned about its axis
+    (.vts), at one time.
 
     Attributes
     ----------
@@ -59,6 +60,9 @@ class Body:
         else:
             kept = np.arange(len(points)).reshape(shape, order="F")
             axes = tuple(file.geometry[name] for name in ("x", "y", "z"))
+            if len(axes[1]) == 1:
+                # The meridian section of a disc; a box has nodes along y.
+                kept, axes = kept[:, 0, :], (axes[0], axes[2])
         check_finite({"points": points, **file.points})
         fields = {
             name: np.asarray(v, float).reshape(len(points), -1)[kept]

@@ -8,8 +8,11 @@ from math import isfinite, isnan
 from numbers import Real
 from typing import Any
 
+from impinge.function import Function, FunctionUnit
+from impinge.master.any_unit import AnyUnit
 from impinge.master.errors import MasterError
 from impinge.unit import Unit
+from impinge.unit.variable import stem_of
 
 # More would take weeks of the quickest units.
 MOST_STEPS = 1e9
@@ -68,13 +71,17 @@ def check_count(step: float | None, left: float) -> None:
 
 
 def check_units(
-    units: Mapping[str, Unit | str | os.PathLike[str]], parameters: Mapping[str, Any]
+    units: Mapping[str, Unit | Function | str | os.PathLike[str]], parameters: Mapping[str, Any]
 ) -> None:
     """Names, and that each unit stands under one of them; parameters are of units that are made."""
     given: dict[int, str] = {}
     for name, unit in units.items():
         if "." in name:
             raise MasterError(f"`{name}`: names of units have no dots")
+        if callable(unit) and not isinstance(unit, Function):
+            raise MasterError(
+                f"{name} is {unit!r}: Function(f, inputs={{…}}, outputs={{…}}) makes a unit of it"
+            )
         if not isinstance(unit, Unit):
             continue
         if id(unit) in given:
@@ -85,6 +92,11 @@ def check_units(
     for name in parameters:
         if name not in units:
             raise MasterError(f"parameters: `{name}` names none of the units {', '.join(units)}")
+        if isinstance(units[name], Function):
+            raise MasterError(
+                f"parameters: {name} is a Function, which has none; functools.partial(f, …) sets"
+                " those of f"
+            )
         if name in given.values():
             raise MasterError(
                 f"parameters: {name} is a Unit that has been initialised already;"
@@ -92,7 +104,7 @@ def check_units(
             )
 
 
-def check_input(unit: Unit, name: str, variable: str) -> None:
+def check_input(unit: AnyUnit, name: str, variable: str) -> None:
     """Whether a value over time may be set: of inputs alone, and of numbers."""
     target = unit.variable(variable)
     if target.causality != "input":
@@ -104,11 +116,43 @@ def check_input(unit: Unit, name: str, variable: str) -> None:
         raise MasterError(f"inputs: {name} is a {target.kind}; only numbers are set")
 
 
-def check_memoryless(names: Collection[str], units: Mapping[str, Unit]) -> None:
+def check_memoryless(names: Collection[str], units: Mapping[str, AnyUnit]) -> None:
     """Whether these are names of units."""
     unknown = set(names) - set(units)
     if unknown:
         raise MasterError(f"memoryless: no unit is called {', '.join(sorted(unknown))}")
+    functions = [name for name in names if isinstance(units[name], FunctionUnit)]
+    if functions:
+        raise MasterError(
+            f"memoryless: {', '.join(sorted(functions))}: a Function says itself whether it has a"
+            " state"
+        )
+
+
+def check_set(function: FunctionUnit, names: Collection[str]) -> None:
+    """Whether every input of a function has a value: from a connection, `inputs` or its start."""
+    stems = {stem_of(name) for name in names}
+    for name in function.inputs:
+        if name not in stems and name not in function.function.started:
+            raise MasterError(
+                f"{function.name}.{name} has no value: no connection and no `inputs` set it, and"
+                f" Function(…, start={{{name!r}: …}}) gives none"
+            )
+
+
+def check_rollback(
+    functions: Collection[FunctionUnit], repeated: Collection[str], is_adaptive: bool
+) -> None:
+    """Whether functions that are called once a step are in no step that may be repeated."""
+    for function in functions:
+        if function.can.states or not (is_adaptive or function.name in repeated):
+            continue
+        why = "adaptive=True" if is_adaptive else 'scheme="iterate"'
+        raise MasterError(
+            f"{function.name}: {why} takes steps again, but this Function was made with"
+            " rollback=False: leave that out if `state` is all that it remembers; else take"
+            ' scheme="gauss-seidel" with steps of one length'
+        )
 
 
 def _check_positive(name: str, value: Any, unit: str = "") -> None:

@@ -8,8 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from impinge.function import FunctionUnit
+from impinge.master.any_unit import AnyUnit
 from impinge.master.errors import MasterError
-from impinge.unit import Unit, Variable
+from impinge.measure import Measure, conversion, parse
+from impinge.proposal import proposal
+from impinge.unit import Variable
 
 
 @dataclass(frozen=True)
@@ -19,12 +23,14 @@ class Connection:
     source, target: `unit.variable`, single variables or whole families (arrays) of equal shape; an
         array of one is as good as a single variable.
     gain, offset: numbers or arrays of the target's shape; the offset is in the target's unit.
-    map: what makes the target's values (flat) of the source's (flat), where the shapes differ;
-        after the conversion of units, before the gain.
+    map: what makes the target's values (flat) of the source's (flat), where the shapes or the kinds
+        of quantity differ; before the gain.
     mean: whether the source is a mean over the last step, so that it belongs to the whole step
         rather than to its end. What is left out is read from the description of impinge's units.
     scale: of which residuals and errors are a share; if left out, the largest magnitude at the
         start, at the ends of accepted steps and of what is judged, but not of earlier guesses.
+    unit: the unit of measurement of what `map` returns, such as "W/m2". With it, `map` takes the
+        source's values in the source's own unit; without it, in the target's.
     """
 
     source: str
@@ -34,6 +40,7 @@ class Connection:
     map: Callable[[np.ndarray], np.ndarray] | None = None
     mean: bool | None = None
     scale: float | None = None
+    unit: str | None = None
 
 
 class Link:
@@ -42,7 +49,7 @@ class Link:
     `place` are the target's places among all inputs that the master sets.
     """
 
-    def __init__(self, connection: Connection, units: Mapping[str, Unit]):
+    def __init__(self, connection: Connection, units: Mapping[str, AnyUnit]):
         self.connection = connection
         self.source_unit, self.source = split(connection.source, units)
         self.target_unit, self.target = split(connection.target, units)
@@ -50,18 +57,22 @@ class Link:
         target = units[self.target_unit].variable(self.target)
         self._check(source, target)
         self.size = target.size
-        factor, shift = conversion(units, self.source_unit, source, self.target_unit, target)
         gain = np.broadcast_to(np.asarray(connection.gain, float), target.shape).ravel()
         offset = np.broadcast_to(np.asarray(connection.offset, float), target.shape).ravel()
-        self._factor, self._shift = (factor, shift) if connection.map else (1.0, 0.0)
-        self._gain = gain if connection.map else gain * factor
-        self._offset = offset if connection.map else offset + gain * shift
+        factor, shift = self._conversion(source, target, units)
+        is_before = connection.map is not None and connection.unit is None
+        self._factor, self._shift = (factor, shift) if is_before else (1.0, 0.0)
+        self._gain = gain if is_before else gain * factor
+        self._offset = offset if is_before else offset + gain * shift
         self.is_plain = not connection.map and (self._gain == 1).all() and not self._offset.any()
-        self.is_real = source.is_real and target.is_real and target.variability == "continuous"
-        own = (units[self.source_unit].package.description.generationTool or "").startswith(
-            "impinge"
+        # Others hold over steps what they are at their beginning.
+        self.is_real = (
+            source.is_real
+            and target.is_real
+            and target.variability == "continuous"
+            and source.variability != "discrete"
         )
-        told = own and "mean over the last step" in source.description
+        told = units[self.source_unit].is_mean(self.source)
         self.is_mean = told if connection.mean is None else connection.mean
         self.nominal = abs(target.nominal)
         self.place = slice(0, 0)
@@ -81,6 +92,33 @@ class Link:
                 f"{what}: shapes {source.shape} and {target.shape} differ; a `map` may lead from"
                 " one to the other"
             )
+
+    def _conversion(
+        self, source: Variable, target: Variable, units: Mapping[str, AnyUnit]
+    ) -> tuple[float, float]:
+        """Factor and shift from the unit of measurement of what is passed on to the target's."""
+        given, what = self.connection.unit, f"{self.connection.source} -> {self.connection.target}"
+        if given is not None and self.connection.map is None:
+            raise MasterError(f"{what}: `unit` is that of a `map`, and there is none")
+        own, other = units[self.source_unit], units[self.target_unit]
+        if given is None:
+            self.measure = own.measure(source.unit)
+        else:
+            self.measure = other.measure(given) or own.measure(given)
+            if self.measure is None and given != target.unit:
+                self.measure = _parsed(given, what)
+        if target.unit in (given, source.unit if given is None else None):
+            return 1.0, 0.0
+        try:
+            return conversion(self.measure, other.measure(target.unit))
+        except ValueError:
+            end = f"{self.target_unit}.{target.name} in {target.unit}"
+            if given is not None:
+                raise MasterError(f"the map of {what} gives {given}, {end}") from None
+            raise MasterError(
+                f"{self.source_unit}.{source.name} is in {source.unit}, {end}; a `map` may lead"
+                " there, whose `unit` is that of what it returns: Connection(…, map=…, unit=…)"
+            ) from None
 
     def transfer(self, values: np.ndarray) -> np.ndarray:
         """The target's values that follow from the source's."""
@@ -104,7 +142,14 @@ class Link:
         return max(self.largest, now) or self.nominal
 
 
-def links(connections: Iterable[Any], units: Mapping[str, Unit]) -> list[Link]:
+def _parsed(unit: str, what: str) -> Measure:
+    try:
+        return parse(unit)
+    except ValueError as error:
+        raise MasterError(f"{what}: {error}") from None
+
+
+def links(connections: Iterable[Any], units: Mapping[str, AnyUnit]) -> list[Link]:
     """Connections, or pairs of names, as links between these units."""
     found = []
     for each in connections:
@@ -116,48 +161,32 @@ def links(connections: Iterable[Any], units: Mapping[str, Unit]) -> list[Link]:
         if target in targets:
             raise MasterError(f"{target} is the target of two connections")
         targets.add(target)
+    _pass_means_on(found, units)
     return found
 
 
-def split(name: str, units: Mapping[str, Unit]) -> tuple[str, str]:
+def _pass_means_on(links: list[Link], units: Mapping[str, AnyUnit]) -> None:
+    """What a function without a state makes of means alone belongs to the whole step, too."""
+    memoryless = {
+        name
+        for name, unit in units.items()
+        if isinstance(unit, FunctionUnit) and not unit.function.has_state
+    }
+    open_links = [
+        link for link in links if link.source_unit in memoryless and link.connection.mean is None
+    ]
+    for _ in links:  # as many as a chain of functions can have
+        for link in open_links:
+            given = [each.is_mean for each in links if each.target_unit == link.source_unit]
+            link.is_mean = bool(given) and all(given)
+
+
+def split(name: str, units: Mapping[str, AnyUnit]) -> tuple[str, str]:
     """The unit and the variable that `unit.variable` names."""
     unit, dot, variable = name.partition(".")
     if not dot or unit not in units:
-        raise MasterError(f"`{name}` names none of the units {', '.join(units)}: unit.variable")
-    return unit, variable
-
-
-def conversion(
-    units: Mapping[str, Unit], one: str, source: Variable, other: str, target: Variable
-) -> tuple[float, float]:
-    """Factor and shift from the source's unit of measurement to the target's."""
-    if source.unit == target.unit or source.unit is None or target.unit is None:
-        return 1.0, 0.0
-    first, second = _base(units[one], source.unit), _base(units[other], target.unit)
-    if first is None or second is None:
-        return 1.0, 0.0
-    if first[0] != second[0]:
+        near = proposal(unit, units)
         raise MasterError(
-            f"{one}.{source.name} is in {source.unit}, {other}.{target.name} in {target.unit}"
+            f"`{name}` names none of the units {', '.join(units)}: unit.variable{near}"
         )
-    return first[1] / second[1], (first[2] - second[2]) / second[1]
-
-
-def exponents(unit: Unit, variable: Variable) -> tuple[int, ...] | None:
-    """Exponents of kg, m, s, A, K, mol, cd and rad of a variable's unit of measurement, as far as
-    the unit defines it."""
-    known = None if variable.unit is None else _base(unit, variable.unit)
-    return None if known is None else known[0]
-
-
-def _base(unit: Unit, name: str) -> tuple[tuple[int, ...], float, float] | None:
-    """Exponents of SI units, factor and offset of a unit of measurement."""
-    for definition in unit.package.description.unitDefinitions:
-        if definition.name == name and definition.baseUnit is not None:
-            base = definition.baseUnit
-            exponents = tuple(
-                int(getattr(base, key) or 0)
-                for key in ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
-            )
-            return exponents, float(base.factor or 1.0), float(base.offset or 0.0)
-    return None
+    return unit, variable

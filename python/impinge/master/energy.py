@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from math import prod
 from typing import Any
 
 import numpy as np
 
 from impinge.errors import UnitError
-from impinge.master.connection import Link, exponents, split
+from impinge.master.any_unit import AnyUnit
+from impinge.master.connection import Link, split
 from impinge.master.errors import MasterError
-from impinge.unit import Unit
+from impinge.measure import BASE, KELVIN
 
-_BASE = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
 _NOT_M = [0, 2, 3, 4, 5, 6]  # metres are counted by themselves, and radians are pure numbers
 _POWER = np.array([1, -3, 0, 0, 0, 0])
 _ENERGY = np.array([1, -2, 0, 0, 0, 0])
@@ -56,20 +57,22 @@ class Balance:
     S. Sadjina, L. Kyllingstad, S. Skjong, E. Pedersen (2017), doi 10.1007/s00366-016-0492-8.
     """
 
-    def __init__(self, given: Bond, links: list[Link], units: Mapping[str, Unit]):
+    def __init__(self, given: Bond, links: list[Link], units: Mapping[str, AnyUnit]):
         self.name = given.flux if given.effort is None else f"{given.flux}*{given.effort}"
         self.link = _link(given.flux, links)
         self.effort = None
         if given.effort is not None:
-            unit, variable = split(given.effort, units)
-            if units[unit].variable(variable).unit != "K":  # a heat flux is a power by itself
+            if not _is_temperature(given.effort, units):  # a heat flux is a power by itself
                 self.effort = _link(given.effort, links)
         _check(given, self.link, self.effort, units)
-        self.area = _area(given, self.link, units)
-        self._count = None
+        ends = [self.link] if self.effort is None else [self.link, self.effort]
+        self.area = _area(given, self.link, units) * prod(_factor(k, units) for k in ends)
+        self._total = None
         if given.total is not None:
             unit, variable = split(given.total, units)
-            self._count = units[unit].reader([variable])
+            self._total = units[unit].reader([variable])
+            measure = units[unit].measure(units[unit].variable(variable).unit)
+            self._joules = 1.0 if measure is None else measure.factor
         self.passed = self.low = self.high = 0.0
         self.moved = 0.0
         self.residual = 0.0
@@ -77,7 +80,7 @@ class Balance:
 
     def begin(self) -> None:
         """Called at the start of the run."""
-        self._counted = float(self._count()[0]) if self._count else 0.0
+        self._counted = self._count()
 
     def add(self, size: float, arrived: np.ndarray, given: np.ndarray) -> None:
         """A step of `size` [s]: the means of all inputs as targets followed them, and as sources
@@ -87,8 +90,8 @@ class Balance:
             place = self.effort.place
             came, left = came * given[place], left * arrived[place]
         energy = size * float(np.sum(self.area * left))
-        if self._count is not None:
-            before, self._counted = self._counted, float(self._count()[0])
+        if self._total is not None:
+            before, self._counted = self._counted, self._count()
             energy = self._counted - before
             lost = energy - size * float(np.sum(self.area * came))
         else:
@@ -99,6 +102,9 @@ class Balance:
         self.residual += lost
         self.largest = max(self.largest, abs(self.residual))
 
+    def _count(self) -> float:
+        return self._joules * float(self._total()[0]) if self._total is not None else 0.0
+
     @property
     def share(self) -> float:
         """The largest residual over what the energy that has passed ranged over: of what swings,
@@ -106,7 +112,7 @@ class Balance:
         return self.largest / (self.high - self.low) if self.high > self.low else 0.0
 
 
-def powers(links: Sequence[Link], units: Mapping[str, Unit]) -> list[Balance]:
+def powers(links: Sequence[Link], units: Mapping[str, AnyUnit]) -> list[Balance]:
     """Balances of all pairs of connections to and fro whose product is a power, as forces and
     velocities, where both are known to be by their units of measurement."""
     sources = [link.connection.source for link in links]
@@ -117,7 +123,7 @@ def powers(links: Sequence[Link], units: Mapping[str, Unit]) -> list[Balance]:
             ends = (other.target_unit, other.source_unit)
             if (one.source_unit, one.target_unit) == ends and one.size == other.size:
                 names = one.connection.source, other.connection.source
-                if _is_power(*(_exponents(name, units) for name in names)):
+                if _is_power(*(_exponents(k.connection.source, units, k) for k in (one, other))):
                     found.append(Balance(Bond(*names), list(links), units))
     return found
 
@@ -137,12 +143,12 @@ def _link(name: str, links: list[Link]) -> Link:
     raise MasterError(f"energy: {name} is the end of no connection")
 
 
-def _check(given: Bond, link: Link, effort: Link | None, units: Mapping[str, Unit]) -> None:
+def _check(given: Bond, link: Link, effort: Link | None, units: Mapping[str, AnyUnit]) -> None:
     """Refuses what is no power, or none per area, length or volume, as far as units of measurement
     are known; and a total that is no energy."""
-    found = _exponents(given.flux, units)
+    found = _exponents(given.flux, units, link)
     if given.effort is not None and effort is not None:
-        other = _exponents(given.effort, units)
+        other = _exponents(given.effort, units, effort)
         found = None if found is None or other is None else found + other
     if found is not None and (any(found[_NOT_M] != _POWER) or not -1 <= found[1] <= 2):
         what = given.flux if effort is None else f"{given.flux} times {given.effort}"
@@ -155,19 +161,40 @@ def _check(given: Bond, link: Link, effort: Link | None, units: Mapping[str, Uni
         raise MasterError(f"energy: the total {given.total} is in {_written(total)}, not in J")
 
 
-def _exponents(name: str, units: Mapping[str, Unit]) -> np.ndarray | None:
+def _exponents(
+    name: str, units: Mapping[str, AnyUnit], link: Link | None = None
+) -> np.ndarray | None:
+    """Of a variable's unit of measurement, as far as it is known; of what a link's map returns
+    where that changes it."""
     unit, variable = split(name, units)
-    found = exponents(units[unit], units[unit].variable(variable))
-    return None if found is None else np.array(found)
+    found = units[unit].measure(units[unit].variable(variable).unit)
+    if link is not None and link.connection.unit is not None:
+        found = link.measure
+    return None if found is None else np.array(found.exponents)
+
+
+def _is_temperature(name: str, units: Mapping[str, AnyUnit]) -> bool:
+    unit, variable = split(name, units)
+    found = _exponents(name, units)
+    if found is None:
+        return units[unit].variable(variable).unit == "K"
+    return tuple(found) == KELVIN.exponents
+
+
+def _factor(link: Link, units: Mapping[str, AnyUnit]) -> float:
+    """What one of the target's unit of measurement is in SI's."""
+    unit = units[link.target_unit]
+    found = unit.measure(unit.variable(link.target).unit)
+    return 1.0 if found is None else found.factor
 
 
 def _written(found: np.ndarray) -> str:
-    return " ".join(f"{u}{n}" if n != 1 else u for u, n in zip(_BASE, found, strict=True) if n) or (
+    return " ".join(f"{u}{n}" if n != 1 else u for u, n in zip(BASE, found, strict=True) if n) or (
         "no unit"
     )
 
 
-def _area(given: Bond, link: Link, units: Mapping[str, Unit]) -> np.ndarray:
+def _area(given: Bond, link: Link, units: Mapping[str, AnyUnit]) -> np.ndarray:
     if given.area is not None:
         return np.broadcast_to(np.asarray(given.area, float).ravel(), (link.size,))
     for unit, variable in ((link.target_unit, link.target), (link.source_unit, link.source)):

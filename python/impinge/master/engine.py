@@ -34,6 +34,11 @@ class Component:
         real = [np.full(k.size, k.is_real) for k in self.guessed]
         self.real = np.concatenate(real) if real else np.zeros(0, bool)
 
+    @property
+    def has_guesses_left(self) -> bool:
+        """Whether targets may stand at guesses after a step: those that were not iterated."""
+        return bool(self.guessed) and not (self.iterates and self.real.all())
+
 
 class NoConvergence(Exception):
     """A step whose iterations found no end."""
@@ -149,6 +154,7 @@ class Engine:
         if self._extrapolated.any():
             own = waveform.path(self.history.last(self.extrapolation + 1), end)[0]
             guess[self._extrapolated] = own[self._extrapolated]
+        guess[self._discrete] = self.history.nodes[-1][1][self._discrete]
         return guess
 
     def _sweep(
@@ -209,6 +215,7 @@ class Engine:
         middle: np.ndarray | None,
     ) -> None:
         places, real = component.places, component.real
+        iterated = places[real]
         component.acceleration.begin()
         last = self.history.nodes[-1][1][places]  # a guess that units have borne
         step = (component, time, end, size, middle)
@@ -219,16 +226,16 @@ class Engine:
             g = self.true[places]
             if not np.isfinite(g).all():
                 raise NoConvergence("values are not finite")
-            weight = self.weights(self.true)[places]
-            residual = np.abs(g - x) * weight
-            if (residual[real] <= tolerance).all():
+            weight = self.weights(self.true)[iterated]
+            residual = np.abs(g - x)[real] * weight
+            if (residual <= tolerance).all():
                 component.acceleration.end()
                 return
-            new = component.acceleration.next(x, g, weight)
-            self.guess[places] = np.where(real, new, x)
+            self.guess[places] = x
+            self.guess[iterated] = component.acceleration.next(x[real], g[real], weight)
             last = x
         raise NoConvergence(
-            f"the residual is {residual[real].max():.2g}, not {tolerance:.2g}, of the scale after"
+            f"the residual is {residual.max():.2g}, not {tolerance:.2g}, of the scale after"
             f" {self.max_iterations} iterations"
         )
 
@@ -296,14 +303,15 @@ class Engine:
 
     def given(self, end: float, size: float) -> np.ndarray:
         """Means over the last step of what outputs say: of the polynomials through their values,
-        or what they are where they are means."""
+        or what they are where they are means, or were where they hold over steps."""
         nodes = [*self.history.last(max(self.order, 1)), (end, self.true)]
         means = waveform.mean(*waveform.path(nodes, end - size), size)
-        return np.where(self._whole | self._stale, self.true, means)
+        means = np.where(self._whole | self._stale, self.true, means)
+        return np.where(self._discrete, self.history.nodes[-1][1], means)
 
     def accept(self, end: float) -> None:
-        """Goes on from the step's end. Iterated paths go on from where they ended, others from
-        what outputs say."""
+        """Goes on from the step's end. Iterated paths go on from where they ended, others, and
+        whole numbers and the like, from what outputs say."""
         if self._stale.any():  # what was not known at the beginning counts from now on
             first = self.history.nodes[-1]
             first[1][self._stale] = self.guess[self._stale]
@@ -312,7 +320,8 @@ class Engine:
         self.inputs[:] = self.true
         for component in self.components:
             if component.iterates:
-                self.inputs[component.places] = self.guess[component.places]
+                places = component.places[component.real]
+                self.inputs[places] = self.guess[places]
         self.history.add(end, self.inputs)
 
 

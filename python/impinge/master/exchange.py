@@ -7,11 +7,11 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from impinge.master.acceleration import LeastSquares
+from impinge.master.any_unit import AnyUnit
 from impinge.master.connection import Link
 from impinge.master.errors import MasterError
 from impinge.master.graph import components, follows_at_once
 from impinge.master.participant import Participant
-from impinge.unit import Unit
 
 _MOST = 50
 
@@ -26,7 +26,7 @@ class Exchange:
         self,
         participants: Mapping[str, Participant],
         links: Sequence[Link],
-        units: Mapping[str, Unit],
+        units: Mapping[str, AnyUnit],
     ):
         self._participants = participants
         after = {

@@ -7,8 +7,8 @@ from collections.abc import Hashable, Iterable, Mapping, Sequence
 from itertools import permutations
 from typing import TypeVar
 
+from impinge.master.any_unit import AnyUnit
 from impinge.master.connection import Link
-from impinge.unit import Unit
 from impinge.unit.variable import stem_of
 
 Node = TypeVar("Node", bound=Hashable)
@@ -63,7 +63,7 @@ def components(nodes: Sequence[Node], after: Mapping[Node, Iterable[Node]]) -> l
     return found[::-1]
 
 
-def unit_components(units: Mapping[str, Unit], links: Sequence[Link]) -> list[list[str]]:
+def unit_components(units: Mapping[str, AnyUnit], links: Sequence[Link]) -> list[list[str]]:
     """Groups of units that depend on each other, in the order in which they can advance."""
     after: dict[str, set[str]] = {name: set() for name in units}
     for link in links:
@@ -71,7 +71,7 @@ def unit_components(units: Mapping[str, Unit], links: Sequence[Link]) -> list[li
     return components(list(units), after)
 
 
-def follows_at_once(units: Mapping[str, Unit], first: Link, second: Link) -> bool:
+def follows_at_once(units: Mapping[str, AnyUnit], first: Link, second: Link) -> bool:
     """Whether the second's source follows the first's target at once, as its unit declares."""
     if first.target_unit != second.source_unit:
         return False
@@ -82,12 +82,12 @@ def follows_at_once(units: Mapping[str, Unit], first: Link, second: Link) -> boo
     return stem_of_family(unit, first.target) in unit.depends_on(second.source)
 
 
-def stem_of_family(unit: Unit, name: str) -> str:
+def stem_of_family(unit: AnyUnit, name: str) -> str:
     return name if name in unit.variables else stem_of(name)
 
 
 def best_order(
-    units: Mapping[str, Unit], members: Sequence[str], links: Sequence[Link]
+    units: Mapping[str, AnyUnit], members: Sequence[str], links: Sequence[Link]
 ) -> list[str]:
     """The order of a ring's units that makes the least of what has to be guessed.
 

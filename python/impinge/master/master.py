@@ -12,8 +12,10 @@ import xarray
 from tqdm import tqdm
 
 from impinge.errors import UnitError
+from impinge.function import Function, FunctionUnit
 from impinge.jumps import Watched
 from impinge.master.acceleration import acceleration as make_acceleration
+from impinge.master.any_unit import AnyUnit
 from impinge.master.checks import (
     check_choices,
     check_count,
@@ -21,6 +23,8 @@ from impinge.master.checks import (
     check_jumps,
     check_lengths,
     check_memoryless,
+    check_rollback,
+    check_set,
     check_stop,
     check_units,
 )
@@ -29,6 +33,7 @@ from impinge.master.energy import Balance, bond, powers
 from impinge.master.engine import Component, Engine, NoConvergence
 from impinge.master.errors import MasterError, MasterWarning
 from impinge.master.exchange import Exchange
+from impinge.master.function_participant import FunctionParticipant
 from impinge.master.graph import best_order, unit_components
 from impinge.master.participant import Participant
 from impinge.master.record import Record
@@ -39,9 +44,10 @@ from impinge.unit import Unit
 
 
 class Master:
-    """Couples units of FMI 2.0 and 3.0, of any tool.
+    """Couples units of FMI 2.0 and 3.0, of any tool, and Python functions.
 
-    units: by name, each a `Unit` or what one is made of (those are closed with the master).
+    units: by name, each a `Unit`, what one is made of (those are closed with the master), or a
+        `Function`.
     connections: pairs ("unit.output", "unit.input") or `Connection`s; families connect whole.
     scheme: "jacobi": all units advance on extrapolated inputs; "gauss-seidel": in the order that
         declared dependencies give, on what those before them have just found; "iterate": rings of
@@ -75,7 +81,7 @@ class Master:
 
     def __init__(
         self,
-        units: Mapping[str, Unit | str | os.PathLike[str]],
+        units: Mapping[str, Unit | Function | str | os.PathLike[str]],
         connections: Sequence[Connection | tuple[str, str]] = (),
         *,
         scheme: str = "iterate",
@@ -105,7 +111,7 @@ class Master:
         self.notes: list[str] = []
         self._warned: set[str] = set()
         self._own: list[Unit] = []
-        self.units: dict[str, Unit] = {}
+        self.units: dict[str, AnyUnit] = {}
         try:
             self._open(units, parameters or {})
             self.scheme, self.acceleration, self.order = scheme, acceleration, order
@@ -179,19 +185,24 @@ class Master:
     # Making
 
     def _open(self, units: Mapping[str, Any], parameters: Mapping[str, Mapping[str, Any]]) -> None:
+        opened: dict[str, Unit] = {}
         for name, unit in units.items():
             if isinstance(unit, Unit):
-                self.units[name] = unit
-            else:
-                self.units[name] = Unit(unit, parameters=parameters.get(name))
-                self._own.append(self.units[name])
-        times = {unit.time for unit in self.units.values()}
+                opened[name] = unit
+            elif not isinstance(unit, Function):
+                opened[name] = Unit(unit, parameters=parameters.get(name))
+                self._own.append(opened[name])
+        times = {unit.time for unit in opened.values()}
         if len(times) > 1:
             raise MasterError(f"units stand at different times: {sorted(times)} s")
         self.time = times.pop() if times else 0.0
+        for name, unit in units.items():
+            is_function = isinstance(unit, Function)
+            self.units[name] = unit.open(name, self.time) if is_function else opened[name]
 
     def _make_participants(self, inputs: Mapping[str, Any], memoryless: Collection[str]) -> None:
-        self.participants = {name: Participant(name, unit) for name, unit in self.units.items()}
+        self.participants = {name: _participant(name, unit) for name, unit in self.units.items()}
+        self._functions = [u for u in self.units.values() if isinstance(u, FunctionUnit)]
         check_memoryless(memoryless, self.units)
         for link in self.links:
             self.participants[link.source_unit].links_out.append(link)
@@ -204,6 +215,12 @@ class Master:
                 raise MasterError(f"{name} is set by a connection already")
             check_input(self.units[unit], name, variable)
             driven.setdefault(unit, []).append((variable, value))
+        for function in self._functions:
+            check_set(
+                function,
+                {link.target for link in self.links if link.target_unit == function.name}
+                | {variable for variable, _ in driven.get(function.name, [])},
+            )
         self._drives: list[tuple[slice, Watched]] = []
         count = 0
         for name, participant in self.participants.items():
@@ -250,6 +267,8 @@ class Master:
 
     def _fall_back(self, graded: Graded | float | None) -> None:
         """Does without what units cannot do, and says so."""
+        repeated = [p.name for c in self.components if c.iterates for p in c.members]
+        check_rollback(self._functions, repeated, self.adaptive)
         for component in self.components:
             stuck = [p.name for p in component.members if not p.can_go_back]
             if component.iterates and stuck:
@@ -338,6 +357,7 @@ class Master:
         self._watch.begin(engine.inputs)
         for balance in self._balances:
             balance.begin()
+        self._settle()
         self._record.add(self.time, self._balances)
         self._has_begun = True
 
@@ -355,6 +375,8 @@ class Master:
         size = end - self.time
         is_jump = end in self._schedule.jumps
         self._cross(size)
+        for function in self._functions:
+            function.ends_at_jump = is_jump
         self._save()
         try:
             self._engine.advance(self.time, end, self._iteration_tolerance)
@@ -423,7 +445,7 @@ class Master:
     def _may_go_on(self, error: Exception, size: float) -> bool:
         """What to do with a step that failed: a shorter one, an error, or to pass over it."""
         if self.adaptive:
-            self._reject(size)
+            self._reject(size, error)
             self._schedule.shrink(size)
             return False
         if isinstance(error, NoConvergence):
@@ -445,13 +467,14 @@ class Master:
             self._reject(size)
         return error <= 1
 
-    def _reject(self, size: float) -> None:
+    def _reject(self, size: float, error: Exception | None = None) -> None:
         self.rejected += 1
         if size < self._schedule.least:
+            why = "" if error is None else f": {error}"
             raise MasterError(
                 f"at {self.time:.6g} s a step of {size:.3g} s is still too long"
-                f" (least_step={self._schedule.least:.3g})"
-            )
+                f" (least_step={self._schedule.least:.3g}){why}"
+            ) from error
         for participant in self.participants.values():
             participant.restore()
 
@@ -468,7 +491,9 @@ class Master:
         self.most_iterations = max(self.most_iterations, engine.last_iterations)
         if is_jump:
             engine.drive_after(engine.inputs, end, size)
-        if is_jump or any(c.guessed and not c.iterates for c in self.components):
+            for function in self._functions:
+                function.cross_jump()
+        if is_jump or any(c.has_guesses_left for c in self.components):
             self._exchange(engine.inputs, self._iteration_tolerance)
             engine.history.nodes[-1] = (end, engine.inputs.copy())
         if is_jump or is_stale:
@@ -480,7 +505,13 @@ class Master:
         if is_jump:
             engine.begin(end)
             self._schedule.restart(end)
+        self._settle()
         self._record.add(end, self._balances)
+
+    def _settle(self) -> None:
+        """Functions whose outputs nobody reads count their steps, too."""
+        for function in self._functions:
+            function.settle()
 
     def _judge(self) -> None:
         """Warns, once, of steps that are too long for what rings of units pass on, or too few to
@@ -525,7 +556,7 @@ class Master:
             told["acceleration"] = self.acceleration
         for name, participant in self.participants.items():
             told[f"unit_steps.{name}"] = participant.steps
-            told[f"unit.{name}"] = f"{participant.unit.name} {participant.unit.package.digest[:16]}"
+            told[f"unit.{name}"] = participant.unit.identity
         for balance in self._balances:
             told[f"energy_residual.{balance.name}"] = balance.largest / (balance.moved or 1.0)
         return told
@@ -544,6 +575,11 @@ class Master:
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+
+def _participant(name: str, unit: AnyUnit) -> Participant:
+    kind = FunctionParticipant if isinstance(unit, FunctionUnit) else Participant
+    return kind(name, unit)
 
 
 def _function(name: str, value: Any, shape: tuple[int, ...]) -> Watched:

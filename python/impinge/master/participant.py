@@ -7,10 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from impinge.errors import UnitError
+from impinge.function.unit import FunctionState
 from impinge.master import waveform
+from impinge.master.any_unit import AnyUnit
 from impinge.master.connection import Link
 from impinge.master.graph import follows_at_once
-from impinge.unit import State, Unit
+from impinge.unit import State
 
 
 class Participant:
@@ -20,7 +22,7 @@ class Participant:
     follow polynomials over a step: "mean", or "end" where its outputs come from its step alone.
     """
 
-    def __init__(self, name: str, unit: Unit):
+    def __init__(self, name: str, unit: AnyUnit):
         self.name, self.unit = name, unit
         self.place = slice(0, 0)
         self.links_in: list[Link] = []
@@ -28,7 +30,7 @@ class Participant:
         self.held = "mean"
         self.steps = 0
         self.answers_late = False  # outputs follow inputs, but not before the next step
-        self.state: State | None = None
+        self.state: State | FunctionState | None = None
         self.memoryless = False  # follows inputs, and has nothing to go back to
 
     def connect(self, names: Sequence[str], paths: np.ndarray, order: int) -> None:
@@ -40,6 +42,13 @@ class Participant:
         self.path_writer, self._rest = None, None
         if self.order:
             self._connect_paths(names)
+        self._connect_outputs()
+        units = {self.name: self.unit}
+        self.is_direct = any(
+            follows_at_once(units, one, other) for one in self.links_in for other in self.links_out
+        )
+
+    def _connect_outputs(self) -> None:
         sources: dict[str, slice] = {}
         count = 0
         for link in self.links_out:
@@ -49,10 +58,6 @@ class Participant:
                 count += size
         self.sources = sources
         self.reader = self.unit.reader(sources) if sources else None
-        units = {self.name: self.unit}
-        self.is_direct = any(
-            follows_at_once(units, one, other) for one in self.links_in for other in self.links_out
-        )
 
     def _connect_paths(self, names: Sequence[str]) -> None:
         """Inputs that follow paths are set apart from whole numbers and the like."""

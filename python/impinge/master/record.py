@@ -10,9 +10,10 @@ import xarray
 
 import impinge.results  # noqa: F401 - gives datasets `result.impinge`
 from impinge.errors import UnitError
+from impinge.master.any_unit import AnyUnit
 from impinge.master.connection import split
 from impinge.master.energy import Balance
-from impinge.unit import Unit, Variable
+from impinge.unit import Variable
 
 _ENERGIES = {
     "passed": "energy that has left by the connection since the start",
@@ -23,7 +24,7 @@ _ENERGIES = {
 class Record:
     """Rows of values at accepted points of time."""
 
-    def __init__(self, units: Mapping[str, Unit], names: Sequence[str]):
+    def __init__(self, units: Mapping[str, AnyUnit], names: Sequence[str]):
         self._units = units
         wanted: dict[str, list[str]] = {}
         for name in dict.fromkeys(names):
@@ -76,13 +77,13 @@ def _attributes(variable: Variable) -> dict[str, str]:
     return {key: value for key, value in told.items() if value}
 
 
-def _coordinates(unit: Unit, variable: Variable, dimensions: Sequence[str]) -> dict[str, Any]:
+def _coordinates(unit: AnyUnit, variable: Variable, dimensions: Sequence[str]) -> dict[str, Any]:
     if not variable.shape:
         return {}
     return {**_radii(unit, variable, dimensions), **_places(unit, variable, dimensions)}
 
 
-def _radii(unit: Unit, variable: Variable, dimensions: Sequence[str]) -> dict[str, Any]:
+def _radii(unit: AnyUnit, variable: Variable, dimensions: Sequence[str]) -> dict[str, Any]:
     """Of rings: the mean radius `r`, and the radii `inner` and `outer` [m]."""
     try:
         cells = unit.cells(variable.name)
@@ -98,7 +99,7 @@ def _radii(unit: Unit, variable: Variable, dimensions: Sequence[str]) -> dict[st
     return {f"{key}:{what}": (dimensions, radius, {"units": "m"}) for what, radius in radii.items()}
 
 
-def _places(unit: Unit, variable: Variable, dimensions: Sequence[str]) -> dict[str, Any]:
+def _places(unit: AnyUnit, variable: Variable, dimensions: Sequence[str]) -> dict[str, Any]:
     try:
         places = unit.coordinates(variable.name)
     except UnitError:

@@ -8,10 +8,10 @@ from math import floor, log10, nan
 
 import numpy as np
 
+from impinge.master.any_unit import AnyUnit
 from impinge.master.connection import Link
 from impinge.master.energy import Balance
 from impinge.master.graph import unit_components
-from impinge.unit import Unit
 
 MOST = 0.1  # of a link's range: the mean error of paths above which a run is warned of
 _FEWEST = 3  # steps that say something
@@ -96,7 +96,7 @@ class Watch:
 
     def __init__(
         self,
-        units: Mapping[str, Unit],
+        units: Mapping[str, AnyUnit],
         links: Sequence[Link],
         loops: Sequence[Sequence[Link]],
         scheme: str,
@@ -215,7 +215,7 @@ def _rounded(step: float) -> str:
     return f"{floor(step / digit) * digit:.1g}"
 
 
-def _in_rings(units: Mapping[str, Unit], links: Sequence[Link]) -> list[Link]:
+def _in_rings(units: Mapping[str, AnyUnit], links: Sequence[Link]) -> list[Link]:
     """Those of the links that lead back to where they come from, by way of the others."""
     place = {name: i for i, group in enumerate(unit_components(units, links)) for name in group}
     return [link for link in links if place[link.source_unit] == place[link.target_unit]]

@@ -17,32 +17,39 @@ _PLAIN = frozenset({float, int, bool, np.float64, np.int64, np.bool_})  # single
 
 
 class _Part:
-    """The values of one kind: a call, its array, and the places that its values have among all."""
+    """The values of one kind: a call, its array, and the places that its values have among all.
+
+    An array of FMI 3.0 occurs once, however many of its elements go by names of their own.
+    """
 
     def __init__(self, slave: Any, verb: str, kind: str):
         self.slave, self.verb, self.kind = slave, verb, kind
         self.references: list[np.ndarray] = []
         self.sources: list[np.ndarray] = []  # places in `values`
         self.targets: list[np.ndarray] = []  # places among all values
+        self.begins: dict[bytes, int] = {}  # where the values of references begin in `values`
         self.count = 0
 
     def add(self, variable: Variable, array: Variable, target: int) -> None:
-        size = array.size
-        places = np.arange(size) if variable.element is None else np.array([variable.element])
-        self.references.append(variable.references)
-        self.sources.append(self.count + places)
+        key = array.references.tobytes()
+        if key not in self.begins:
+            self.begins[key] = self.count
+            self.references.append(array.references)
+            self.count += array.size
+        places = np.arange(array.size) if variable.element is None else np.array([variable.element])
+        self.sources.append(self.begins[key] + places)
         self.targets.append(target + np.arange(len(places)))
-        self.count += size
 
     def close(self) -> None:
         self.reference_array = np.concatenate(self.references)
         self.values = np.zeros(self.count, dtype=self.slave.types[self.kind])
         self.source = np.concatenate(self.sources)
         self.target = np.concatenate(self.targets)
-        self.partial = len(self.source) != self.count  # elements of arrays of FMI 3.0
+        self.is_whole = np.array_equal(self.source, np.arange(self.count))
         bound = (self.kind, self.reference_array, self.values)
         self.call = self.slave.access(self.verb, *bound)
-        self.look = self.slave.access("Get", *bound) if self.partial else None
+        has_rest = len(np.unique(self.source)) < self.count  # elements without a name here
+        self.look = self.slave.access("Get", *bound) if has_rest else None
 
     def refusal(self, new: np.ndarray) -> str:
         """What values of this kind must be, if these are not."""
@@ -91,7 +98,7 @@ class Access:
         self._parts = list(parts.values())
         for part in self._parts:
             part.close()
-        simple = len(self._parts) == 1 and not self._parts[0].partial
+        simple = len(self._parts) == 1 and self._parts[0].is_whole
         self._only = self._parts[0] if simple and self._parts[0].values.dtype == float else None
         self.values = self._only.values if self._only else np.zeros(count)
         self._call: Callable[[], int] = self._only.call if self._only else self._all
@@ -165,7 +172,7 @@ class Writer(Access):
                 pass  # an integer that no float64 holds
         for variable, place, value in zip(self.variables, self.slices, values, strict=True):
             try:
-                array = _real(value)
+                array = real_values(value)
                 whole = array.size == variable.size and array.shape in (
                     variable.shape,
                     (array.size,),
@@ -178,13 +185,13 @@ class Writer(Access):
                 raise UnitError(f"`{variable.name}` takes {shape}, not {_tell(value)}") from error
 
 
-def _real(value: Any) -> np.ndarray:
+def real_values(value: Any) -> np.ndarray:
     """Real numbers alone: NumPy would make numbers of texts, and NaN of None."""
     array = np.asarray(value)
     if array.dtype.kind == "O" and all(isinstance(each, Real) for each in array.flat):
         array = array.astype(float)
     if array.dtype.kind not in "fiub":
-        raise TypeError(f"no real numbers: {array.dtype}")
+        raise TypeError(f"holds no real numbers, but {array.dtype}")
     return array.astype(float)
 
 

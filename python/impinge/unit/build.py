@@ -8,6 +8,7 @@ import sys
 import tomllib
 from pathlib import Path
 
+from impinge import installation
 from impinge.errors import UnitError
 from impinge.reading import LARGEST_SCENE, read_bytes, reading
 from impinge.unit.temporary import LockedFolder
@@ -16,8 +17,9 @@ PROGRAM = "build-fmu" + (".exe" if sys.platform == "win32" else "")
 
 
 def find_program(name: str = PROGRAM) -> Path:
-    """Where the program is: in the folder that IMPINGE_BIN names, on PATH, or in target/release of
-    a checkout: the one that holds this package, or the one that holds the current folder."""
+    """Where the program is: in the folder that IMPINGE_BIN names, among the files installed with
+    this package, on PATH, or in target/release of a checkout: the one that holds this package, or
+    the one that holds the current folder."""
     said = os.environ.get("IMPINGE_BIN")
     if said:
         path = Path(said)
@@ -25,7 +27,7 @@ def find_program(name: str = PROGRAM) -> Path:
         if not path.is_file():
             raise UnitError(f"IMPINGE_BIN is {said}, but there is no {path}")
         return path
-    found = shutil.which(name)
+    found = installation.program(name) or shutil.which(name)
     if found:
         return Path(found)
     checkouts = _checkouts()
@@ -37,8 +39,9 @@ def find_program(name: str = PROGRAM) -> Path:
         "the target/release of a checkout, as neither this package nor the current folder is in one"
     ]
     raise UnitError(
-        f"`{name}` is neither on PATH nor in {' nor in '.join(places)}: build it with"
-        " `cargo build --release --workspace` in the checkout of impinge, and there say"
+        f"`{name}` is neither installed with this package, nor on PATH, nor in"
+        f" {' nor in '.join(places)}: install the wheel of impinge, which holds it; or build it"
+        " with `cargo build --release --workspace` in the checkout of impinge, and there say"
         " `export IMPINGE_BIN=$PWD/target/release`"
     )
 
@@ -98,12 +101,30 @@ def build(scene: str | Path, *, fmi: int | None = None, text: str | None = None)
     return unit
 
 
+# The prebuilt libraries by the folder of their platform.
+LIBRARIES = {
+    "linux64": "libimpinge.so",
+    "win64": "impinge.dll",
+    "darwin64": "libimpinge.dylib",
+    "aarch64-linux": "libimpinge.so",
+    "aarch64-darwin": "libimpinge.dylib",
+}
+
+
+def _libraries(program: Path) -> list[Path]:
+    """Where `build-fmu` looks for libraries."""
+    folder = program.resolve().parent
+    beside = [folder / name for name in dict.fromkeys(LIBRARIES.values())]
+    folders = [folder, folder.parent / "share/impinge"]
+    return [
+        *beside,
+        *(f / platform / name for f in folders for platform, name in LIBRARIES.items()),
+    ]
+
+
 def _key(content: bytes, program: Path, fmi: int) -> str:
     parts = [content, str(fmi).encode()]
-    library = {"win32": "impinge.dll", "darwin": "libimpinge.dylib"}.get(
-        sys.platform, "libimpinge.so"
-    )
-    for file in (program, program.with_name(library)):
+    for file in (program, *_libraries(program)):
         if file.is_file():
             status = file.stat()
             parts.append(f"{file.resolve()} {status.st_mtime_ns} {status.st_size}".encode())

@@ -17,6 +17,8 @@ from typing import Any
 import fmpy
 
 from impinge.errors import UnitError
+from impinge.measure import BASE, Measure
+from impinge.proposal import proposal
 from impinge.reading import LARGEST_JSON, open_file, read_bytes, reading
 from impinge.unit import cells
 from impinge.unit.archive import open_archive, unpack
@@ -76,14 +78,23 @@ class Package:
             array = self.variables.get(stem_of(name))
             found = element_of(array, name) if array is not None else None
         if found is None:
-            raise UnitError(f"{self.name} has no variable `{name}`{self._proposal(name)}")
+            near = proposal(name, [*self.variables, *self._elements])
+            raise UnitError(f"{self.name} has no variable `{name}`{near}")
         return found
 
-    def _proposal(self, name: str) -> str:
-        import difflib
+    def measure(self, name: str | None) -> Measure | None:
+        """The unit of measurement of this name, as far as the description defines it."""
+        for definition in self.description.unitDefinitions:
+            base = definition.baseUnit
+            if definition.name == name and base is not None:
+                exponents = tuple(int(getattr(base, key) or 0) for key in BASE)
+                return Measure(exponents, float(base.factor or 1.0), float(base.offset or 0.0))
+        return None
 
-        near = difflib.get_close_matches(name, [*self.variables, *self._elements], n=3)
-        return f"; is it {' or '.join(f'`{word}`' for word in near)}?" if near else ""
+    @property
+    def is_own(self) -> bool:
+        """Whether impinge has made the unit."""
+        return (self.description.generationTool or "").startswith("impinge")
 
     def of_causality(self, *causalities: str) -> dict[str, Variable]:
         """Variables by name."""
@@ -94,8 +105,7 @@ class Package:
         """What the description says the unit can do."""
         offers = self.description.coSimulation
         # FMI 2.0 does not say up to which order; that of impinge's own is known.
-        own = (self.description.generationTool or "").startswith("impinge")
-        order = (2 if own else 1) if self.fmi == 2 and offers.canInterpolateInputs else 0
+        order = (2 if self.is_own else 1) if self.fmi == 2 and offers.canInterpolateInputs else 0
         return Capabilities(
             states=offers.canGetAndSetFMUstate,
             serialise=offers.canSerializeFMUstate,

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from impinge.errors import StepDiscarded, UnitError
+from impinge.measure import Measure
 from impinge.summary import Summary, listed, name_with_unit, variables
 from impinge.unit.access import PathWriter, Reader, Writer
 from impinge.unit.fmi2 import Fmi2
@@ -191,6 +192,19 @@ class Unit:
     def variable(self, name: str) -> Variable:
         """The variable, family or element of a family of this name."""
         return self.package.variable(name)
+
+    def measure(self, unit: str | None) -> Measure | None:
+        """The unit of measurement of this name, as far as the unit defines it."""
+        return self.package.measure(unit)
+
+    def is_mean(self, name: str) -> bool:
+        """Whether an output is a mean over the last step, as impinge's units describe theirs."""
+        return self.package.is_own and "mean over the last step" in self.variable(name).description
+
+    @property
+    def identity(self) -> str:
+        """The model's name and the beginning of the SHA-256 of its content."""
+        return f"{self.name} {self.package.digest[:16]}"
 
     @property
     def can(self) -> Capabilities:

@@ -3,7 +3,6 @@
 use std::any::Any;
 use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe};
-use std::thread;
 
 use super::float_environment;
 use super::set_up::SetUpOnce;
@@ -53,7 +52,7 @@ fn install_hook() {
 /// Frees the memory of the hook.
 #[cfg(target_os = "linux")]
 pub fn remove_hook() {
-    if HOOK.is_done() && !thread::panicking() {
+    if HOOK.is_done() && !std::thread::panicking() {
         drop(panic::take_hook());
         drop(SEEN.try_lock().and_then(|mut seen| seen.take()));
     }

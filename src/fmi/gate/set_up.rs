@@ -47,6 +47,7 @@ impl SetUpOnce {
     }
 
     /// Returns true once a thread has set it up.
+    #[cfg(any(target_os = "linux", test))]
     pub fn is_done(&self) -> bool {
         self.0.load(Ordering::Acquire) == ALL
     }

@@ -29,7 +29,6 @@ pub trait Version {
 /// A function of one version of the standard that acts on an instance.
 pub trait Function: Version + Copy + 'static {
     /// All functions of the version.
-    #[cfg(test)]
     const ALL: &'static [Self];
 
     /// Name in C.
@@ -95,7 +94,6 @@ macro_rules! table {
         pub enum $table { $($function,)* $($($absent,)*)* $($($refused,)*)* }
 
         impl $crate::fmi::table::Function for $table {
-            #[cfg(test)]
             const ALL: &'static [$table] =
                 &[$($table::$function,)* $($($table::$absent,)*)* $($($table::$refused,)*)*];
 

@@ -13,3 +13,9 @@ mod types;
 mod variables;
 
 pub mod xml;
+
+/// Names of the exported functions of FMI 3.0 that act on an instance.
+pub fn functions() -> impl Iterator<Item = &'static str> {
+    use crate::fmi::table::Function;
+    table::Fmi3::ALL.iter().map(|function| function.name())
+}

@@ -13,3 +13,9 @@ mod uri;
 mod variables;
 
 pub mod xml;
+
+/// Names of the exported functions of FMI 2.0 that act on an instance.
+pub fn functions() -> impl Iterator<Item = &'static str> {
+    use crate::fmi::table::Function;
+    table::Fmi2::ALL.iter().map(|function| function.name())
+}

@@ -25,6 +25,8 @@ pub struct NamedSubstance {
     pub table: Path,
     pub kind: Kind,
     pub substance: Substance,
+    /// Temperature at which the scene takes the constants [K].
+    pub at: Option<f64>,
 }
 
 /// Puts constants in the place of names; returns what is wrong with them.
@@ -77,7 +79,7 @@ fn name_material(source: &mut Source, place: &Path) {
     let mut table = constants(substance, &span);
     table.insert(spanned("model", &span), Spanned::new(span.clone(), string("thermoelastic")));
     source.insert(["material", &name], &span, DeValue::Table(table));
-    source.add_substance(NamedSubstance { table: path, kind: Kind::Solid, substance });
+    source.add_substance(NamedSubstance { table: path, kind: Kind::Solid, substance, at: None });
 }
 
 /// The name of a substance as one of a material, which is part of the names of parameters: `steel-304` is `steel_304`.
@@ -99,13 +101,18 @@ fn expand_table(
         Some(DeValue::Table(table)) if table.contains_key(KEY) => (place.key(KEY), table.clone()),
         _ => return,
     };
-    let Some(name) = text(source, &named) else { return };
+    let Some(name) = text(source, &named) else {
+        let message = "this is not the name of a substance".to_owned();
+        let allowed = "a text such as \"copper\" (`impinge substances`)".to_owned();
+        problems.push((place.clone(), source.problem(&named, message, allowed)));
+        return;
+    };
     let Some(substance) = kind.find(&name) else {
         problems.push((place.clone(), unknown(source, &named, &name, kind)));
         return;
     };
     let Some(span) = source.span(place) else { return };
-    let at = if own.contains_key(AT) {
+    let given = if own.contains_key(AT) {
         match number(source, &place.key(AT)).filter(|at| *at > 0.0) {
             Some(at) => Some(at),
             None => {
@@ -117,8 +124,9 @@ fn expand_table(
             }
         }
     } else {
-        start
+        None
     };
+    let at = given.or(start);
     let mut known: DeTable<'static> = constants(substance, &span);
     if kind == Kind::Solid {
         known.insert(spanned("model", &span), Spanned::new(span.clone(), string("thermoelastic")));
@@ -131,7 +139,7 @@ fn expand_table(
     for (key, value) in taken {
         source.set_number(place.key(key), value);
     }
-    source.add_substance(NamedSubstance { table: place.clone(), kind, substance });
+    source.add_substance(NamedSubstance { table: place.clone(), kind, substance, at: given });
 }
 
 fn unknown(source: &Source, place: &Path, name: &str, kind: Kind) -> Problem {

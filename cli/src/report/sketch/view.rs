@@ -48,9 +48,9 @@ impl Default for Ends {
 impl Ends {
     fn add(&mut self, points: &[[f64; 2]]) {
         for point in points {
-            for axis in 0..2 {
-                self.low[axis] = self.low[axis].min(point[axis]);
-                self.high[axis] = self.high[axis].max(point[axis]);
+            for (axis, &place) in point.iter().enumerate() {
+                self.low[axis] = self.low[axis].min(place);
+                self.high[axis] = self.high[axis].max(place);
             }
         }
     }

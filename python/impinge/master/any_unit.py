@@ -1,0 +1,6 @@
+"""What a master couples."""
+
+from impinge.function import FunctionUnit
+from impinge.unit import Unit
+
+AnyUnit = Unit | FunctionUnit
