@@ -155,15 +155,19 @@ def _histories(
 
 
 def _sensitivities(result: xr.Dataset) -> tuple[list[dict[str, Any]], list[str]]:
-    """Sobol's indices of all outputs, and why there are none."""
+    """Sobol's indices of outputs that are single numbers, and why there are none."""
     if result.attrs.get("sampler_kind") != "Sobol":
         return [], []
     from impinge.study import sobol_indices
 
+    dims = _row_dims(result)
+    outputs = [name for name in words(result.attrs["outputs"]) if result[name].dims == dims]
+    if not outputs:
+        return [], ["no Sobol indices on this page: outputs are arrays"]
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:
-            found = sobol_indices(result)
+            found = sobol_indices(result, outputs)
         except (ValueError, ImportError) as error:
             return [], [f"no Sobol indices: {error}"]
     keys = ("first", "first_confidence", "total", "total_confidence")

@@ -40,7 +40,9 @@ function choice(label, options, change) {
   return el("label", {}, label, select);
 }
 
-/** Calls back with the width of an element [px], now and where it changes. */
+const looks = [];
+
+/** Calls back with the width of an element [px], once it is on the page and where it changes. */
 function onWidth(element, draw) {
   let last = 0;
   const look = () => {
@@ -49,7 +51,7 @@ function onWidth(element, draw) {
   };
   // Drawing changes heights, which an observer must not see within its own notice.
   new ResizeObserver(() => requestAnimationFrame(look)).observe(element);
-  look();
+  looks.push(look);
 }
 
 /** Calls back where the colours of the page change: theme of the system, of the reader, of paper. */

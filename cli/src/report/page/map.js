@@ -190,7 +190,7 @@ class FieldMap {
     overlay.addEventListener("keydown", (event) => {
       const moves = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
       const move = moves[event.key];
-      if (!move) return;
+      if (!move || !this.shown) return;
       event.preventDefault();
       const [x, y] = this.shown;
       const from = this.cursor || [(x[0] + x[1]) / 2, (y[0] + y[1]) / 2];

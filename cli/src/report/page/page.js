@@ -71,6 +71,7 @@ section("errors", "Estimated errors of outputs", report.errors ? [el("p", {}, `S
 section("model", "What was modelled, and why", modelled());
 section("timings", "Time taken", report.timings.length ? timingsOf(report.timings) : null);
 section("notes", "Notes", report.notes.length ? el("ul", { class: "plain" }, report.notes.map((note) => el("li", {}, rich(note)))) : null);
+looks.forEach((look) => look());
 document.getElementById("places").append(el("ul", {}, sections.map(([id, title]) => el("li", {}, el("a", { href: `#${id}` }, title)))));
 if (clock.times.length) clock.go(clock.times.length - 1);
 addEventListener("beforeprint", () => recolour.all());

@@ -186,7 +186,7 @@ class StudyView {
 /** Sobol's indices of an output, with their confidence intervals. */
 function sensitivityOf({ output, entries }) {
   const width = 460, line = 30, left = 170, inner = width - left - 60, height = entries.length * line + 34;
-  const most = Math.max(1, ...entries.map(({ total }) => total || 0));
+  const most = Math.max(1, ...entries.flatMap(({ first, first_confidence, total, total_confidence }) => [(first || 0) + (first_confidence || 0), (total || 0) + (total_confidence || 0)]));
   const chart = svg("svg", { class: "chart", viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": `Sensitivities of ${output}` });
   entries.forEach(({ parameter, first, first_confidence, total, total_confidence }, i) => {
     const y = i * line + 6;
