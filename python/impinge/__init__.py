@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from impinge.function import Function
     from impinge.linear import linear_map, step_sensitivity
     from impinge.master import Connection, Master
+    from impinge.reporting import report
     from impinge.study import Study
     from impinge.surface import Surface
 
@@ -40,6 +41,7 @@ __all__ = [
     "UnitError",
     "Variable",
     "linear_map",
+    "report",
     "step_sensitivity",
 ]
 
@@ -51,6 +53,7 @@ _LATER = {
     "Surface": ("impinge.surface", "surface"),
     "Study": ("impinge.study", "study"),
     "linear_map": ("impinge.linear", "control"),
+    "report": ("impinge.reporting", None),
     "step_sensitivity": ("impinge.linear", "control"),
 }
 

@@ -6,6 +6,7 @@ use std::path::Path;
 use impinge::model::{Cache, Model, State};
 use impinge::output::{Discs, FieldSeries};
 use impinge::scene;
+use impinge::variables::{Registry, Slot};
 use tempfile::TempDir;
 
 const SCENE: &str = r#"
@@ -55,7 +56,7 @@ fn the_list_is_readable_after_each_time() {
     }
     let names: Vec<_> =
         fs::read_dir(folder.path()).unwrap().map(|e| e.unwrap().file_name()).collect();
-    assert_eq!(names.len(), 3, "two grids, a list and nothing else: {names:?}");
+    assert_eq!(names.len(), 4, "two grids, their lists and nothing else: {names:?}");
 }
 
 #[test]
@@ -125,7 +126,8 @@ fn a_file_that_cannot_be_written_is_not_listed() {
     let error = series.write(&model, &at(&model, 1.0), &mut Cache::default()).unwrap_err();
     assert!(error.to_string().contains("block_000001.vtr"), "{error}");
     assert_eq!(listed(folder.path()), ["0.0"]);
-    assert_eq!(files(folder.path()), ["block.pvd", "block_000000.vtr", "block_000001.vtr"]);
+    let left = ["block.pvd", "block_000000.vtr", "block_000001.vtr"];
+    assert_eq!(files(folder.path()), left);
     // Once the way is free the series goes on with the number that was not used.
     fs::remove_dir(&taken).unwrap();
     series.write(&model, &at(&model, 2.0), &mut Cache::default()).unwrap();
@@ -148,4 +150,72 @@ fn a_disc_is_written_as_a_body_of_three_dimensions() {
     for words in ["StructuredGrid", "temperature", "position"] {
         assert!(head.contains(words), "{words}: {head}");
     }
+}
+
+/// A plate, a drop that an input releases above it, and a recorded one.
+const DROPS: &str = r#"
+name = "Drops"
+stop_time = 2e-6
+step = 1e-6
+[body.plate]
+kind = "solid"
+shape = { box = [4e-4, 4e-4, 1e-4] }
+material = { model = "thermoelastic", density = 3950.0, specific_heat = 900.0, conductivity = 10.0 }
+initial_temperature = 293.15
+mesh = { spacing = 1e-4 }
+[body.drop]
+kind = "droplet"
+diameter = 1e-4
+impact_velocity = 10.0
+initial_temperature = 350.0
+spacing = 12.5e-6
+release = "input"
+most = 1
+fluid = { density = 1000.0, viscosity = 1e-3, specific_heat = 4180.0, conductivity = 0.6, surface_tension = 0.07 }
+[body.film]
+kind = "droplet"
+method = "film"
+diameter = 1e-4
+impact_velocity = 10.0
+initial_temperature = 350.0
+fluid = { density = 1000.0, viscosity = 1e-3, specific_heat = 4180.0, conductivity = 0.6, surface_tension = 0.07 }
+[[coupling]]
+from = "drop"
+to = "plate.top"
+[[wall]]
+name = "wall"
+under = "film"
+footprint = { rings = { count = 4, radius = 2e-4 } }
+"#;
+
+#[test]
+fn one_list_opens_all_bodies_and_no_file_is_without_points() {
+    let folder = TempDir::new().unwrap();
+    let model = Model::build(&scene::parse(DROPS, "drops.toml").unwrap(), 1).unwrap();
+    let mut series = FieldSeries::create(folder.path(), &model, Discs::Sections).unwrap();
+    let (mut state, mut cache) = (model.initial_state(), Cache::default());
+    series.write(&model, &state, &mut cache).unwrap();
+    let release = Registry::of(model.scene()).variables;
+    let release = release.iter().find(|variable| variable.name == "drop.release").unwrap();
+    let Slot::Input(release) = release.slot else { panic!("{release:?}") };
+    state.inputs[release] = 1.0;
+    model.step(&mut state, &mut cache, 1e-6).unwrap();
+    series.write(&model, &state, &mut cache).unwrap();
+    series.check_present().unwrap();
+    let expected = [
+        "all-bodies.pvd",
+        "drop.pvd",
+        "drop_000001.vtp",
+        "plate.pvd",
+        "plate_000000.vtr",
+        "plate_000001.vtr",
+    ];
+    assert_eq!(files(folder.path()), expected);
+    let list = fs::read_to_string(folder.path().join("all-bodies.pvd")).unwrap();
+    let entries: Vec<&str> = list.lines().filter(|line| line.contains("<DataSet")).collect();
+    assert_eq!(entries.len(), 3, "the plate twice, the drop once it is there: {list}");
+    let parts = ["plate_000000.vtr", "drop_000001.vtp", "plate_000001.vtr"];
+    assert!(parts.iter().all(|file| list.contains(file)), "{list}");
+    let times: Vec<bool> = entries.iter().map(|entry| entry.contains("timestep=\"0.0\"")).collect();
+    assert_eq!(times, [true, false, false], "in the order of time");
 }

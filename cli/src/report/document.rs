@@ -146,14 +146,22 @@ pub struct Column {
 #[serde(untagged)]
 pub enum Cell {
     Number(f64),
+    /// A number with a unit of its own.
+    Quantity {
+        value: f64,
+        unit: String,
+    },
     Text(String),
     /// A number that is not finite, or nothing.
     Nothing(()),
 }
 
 impl Cell {
-    pub fn number(value: f64) -> Self {
-        if value.is_finite() { Self::Number(value) } else { Self::Nothing(()) }
+    pub fn quantity(value: f64, unit: &str) -> Self {
+        match value.is_finite() {
+            true => Self::Quantity { value, unit: unit.to_owned() },
+            false => Self::Nothing(()),
+        }
     }
 }
 

@@ -67,10 +67,12 @@ pub fn histories(scalars: &[Scalar], outputs: &Outputs) -> Histories {
         notes.push(format!("{} of {} rows are drawn.", rows.len(), outputs.times.len()));
     }
     let constant = scalars.len() - changing.len();
-    if constant > 0 {
-        notes.push(format!(
-            "{constant} variables that do not change stand in the table of values alone."
-        ));
+    match constant {
+        0 => {}
+        1 => notes.push("One variable that does not change stands in the table alone.".to_owned()),
+        count => {
+            notes.push(format!("{count} variables that do not change stand in the table alone."))
+        }
     }
     let axis =
         Axis { name: "time".into(), unit: "s".into(), values: kept(&outputs.times), ends: None };
@@ -79,18 +81,16 @@ pub fn histories(scalars: &[Scalar], outputs: &Outputs) -> Histories {
 
 /// Ranges of variables over a run, and their last values.
 pub fn ranges(scalars: &[Scalar]) -> Table {
-    let names = ["variable", "lowest", "highest", "at the end", "unit", "meaning"];
+    let names = ["variable", "lowest", "highest", "at the end", "meaning"];
     let head = names.map(|name| Column { name: name.to_owned(), unit: String::new() });
     let row = |one: &Scalar| {
         let [low, high] = extent(one.values).unwrap_or([f64::NAN; 2]);
         let last = one.values.last().copied().unwrap_or(f64::NAN);
-        let unit = if one.unit == "1" { "" } else { one.unit };
         vec![
             Cell::Text(one.variable.name.clone()),
-            Cell::number(low),
-            Cell::number(high),
-            Cell::number(last),
-            Cell::Text(unit.to_owned()),
+            Cell::quantity(low, one.unit),
+            Cell::quantity(high, one.unit),
+            Cell::quantity(last, one.unit),
             Cell::Text(one.variable.description.clone()),
         ]
     };

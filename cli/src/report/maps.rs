@@ -8,6 +8,7 @@ use super::document::{Axis, Layout, Map, Mark, Values};
 use super::error::ReportError;
 use super::fields::{FieldFile, Frames, thinned};
 use super::packed::Array;
+use crate::check::words::metres;
 
 /// Most values of all maps together.
 const MOST_VALUES: usize = 320_000;
@@ -205,13 +206,18 @@ fn planes(body: &str, grid: &Grid) -> Vec<Plane> {
             fixed: top,
         },
         Plane {
-            title: title(&format!("section y = {}", crate::check::words::metres(at))),
+            title: title(&section(at)),
             layout: Layout::Grid,
             axes: [0, 2],
             names: ["x", "z"],
             fixed: (1, middle),
         },
     ]
+}
+
+/// Names a section at a coordinate [m].
+fn section(y: f64) -> String {
+    if y == 0.0 { "section y = 0".to_owned() } else { format!("section y = {}", metres(y)) }
 }
 
 /// Probes that lie in a plane.

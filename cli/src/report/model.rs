@@ -18,9 +18,9 @@ pub fn parts(scene: &Scene, reductions: &[String]) -> Vec<Part> {
     parts.extend(forecast.droplets.iter().map(|body| droplet(scene, body)));
     parts.extend(lumps(scene));
     parts.extend(acting(scene));
-    // Notes of bodies that are not reduced are those of the forecast.
-    let is_new = |note: &&String| !parts.iter().any(|part| part.lines.contains(note));
-    let own: Vec<String> = reductions.iter().filter(is_new).cloned().collect();
+    let of_reduced =
+        |note: &&String| note.split_once(": ").is_some_and(|(body, _)| scene.is_reduced(body));
+    let own: Vec<String> = reductions.iter().filter(of_reduced).cloned().collect();
     parts.extend(lines("Reduction", own));
     parts.extend(lines("Not modelled", omissions(scene, &forecast)));
     parts

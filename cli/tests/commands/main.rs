@@ -10,6 +10,7 @@ mod descriptions;
 mod inputs;
 mod named_materials;
 mod new;
+mod report;
 mod run_files;
 mod substances;
 

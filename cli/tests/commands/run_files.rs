@@ -91,20 +91,21 @@ fn the_files_of_an_earlier_run_are_replaced_only_if_asked() {
     place.run(&["--until", "1e-7", "--fields-every", "1", "--overwrite"]).succeeds();
     assert_eq!(place.field_times("out/HotSpot"), [0.0, 1e-7]);
     let files = fs::read_dir(place.path("out/HotSpot")).unwrap();
-    assert_eq!(files.count(), 4, "two grids, their list and the table; none of the longer run");
+    let words = "two grids, two lists, the table and the record; none of the longer run";
+    assert_eq!(files.count(), 6, "{words}");
     // Fields alone also count as an earlier run.
     fs::remove_file(place.path("out/HotSpot/outputs.csv")).unwrap();
     place.run(&["--fields-every", "0"]).fails(1, &["earlier run"]);
     // A run without fields leaves none that could be mistaken for its own.
     fs::write(place.path("out/HotSpot/mine.pvd"), "").unwrap();
     place.run(&["--until", "1e-7", "--fields-every", "0", "--overwrite"]).succeeds();
-    assert_eq!(place.files("out/HotSpot"), ["mine.pvd", "outputs.csv"]);
+    assert_eq!(place.files("out/HotSpot"), ["mine.pvd", "outputs.csv", "run.json"]);
 }
 
 /// Files that no run wrote, under names that a run would write or remove.
 #[test]
 fn foreign_files_of_the_names_of_a_series_are_replaced_only_if_asked() {
-    for name in ["plate.pvd", "plate_000003.vtr", "plate_000003.vts", "plate_1000000.vtp"] {
+    for name in ["all-bodies.pvd", "plate.pvd", "plate_000003.vtr", "plate_000003.vts"] {
         for fields in ["1", "0"] {
             let place = Workplace::new();
             fs::create_dir(place.path("files")).unwrap();
@@ -156,8 +157,11 @@ fn killed_run_counts_as_earlier_run() {
         place.run(&settings).succeeds();
         let table = fs::read_to_string(place.path("out/HotSpot/outputs.csv")).unwrap();
         assert_eq!(table.lines().count(), 3);
-        let all = ["outputs.csv", "plate.pvd", "plate_000000.vtr", "plate_000001.vtr"];
-        let wanted = if fields == "1" { &all[..] } else { &all[..1] };
+        let alone = ["outputs.csv", "run.json"];
+        let fields_too = ["plate.pvd", "plate_000000.vtr", "plate_000001.vtr"];
+        let mut wanted = alone.to_vec();
+        wanted.extend(fields_too.into_iter().filter(|_| fields == "1"));
+        wanted.sort_unstable();
         assert_eq!(place.files("out/HotSpot"), wanted);
     }
 }

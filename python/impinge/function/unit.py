@@ -96,6 +96,11 @@ class FunctionUnit:
     # What there is
 
     @property
+    def scene(self) -> str:
+        """A function is packed from no scene."""
+        return ""
+
+    @property
     def variables(self) -> dict[str, Variable]:
         """Inputs and outputs by name."""
         return self.function.variables

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import time
 import warnings
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any
@@ -149,6 +150,7 @@ class Master:
             self.units, self.links, self._exchange.loops, scheme, self._iteration_tolerance
         )
         self.steps = self.rejected = self.most_iterations = self.unconverged = 0
+        self.seconds = 0.0
         self._has_begun = False
 
     # Description
@@ -160,7 +162,7 @@ class Master:
         return self._summary().html()
 
     def _summary(self) -> Summary:
-        units = {name: f"{unit.name} (FMI {unit.package.fmi})" for name, unit in self.units.items()}
+        units = {name: _told(unit) for name, unit in self.units.items()}
         pairs = [(link.connection.source, link.connection.target) for link in self.links]
         scheme = f"{self.scheme}, {self.acceleration}" if self._iterates() else self.scheme
         step = "adaptive, first" if self.adaptive else "of"
@@ -308,6 +310,7 @@ class Master:
 
         progress: whether a bar is shown; only in runs of more than two seconds if left out.
         """
+        began = time.perf_counter()
         check_stop(stop, self.time)
         check_count(None if self.adaptive else self._schedule.step, stop - self.time)
         if not self._has_begun:
@@ -327,6 +330,7 @@ class Master:
                     bar.n = self.time
                     bar.set_postfix_str(f"{self.steps} steps", refresh=False)
                     bar.update(0)
+        self.seconds += time.perf_counter() - began
         self._judge()
         return self._record.dataset(self._balances, self._attributes())
 
@@ -550,6 +554,7 @@ class Master:
             "energy_error": max((balance.share for balance in self._powers), default=0.0),
             "held_inputs": " ".join(self.held),
             "notes": "; ".join(self.notes),
+            "seconds": self.seconds,
             "impinge": impinge.__version__,
         }
         if self._iterates():
@@ -557,6 +562,8 @@ class Master:
         for name, participant in self.participants.items():
             told[f"unit_steps.{name}"] = participant.steps
             told[f"unit.{name}"] = participant.unit.identity
+            if participant.unit.scene:
+                told[f"scene.{name}"] = participant.unit.scene
         for balance in self._balances:
             told[f"energy_residual.{balance.name}"] = balance.largest / (balance.moved or 1.0)
         return told
@@ -589,6 +596,13 @@ def _function(name: str, value: Any, shape: tuple[int, ...]) -> Watched:
         return Watched(name, function)
     constant = np.broadcast_to(np.asarray(value, float), shape).ravel()
     return Watched(name, lambda _: constant, is_constant=True)
+
+
+def _told(unit: Unit | FunctionUnit) -> str:
+    """What a unit is, in short."""
+    if isinstance(unit, Unit):
+        return f"{unit.name} (FMI {unit.package.fmi})"
+    return f"function {unit.function.name}"
 
 
 def _list(names: Sequence[str]) -> str:

@@ -170,6 +170,12 @@ class Unit:
         return self.package.name
 
     @property
+    def scene(self) -> str:
+        """The text of the scene that the unit was packed from; empty of units of other tools."""
+        path = self.package.folder / "resources/scene.toml"
+        return path.read_text(encoding="utf-8") if path.is_file() else ""
+
+    @property
     def inputs(self) -> dict[str, Variable]:
         """Inputs by name; a family is one."""
         return self.package.of_causality("input")

@@ -97,6 +97,7 @@ class Clip {
 
   /** The particle nearest to the pointer. */
   point(event) {
+    if (!this.place) return;
     const bounds = this.overlay.getBoundingClientRect(), { left, top, scale } = this.place, [x0, , , y1] = this.clip.bounds;
     const zoom = this.width / bounds.width;
     let x = x0 + ((event.clientX - bounds.left) * zoom - left) / scale;

@@ -44,7 +44,7 @@ function colourBar(overlay, ramp, [low, high], unit, { x, y, height, beyond = [f
     svg("rect", { x, y, width, height, class: "frame" }),
     svg("text", { x: x - 2, y: y - 8 }, label),
   );
-  for (const value of ticks(low * factor, high * factor, Math.max(2, height / 45))) {
+  for (const value of ticks(low * factor, high * factor, Math.max(3, height / 45))) {
     const at = place(value / factor);
     overlay.append(
       svg("line", { x1: x + width, x2: x + width + 4, y1: at, y2: at, class: "axis" }),

@@ -8,13 +8,18 @@ function fill(element, attributes, children) {
     if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
     else element.setAttribute(name, value === true ? "" : value);
   }
-  element.append(...children.flat().filter((child) => child !== null && child !== undefined));
+  element.append(...children.flat(Infinity).filter((child) => child !== null && child !== undefined));
   return element;
 }
 
 const el = (tag, attributes = {}, ...children) => fill(document.createElement(tag), attributes, children);
 
 const svg = (tag, attributes = {}, ...children) => fill(document.createElementNS(SVG, tag), attributes, children);
+
+/** A text in which words between backticks are code. */
+function rich(text) {
+  return String(text).split("`").map((part, i) => (i % 2 ? el("code", {}, part) : part));
+}
 
 /** A button that keeps whether it is pressed. */
 function toggle(label, pressed, change) {
@@ -42,7 +47,8 @@ function onWidth(element, draw) {
     const width = Math.round(element.clientWidth);
     if (width > 0 && width !== last) draw((last = width));
   };
-  new ResizeObserver(look).observe(element);
+  // Drawing changes heights, which an observer must not see within its own notice.
+  new ResizeObserver(() => requestAnimationFrame(look)).observe(element);
   look();
 }
 

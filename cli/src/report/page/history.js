@@ -1,6 +1,7 @@
 // Values over time: a chart for each quantity, all zoomed together.
 
 const SHOWN_AT_FIRST = 6;
+const MOST_BUTTONS = 10;
 const HUES = 8;
 
 class Histories {
@@ -50,13 +51,16 @@ class Chart {
     this.series = series.map((one, i) => ({ ...one, isShown: i < SHOWN_AT_FIRST, colour: `var(--s${i % HUES})`, dash: i < HUES ? null : "5 3" }));
     this.unit = series[0].unit;
     this.svg = svg("svg", { class: "chart", tabindex: 0, role: "img", "aria-label": `${series[0].group} over ${histories.axis.name}: ${series.map(({ name }) => name).join(", ")}` });
-    this.legend = el("div", { class: "legend" }, this.series.map((one) => {
+    const buttons = this.series.map((one) => {
       one.value = el("em", {});
       const button = toggle("", one.isShown, (on) => { one.isShown = on; this.draw(); });
       button.title = one.about || one.name;
       button.append(el("i", { style: `border-top-color:${one.colour};${one.dash ? "border-top-style:dashed" : ""}` }), el("span", {}, one.name), one.value);
       return button;
-    }));
+    });
+    const hidden = buttons.splice(buttons.length > MOST_BUTTONS ? SHOWN_AT_FIRST : buttons.length);
+    this.legend = el("div", {}, el("div", { class: "legend" }, buttons),
+      hidden.length ? el("details", {}, el("summary", { class: "small" }, `${hidden.length} more`), el("div", { class: "legend" }, hidden)) : null);
     this.element = el("figure", {}, el("figcaption", {}, el("b", {}, series[0].group)), this.legend, this.svg);
     this.listen();
     onWidth(this.element, (width) => { this.width = width; this.draw(); });
@@ -104,7 +108,7 @@ class Chart {
 
   /** The values at the time that is read, in the legend. */
   read() {
-    if (!this.cursor) return;
+    if (!this.cursor || !this.place) return;
     const { axis, time, range } = this.histories;
     this.cursor.replaceChildren();
     if (time === undefined) return;
@@ -118,6 +122,7 @@ class Chart {
   listen() {
     const { histories } = this;
     const timeAt = (event) => {
+      if (!this.place) return histories.whole[1];
       const bounds = this.svg.getBoundingClientRect(), { left, width } = this.place, [low, high] = histories.range;
       const share = ((event.clientX - bounds.left) * (this.width / bounds.width) - left) / width;
       return low + Math.min(Math.max(share, 0), 1) * (high - low);

@@ -63,7 +63,8 @@ class FieldMap {
     this.place = { left, top, width: used, height };
     this.height = top + height + bottom;
     const stretch = height / (wanted * (used / width));
-    this.note.textContent = isFree || isToScale || Math.abs(stretch - 1) < 0.02 ? "" : `(${this.axes[1].name} drawn ${digits(stretch, 2)} times as large)`;
+    const [low, high] = extent(this.fields[this.field].values);
+    this.note.textContent = low === high ? "(the same everywhere)" : isFree || isToScale || Math.abs(stretch - 1) < 0.02 ? "" : `(${this.axes[1].name} drawn ${digits(stretch, 2)} times as large)`;
     this.colour(x, y);
     this.annotate(x, y);
   }
@@ -176,6 +177,7 @@ class FieldMap {
   listen() {
     const { overlay } = this;
     const at = (event) => {
+      if (!this.shown) return null;
       const bounds = overlay.getBoundingClientRect(), scale = this.width / bounds.width;
       const [x, y] = this.shown, { left, top, width, height } = this.place;
       const u = ((event.clientX - bounds.left) * scale - left) / width, v = ((event.clientY - bounds.top) * scale - top) / height;

@@ -6,7 +6,7 @@ const sections = [];
 
 /** Adds a section if it has something to show. */
 function section(id, title, ...content) {
-  const parts = content.flat().filter((part) => part !== null && part !== undefined);
+  const parts = content.flat(Infinity).filter((part) => part !== null && part !== undefined);
   if (!parts.length) return;
   sections.push([id, title]);
   document.getElementById("content").append(el("section", { id, "aria-labelledby": `${id}-title` }, el("h2", { id: `${id}-title` }, title), parts));
@@ -38,7 +38,7 @@ function modelled() {
   return report.model.map(({ title, facts, lines, tables }) => el("div", {},
     title ? el("h3", {}, title) : null,
     facts.length ? factsOf(facts) : null,
-    lines.length ? el("ul", { class: "plain" }, lines.map((line) => el("li", {}, line))) : null,
+    lines.length ? el("ul", { class: "plain" }, lines.map((line) => el("li", {}, rich(line)))) : null,
     tables.map(tableOf)));
 }
 
@@ -70,7 +70,7 @@ section("balances", "Balances", report.balances.length ? el("div", { class: "gri
 section("errors", "Estimated errors of outputs", report.errors ? [el("p", {}, `Share of the range of each output over the run; the scene allows ${percent(report.errors.tolerance)}. Red bars are beyond that.`), errorsOf(report.errors)] : null);
 section("model", "What was modelled, and why", modelled());
 section("timings", "Time taken", report.timings.length ? timingsOf(report.timings) : null);
-section("notes", "Notes", report.notes.length ? el("ul", { class: "plain" }, report.notes.map((note) => el("li", {}, note))) : null);
+section("notes", "Notes", report.notes.length ? el("ul", { class: "plain" }, report.notes.map((note) => el("li", {}, rich(note)))) : null);
 document.getElementById("places").append(el("ul", {}, sections.map(([id, title]) => el("li", {}, el("a", { href: `#${id}` }, title)))));
 if (clock.times.length) clock.go(clock.times.length - 1);
 addEventListener("beforeprint", () => recolour.all());

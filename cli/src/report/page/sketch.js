@@ -44,7 +44,10 @@ function drawSketch(drawing, view, [x0, y0, x1, y1], focus, width) {
   drawing.append(shapes);
   const labels = [];
   for (const shape of view.shapes) draw(shapes, shape, map, labels);
-  placeLabels(drawing, labels, width, height - 26);
+  // What lies within a detail is named there.
+  const frame = focus && box(focus, map);
+  const isFree = ({ x, y }) => !frame || x < frame.x || x > frame.x + frame.width || y < frame.y || y > frame.y + frame.height;
+  placeLabels(drawing, labels.filter(isFree), width, height - 26);
   if (focus) drawing.append(svg("rect", { class: "focus", ...box(focus, map, 6) }));
   scaleBar(drawing, scale, width, height);
 }
@@ -63,7 +66,7 @@ function draw(group, shape, map, labels) {
   const note = (x, y) => shape.short && labels.push({ x, y, text: shape.short, kind });
   switch (shape.shape) {
     case "box": {
-      const at = box(shape.at, map, 1);
+      const at = box(shape.at, map, kind === "load" || kind === "wall" ? 6 : 1);
       group.append(svg("rect", { class: kind, ...at }, title));
       note(at.x + 6, at.y + at.height / 2 + 4);
       break;

@@ -1,12 +1,13 @@
-// Tables of the document: texts, numbers with a unit for their column, and bars of shares.
+// Tables of the document: texts, numbers with the unit of their column or their own, and bars of shares.
 
 /** A table of { title, head: [{ name, unit }], rows }. */
 function tableOf({ title, head, rows }) {
   const columns = head.map((column) => (typeof column === "string" ? { name: column } : column));
-  const isNumber = columns.map((_, i) => rows.length > 0 && rows.every((row) => row[i] === null || typeof row[i] === "number"));
+  const isNumber = columns.map((_, i) => rows.length > 0 && rows.every((row) => row[i] === null || typeof row[i] !== "string"));
   const cell = (value, i) => {
     if (value === null || value === undefined) return "–";
-    return typeof value === "number" ? quantity(value, columns[i].unit) : value;
+    if (typeof value === "object") return quantity(value.value, value.unit);
+    return typeof value === "number" ? quantity(value, columns[i].unit) : rich(value);
   };
   return el("div", { class: "scroll" }, el("table", {},
     title ? el("caption", {}, title) : null,
@@ -48,7 +49,7 @@ function errorsOf({ tolerance, bodies }) {
       rows.length ? el("div", { class: "scroll" }, el("table", { class: "errors" },
         el("thead", {}, el("tr", {}, ["output", "along the surface", "through the thickness", "of its range", ""].map((name) => el("th", { scope: "col" }, name)))),
         el("tbody", {}, rows.map(line)))) : null,
-      notes.length ? el("ul", { class: "plain small soft" }, notes.map((note) => el("li", {}, note))) : null);
+      notes.length ? el("ul", { class: "plain small soft" }, notes.map((note) => el("li", {}, rich(note)))) : null);
   });
 }
 
@@ -62,6 +63,6 @@ function timingsOf(timings) {
 /** Warnings, each with its remedy. */
 function warningsOf(warnings) {
   return warnings.map(({ place, message, remedy }) => el("div", { class: "warning" },
-    el("p", {}, place ? el("b", {}, place, ": ") : null, message),
-    remedy ? el("p", {}, el("b", {}, "Remedy: "), remedy) : null));
+    el("p", {}, place ? el("b", {}, place, ": ") : null, rich(message)),
+    remedy ? el("p", {}, el("b", {}, "Remedy: "), rich(remedy)) : null));
 }

@@ -11,8 +11,6 @@ use crate::units::kelvin;
 
 /// Most rings or tiles whose edges are drawn.
 const MOST_CELLS: usize = 24;
-/// Thickness of a load from the side, over the width of the view.
-const STRIP: f64 = 0.008;
 
 /// Draws the loads on a solid.
 pub fn loads(scene: &Scene, body: &str, solid: &Solid, views: &mut Views) {
@@ -22,13 +20,10 @@ pub fn loads(scene: &Scene, body: &str, solid: &Solid, views: &mut Views) {
         let [half, _] = load.footprint.half_extents(load.start.radius);
         let label = format!("{} on {}: {}", load.name, load.on, words(load));
         let text = || Words { label: label.clone(), short: &load.name };
-        let strip = STRIP * views.side.size()[0];
         let z = if is_below { -solid.shape.thickness() } else { 0.0 };
-        let [low, high] = if is_below { [z - strip, z] } else { [z, z + strip] };
-        views.side.rectangle("load", [at[0] - half, low, at[0] + half, high], text());
-        let (tip, down) =
-            ([at[0], if is_below { low } else { high }], if is_below { 1.0 } else { -1.0 });
-        views.side.arrow("load", tip, [0.0, down], Words::none());
+        views.side.rectangle("load", [at[0] - half, z, at[0] + half, z], text());
+        let down = if is_below { 1.0 } else { -1.0 };
+        views.side.arrow("load", [at[0], z], [0.0, down], Words::none());
         footprint(&mut views.top, "load", &load.footprint, load.start.radius, at, text());
     }
 }

@@ -74,6 +74,8 @@ fn draw_face(name: FaceName, face: &Face, solid: &Solid, views: &mut Views) {
     let top: &[([[f64; 2]; 2], [f64; 2])] = match (name, solid.shape) {
         (FaceName::Front, _) => &[([[-x, -y], [x, -y]], [0.0, -1.0])],
         (FaceName::Back, _) => &[([[-x, y], [x, y]], [0.0, 1.0])],
+        (FaceName::Left, _) => &[([[-x, -y], [-x, y]], [-1.0, 0.0])],
+        (FaceName::Right, _) => &[([[x, -y], [x, y]], [1.0, 0.0])],
         _ => &[],
     };
     let label = format!("{}: {words}, {}", key(&name), mechanical(face));

@@ -122,11 +122,6 @@ impl Drawing {
         }
     }
 
-    /// Ends of what has been drawn so far.
-    pub fn size(&self) -> [f64; 2] {
-        if self.whole.is_empty() { [0.0; 2] } else { self.whole.size() }
-    }
-
     fn view(self, title: &str, is_side: bool) -> Option<View> {
         if self.whole.is_empty() {
             return None;
