@@ -56,7 +56,7 @@ fn the_list_is_readable_after_each_time() {
     }
     let names: Vec<_> =
         fs::read_dir(folder.path()).unwrap().map(|e| e.unwrap().file_name()).collect();
-    assert_eq!(names.len(), 4, "two grids, their lists and nothing else: {names:?}");
+    assert_eq!(names.len(), 3, "two grids, their list and nothing else: {names:?}");
 }
 
 #[test]
