@@ -163,8 +163,9 @@ dist: ## wheels, units of all examples, completions, manual pages and checksums 
 	rm -rf dist
 	@$(MAKE) --no-print-directory wheels
 	@mkdir -p dist/units
-	@set -e; for name in $(NAMES); do \
-		target/dist/linux/bin/build-fmu examples/$$name/scene.toml -o dist/units/$$name.fmu \
+	@set -e; for scene in examples/*/*.toml; do \
+		name=$$(echo $$scene | sed -E 's,examples/(.*)\.toml,\1,; s,/scene$$,,; s,/,_,'); \
+		target/dist/linux/bin/build-fmu $$scene -o dist/units/$$name.fmu \
 			--platform linux64 $(if $(DLL),--platform win64); done
 	cp -r target/dist/linux/share dist/share && rm -r dist/share/impinge/*64
 	@cd dist && find . -type f ! -name SHA256SUMS | LC_ALL=C sort | xargs sha256sum > SHA256SUMS

@@ -51,6 +51,13 @@ pub enum CliError {
         "there is no substance `{name}`{hint}; allowed: a name that `impinge substances` lists"
     )]
     UnknownSubstance { name: String, hint: String },
+    #[error(
+        "cannot write {}: {reason}; allowed: another file (--out) in a folder that exists",
+        path.display()
+    )]
+    NewScene { path: PathBuf, reason: io::Error },
+    #[error("there is no scene `{name}` to start from{hint}; allowed: {allowed}")]
+    UnknownTemplate { name: String, hint: String, allowed: String },
     #[error("cannot write manual pages to {}: {reason}", folder.display())]
     Pages { folder: PathBuf, reason: io::Error },
     #[error("{option} is a setting of a run, and {what} is reported as it is; allowed: a scene")]

@@ -9,6 +9,7 @@ mod idle;
 mod inputs;
 mod man;
 mod messages;
+mod new;
 mod patience;
 mod ranges;
 mod report;
@@ -38,6 +39,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Check(check::Check),
+    New(new::New),
     Run(run::Run),
     Report(report::Report),
     Schema(schema::Schema),
@@ -50,6 +52,7 @@ fn main() -> ExitCode {
     impinge::runtime::file_size::report_limits();
     let report = match Arguments::parse().command {
         Command::Check(command) => command.execute(),
+        Command::New(command) => command.execute(),
         Command::Run(command) => command.execute(),
         Command::Report(command) => command.execute(),
         Command::Schema(command) => command.execute(),

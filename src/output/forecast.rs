@@ -38,8 +38,8 @@ impl FilesForecast {
         let of_body: Vec<f64> = solids.chain(droplets).filter(|numbers| *numbers > 0.0).collect();
         let series = if times > 0 { of_body.len() } else { 0 };
         Self {
-            // The table, the files of each body with their list, and the list of all.
-            count: 1 + series * (times + 1) + usize::from(series > 0),
+            // The table, the files of each body with their list, and the list of all if there are several.
+            count: 1 + series * (times + 1) + usize::from(series > 1),
             bytes: NUMBER * (rows * columns) as f64
                 + WORD * times as f64 * of_body.iter().fold(0.0, |sum, numbers| sum + numbers),
         }

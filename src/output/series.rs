@@ -14,7 +14,7 @@ use crate::scene::{Body, Drawn, Scene};
 
 /// The fields of all bodies as ParaView time series. For each time `BODY.pvd` lists one `BODY_NNNNNN.vtr` (the nodes of
 /// a box, or of a disc's meridian section), `.vts` (those of a disc, revolved about its axis) or `.vtp` (the particles of
-/// a droplet). `all-bodies.pvd` lists those of all bodies, so that a viewer opens them at once.
+/// a droplet). `all-bodies.pvd` lists those of several bodies, so that a viewer opens them at once.
 ///
 /// Bodies without nodes or particles have no files: reduced solids, recorded drops and films. A droplet has none at times
 /// at which no drop has been released yet.
@@ -98,7 +98,7 @@ impl FieldSeries {
         let files = drawn().flat_map(|drawing| {
             drawing.entries(&self.times).map(|entry| entry.file).chain([drawing.list_name()])
         });
-        let all = drawn().next().map(|_| ALL.to_owned());
+        let all = self.lists_all().then(|| ALL.to_owned());
         let mut paths = files.chain(all).map(|name| self.directory.join(name));
         match paths.find(|path| !path.exists()) {
             None => Ok(()),
@@ -136,7 +136,7 @@ impl FieldSeries {
             None => (name, false),
         };
         if whole == ALL {
-            return is_unfinished || !self.bodies.iter().any(|drawing| drawing.kind.is_some());
+            return is_unfinished || !self.lists_all();
         }
         self.bodies.iter().any(|drawing| {
             let Some(rest) = whole.strip_prefix(drawing.body.as_str()) else { return false };
@@ -202,14 +202,19 @@ impl FieldSeries {
         Ok(true)
     }
 
-    /// Writes the list of each body that is drawn, and that of all.
+    /// Returns true if several bodies are drawn, so that there is a list of all.
+    fn lists_all(&self) -> bool {
+        self.bodies.iter().filter(|drawing| drawing.kind.is_some()).count() > 1
+    }
+
+    /// Writes the list of each body that is drawn, and that of all if there are several.
     fn write_lists(&self) -> Result<(), OutputError> {
         let drawn: Vec<_> = self.bodies.iter().filter(|body| body.kind.is_some()).collect();
         for drawing in &drawn {
             let path = self.directory.join(drawing.list_name());
             replace(&path, |out| write_collection(out, drawing.entries(&self.times)))?;
         }
-        if drawn.is_empty() {
+        if !self.lists_all() {
             return Ok(());
         }
         let parts = drawn.iter().enumerate();

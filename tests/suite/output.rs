@@ -56,7 +56,7 @@ fn the_list_is_readable_after_each_time() {
     }
     let names: Vec<_> =
         fs::read_dir(folder.path()).unwrap().map(|e| e.unwrap().file_name()).collect();
-    assert_eq!(names.len(), 4, "two grids, their lists and nothing else: {names:?}");
+    assert_eq!(names.len(), 3, "two grids, their list and nothing else: {names:?}");
 }
 
 #[test]
@@ -101,7 +101,7 @@ fn files_of_an_earlier_run_do_not_stay() {
         fs::write(folder.path().join(name), "earlier").unwrap();
     }
     let mut series = FieldSeries::create(folder.path(), &model, Discs::Sections).unwrap();
-    let mut expected = [&foreign[..], &["all-bodies.pvd", "block.pvd"]].concat();
+    let mut expected = [&foreign[..], &["block.pvd"]].concat();
     expected.sort();
     assert_eq!(files(folder.path()), expected);
     for time in [0.0, 1.0, 2.0] {
@@ -126,7 +126,7 @@ fn a_file_that_cannot_be_written_is_not_listed() {
     let error = series.write(&model, &at(&model, 1.0), &mut Cache::default()).unwrap_err();
     assert!(error.to_string().contains("block_000001.vtr"), "{error}");
     assert_eq!(listed(folder.path()), ["0.0"]);
-    let left = ["all-bodies.pvd", "block.pvd", "block_000000.vtr", "block_000001.vtr"];
+    let left = ["block.pvd", "block_000000.vtr", "block_000001.vtr"];
     assert_eq!(files(folder.path()), left);
     // Once the way is free the series goes on with the number that was not used.
     fs::remove_dir(&taken).unwrap();
@@ -143,7 +143,7 @@ fn a_disc_is_written_as_a_body_of_three_dimensions() {
     let model = Model::build(&scene::parse(&text, "disc.toml").unwrap(), 1).unwrap();
     let mut series = FieldSeries::create(folder.path(), &model, Discs::Revolved).unwrap();
     series.write(&model, &at(&model, 0.0), &mut Cache::default()).unwrap();
-    assert_eq!(files(folder.path()), ["all-bodies.pvd", "block.pvd", "block_000000.vts"]);
+    assert_eq!(files(folder.path()), ["block.pvd", "block_000000.vts"]);
     let bytes = fs::read(folder.path().join("block_000000.vts")).unwrap();
     let text = String::from_utf8_lossy(&bytes);
     let (head, _) = text.split_once("<AppendedData").unwrap();

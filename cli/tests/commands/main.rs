@@ -9,6 +9,7 @@ use tempfile::TempDir;
 mod descriptions;
 mod inputs;
 mod named_materials;
+mod new;
 mod report;
 mod run_files;
 mod substances;

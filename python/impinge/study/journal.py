@@ -11,7 +11,6 @@ again.
 from __future__ import annotations
 
 import base64
-import fcntl
 import hashlib
 import json
 import os
@@ -23,6 +22,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+
+try:
+    import fcntl
+except ModuleNotFoundError:
+    raise ImportError(
+        "studies need Linux or macOS: Windows lacks the locks and descriptors that they use"
+        " (allowed there: `Unit`, `Master` and `Surface`)"
+    ) from None
 
 from impinge.errors import StudyError
 

@@ -47,5 +47,5 @@ pub fn forecast(scene: &Scene, name: &str, full: BodyForecast) -> BodyForecast {
         Some(_) => 8.0 * (numbers + 2.0 * inputs * outputs),
         None => full.memory + 8.0 * (modes * inputs + 4.0 * RANK * RANK * inputs * outputs),
     };
-    BodyForecast { memory, build_time, step_time, reduced, ..full }
+    BodyForecast { drawn: 0, memory, build_time, step_time, reduced, ..full }
 }

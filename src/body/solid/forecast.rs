@@ -19,7 +19,7 @@ pub struct BodyForecast {
     pub name: String,
     /// Nodes along x, y, z (r, –, z in axisymmetry) of the meshed part.
     pub nodes: [usize; 3],
-    /// Nodes of the whole body, in files.
+    /// Nodes of the whole body, in files; 0 of reduced ones.
     pub drawn: usize,
     /// Unknowns of heat and of displacement.
     pub unknowns: [usize; 2],

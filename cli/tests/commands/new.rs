@@ -1,0 +1,33 @@
+//! `impinge new`.
+
+use std::fs;
+
+use super::Workplace;
+
+#[test]
+fn all_new_scenes_are_checked_without_a_warning() {
+    let place = Workplace::new();
+    let list = place.call(&["new"]).succeeds().stdout();
+    let names: Vec<_> = list.lines().map(|line| line.split_whitespace().next().unwrap()).collect();
+    assert_eq!(names.len(), 3, "{list}");
+    for name in names {
+        let said = place.call(&["new", name]).succeeds().stdout();
+        assert!(said.contains(&format!("next: impinge check {name}.toml")), "{said}");
+        let called = place.call(&["check", &format!("{name}.toml")]).succeeds();
+        assert_eq!(called.stderr(), "", "{name}");
+    }
+}
+
+#[test]
+fn a_file_that_is_there_is_kept() {
+    let place = Workplace::new();
+    fs::write(place.path("mine.toml"), "mine").unwrap();
+    let words = ["mine.toml", "exists", "another file"];
+    place.call(&["new", "heated-box", "-o", "mine.toml"]).fails(1, &words);
+    assert_eq!(fs::read_to_string(place.path("mine.toml")).unwrap(), "mine");
+}
+
+#[test]
+fn a_misspelt_kind_is_refused_with_the_right_one() {
+    Workplace::new().call(&["new", "drop-on-plat"]).fails(1, &["did you mean `drop-on-plate`?"]);
+}
