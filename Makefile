@@ -91,6 +91,7 @@ verify: build $(VENV)/ready-verify $(MASTERS)/ready ## slow: closed forms, and a
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python tests/verification/calculix.py
 	$(BIN)/python tests/verification/nonlinear_heat.py
 	$(BIN)/python tests/verification/robin_split.py out/verification/robin_split.png
+	@$(MAKE) --no-print-directory wheel-test
 
 bench: build $(VENV)/ready-verify ## time against an independent finite-element code, and units beside those of others
 	$(BIN)/python benches/alumina_plate.py
@@ -127,7 +128,7 @@ install: build ## programs, library, completions and manual pages below PREFIX (
 	$(PYTHON) packaging/stage.py $(PREFIX) --programs $(RELEASE) --library linux64=$(RELEASE)/libimpinge.so
 
 # The library and the programs for Windows, with the packages of Debian 12 alone: its compiler brings the sources of the
-# standard library. Their own checkout of Rust and the usual one do not meet: the former is on the PATH of this rule only.
+# standard library. It is on the PATH of this rule alone, so the usual compiler stays what it is.
 WIN64_PACKAGES := rustc-web cargo-web rust-web-src gcc-mingw-w64-x86-64
 
 win64: ## the library and the programs for Windows; units packed from then on carry both (Debian 12, installs packages)

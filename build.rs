@@ -1,4 +1,4 @@
-//! Embeds a checksum of the library's sources, so that libraries of one build for several platforms recognise each other.
+//! Embeds a checksum of the library's sources, which libraries of one build for several platforms have in common.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
