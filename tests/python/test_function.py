@@ -70,9 +70,10 @@ def test_a_lump_under_a_coefficient_that_depends_on_temperature_is_of_second_ord
 def test_a_law_is_worth_the_same_compiled_or_not(folder, options):
     """Values, energies, and all that a master counts."""
     compiled = make(folder, "law", d=-2.0, e=600.0, u_unit="K", y_unit="W/m2")
+    store = body(folder)
     results = []
     for law in (compiled, LAW):
-        units = {"body": body(folder), "law": law}
+        units = {"body": store, "law": law}
         with Master(units, RING, energy=["law.y"], **{"step": 0.05, **options}) as master:
             results.append(master.run(1.0))
     one, other = results
@@ -275,7 +276,7 @@ STORES = {
     ids=str,
 )
 def test_a_store_in_python_goes_as_a_compiled_one(folder, kind, options):
-    """Where steps are taken again, from its memory at their beginning."""
+    """Repeated steps start from its memory at their beginning."""
     results = []
     for store in (body(folder), STORES[kind]):
         units = {"body": store, "law": LAW}
@@ -350,7 +351,7 @@ def test_a_lag_on_means_is_of_second_order():
 
 
 class Pid:
-    """A controller as it is written by hand, with a derivative of the measurement."""
+    """A controller written by hand, with a derivative of the measurement."""
 
     def __init__(self):
         self.integral, self.last = 0.0, None
