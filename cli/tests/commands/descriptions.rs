@@ -1,4 +1,4 @@
-//! What the program says about itself to shells and to `man`.
+//! Completions for shells and pages for `man`.
 
 use std::fs;
 

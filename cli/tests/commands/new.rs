@@ -5,7 +5,7 @@ use std::fs;
 use super::Workplace;
 
 #[test]
-fn all_new_scenes_are_checked_without_a_warning() {
+fn new_scenes_raise_no_warning() {
     let place = Workplace::new();
     let list = place.call(&["new"]).succeeds().stdout();
     let names: Vec<_> = list.lines().map(|line| line.split_whitespace().next().unwrap()).collect();
@@ -28,6 +28,6 @@ fn a_file_that_is_there_is_kept() {
 }
 
 #[test]
-fn a_misspelt_kind_is_refused_with_the_right_one() {
+fn misspelt_kinds_are_corrected() {
     Workplace::new().call(&["new", "drop-on-plat"]).fails(1, &["did you mean `drop-on-plate`?"]);
 }

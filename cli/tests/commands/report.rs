@@ -35,7 +35,7 @@ fn series<'d>(document: &'d Value, name: &str) -> &'d Value {
 }
 
 #[test]
-fn a_report_has_the_numbers_of_its_run() {
+fn numbers_of_the_page_are_those_of_the_run() {
     let place = Workplace::coarse();
     place.call(&["report", "scene.toml", "--out", "run", "--fields-every", "1"]).succeeds();
     let (document, (head, rows)) = (place.document("run/report.html"), place.table("run"));
@@ -62,7 +62,7 @@ fn a_report_has_the_numbers_of_its_run() {
 }
 
 #[test]
-fn the_folder_of_a_run_is_reported_as_the_run_itself() {
+fn folders_and_runs_give_the_same_page() {
     let place = Workplace::coarse();
     place.run(&["--out", "run", "--set", "spot.heat_flux=1e8"]).succeeds();
     place.call(&["report", "run", "-o", "page.html"]).succeeds();
@@ -104,7 +104,7 @@ fn warnings_of_a_run_are_reported_with_their_remedies() {
 }
 
 #[test]
-fn a_droplet_is_reported_by_its_particles() {
+fn droplets_are_shown_by_their_particles() {
     let place = Workplace::new();
     fs::write(place.path("drop.toml"), DROP).unwrap();
     place.call(&["report", "drop.toml", "--out", "run"]).succeeds();
@@ -161,7 +161,7 @@ fn folders_that_are_none_of_a_run_are_refused() {
 }
 
 #[test]
-fn a_run_that_was_interrupted_is_reported_as_such() {
+fn interrupted_runs_are_marked() {
     let place = Workplace::coarse();
     place.run(&["--out", "run", "--fields-every", "1"]).succeeds();
     let record = fs::read_to_string(place.path("run/run.json")).unwrap();
@@ -193,7 +193,7 @@ fn files_that_are_no_pages_of_ours_are_replaced_only_if_asked() {
 }
 
 #[test]
-fn a_document_of_another_program_is_drawn_with_its_scenes() {
+fn documents_of_other_programs_are_drawn_with_their_scenes() {
     let place = Workplace::coarse();
     let scene = fs::read_to_string(place.path("scene.toml")).unwrap();
     let document = serde_json::json!({

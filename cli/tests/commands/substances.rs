@@ -5,14 +5,14 @@ use std::fs;
 use super::Workplace;
 
 #[test]
-fn the_list_names_solids_and_fluids_with_their_range() {
+fn solids_and_fluids_are_listed_with_their_range() {
     let text = Workplace::new().call(&["substances"]).succeeds().stdout();
     assert!(text.contains("200 to    1200 K  Copper, pure"), "{text}");
     assert!(text.contains("273.16 to  373.12 K  Water"), "{text}");
 }
 
 #[test]
-fn a_name_shows_constants_and_sources_of_solid_and_melt() {
+fn names_show_constants_of_solid_and_melt() {
     let text = Workplace::new().call(&["substances", "tin"]).succeeds().stdout();
     for part in ["# tin (solid)", "# molten-tin (fluid)", "sources = [", "freezes_at = 505.08"] {
         assert!(text.contains(part), "no {part} in\n{text}");
@@ -20,13 +20,13 @@ fn a_name_shows_constants_and_sources_of_solid_and_melt() {
 }
 
 #[test]
-fn a_misspelt_name_is_refused_with_the_right_one() {
+fn misspelt_names_are_corrected() {
     Workplace::new().call(&["substances", "coper"]).fails(1, &["did you mean `copper`?"]);
 }
 
 /// A page of units and names is checked without a warning.
 #[test]
-fn a_scene_in_units_of_its_field_is_accepted_in_silence() {
+fn scenes_in_customary_units_raise_no_warning() {
     let place = Workplace::new();
     let scene = r#"
 name = "Sheet"
