@@ -4,7 +4,9 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
-/// What the library is compiled from.
+use sha2::{Digest, Sha256};
+
+/// Files and folders that the library is compiled from.
 const SOURCES: [&str; 5] =
     ["Cargo.lock", "Cargo.toml", "closed-form/src", "docs/scene.schema.json", "src"];
 
@@ -15,13 +17,17 @@ fn main() -> io::Result<()> {
         println!("cargo::rerun-if-changed={source}");
         collect(&root.join(source), &mut files)?;
     }
-    let mut checksum = Checksum::new();
+    let mut checksum = Sha256::new();
     for file in files {
         let name = file.strip_prefix(&root).unwrap_or(&file).to_string_lossy().replace('\\', "/");
-        checksum.add(name.as_bytes());
-        checksum.add(&fs::read(&file)?);
+        for part in [name.into_bytes(), fs::read(&file)?] {
+            checksum.update((part.len() as u64).to_le_bytes());
+            checksum.update(part);
+        }
     }
-    println!("cargo::rustc-env=IMPINGE_SOURCES={:016x}", checksum.0);
+    let digest: String =
+        checksum.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect();
+    println!("cargo::rustc-env=IMPINGE_SOURCES={digest}");
     Ok(())
 }
 
@@ -35,20 +41,4 @@ fn collect(path: &Path, files: &mut BTreeSet<PathBuf>) -> io::Result<()> {
         collect(&entry?.path(), files)?;
     }
     Ok(())
-}
-
-/// Fowler–Noll–Vo hash FNV-1a of 64 bits: it distinguishes builds, not forgeries.
-struct Checksum(u64);
-
-impl Checksum {
-    fn new() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
-    }
-
-    /// Adds a part and its length.
-    fn add(&mut self, part: &[u8]) {
-        for byte in part.iter().chain(&(part.len() as u64).to_le_bytes()) {
-            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
-        }
-    }
 }

@@ -160,9 +160,9 @@ impl FieldFile {
         self.arrays.get(name).map(|place| place.components)
     }
 
-    /// Number of tuples of an array, if the file tells it.
+    /// Number of tuples of an array, if the file has it.
     pub fn length(&mut self, name: &str) -> Option<usize> {
-        let at = self.begin + self.arrays.get(name)?.offset;
+        let at = self.begin.saturating_add(self.arrays.get(name)?.offset);
         let mut size = [0; 8];
         self.file.seek(SeekFrom::Start(at)).and_then(|_| self.file.read_exact(&mut size)).ok()?;
         Some(u64::from_le_bytes(size) as usize / 8 / self.components(name)?)
@@ -171,7 +171,7 @@ impl FieldFile {
     /// All numbers of an array.
     pub fn read(&mut self, name: &str) -> Result<Vec<f64>, ReportError> {
         let missing = || damaged(&self.path, &format!("there is no array `{name}`"));
-        let at = self.begin + self.arrays.get(name).ok_or_else(missing)?.offset;
+        let at = self.begin.saturating_add(self.arrays.get(name).ok_or_else(missing)?.offset);
         let whole = fs::metadata(&self.path).map_err(ReportError::read(&self.path))?.len();
         let mut size = [0; 8];
         let read = |file: &mut File, at: u64, into: &mut [u8]| {
