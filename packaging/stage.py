@@ -12,7 +12,7 @@ import subprocess
 from pathlib import Path
 
 PROGRAMS = ["impinge", "build-fmu"]
-# Where shells look for completions of the programs in `bin` beside `share`.
+# Folders below `share` in which shells look for completions.
 COMPLETIONS = {
     "bash": "bash-completion/completions/{}",
     "zsh": "zsh/site-functions/_{}",

@@ -93,9 +93,9 @@ class Chart:
     quantities: list[Quantity]
     methods: list[Method]
     points: str = ""
-    """What the settings at points are: a sentence below the picture."""
+    """Explains the settings at points in a sentence below the picture."""
     has_settings: bool = True
-    """Whether settings stand at the ends of curves: not where these would cover each other."""
+    """True if settings stand at the ends of curves; false where they would cover each other."""
 
 
 @dataclass(frozen=True)

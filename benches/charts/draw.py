@@ -99,7 +99,7 @@ def panel(axes, chart: Chart, quantity, known):
 
 
 def seen(seconds: float, err: float, setting: str, _) -> tuple[float, float, str, str]:
-    """Where a point is drawn, its setting, and its error if that is beyond the edge."""
+    """Place of a point in the picture, its setting, and its error if that is beyond the edge."""
     return seconds, min(err, LARGEST), setting, "" if err <= LARGEST else f"↑ {err:.3g}"
 
 

@@ -164,7 +164,7 @@ fn install(place: &Place) -> PathBuf {
 }
 
 #[test]
-fn an_installation_packs_the_libraries_that_it_shares() {
+fn installed_programs_pack_shared_libraries() {
     let place = Place::new();
     let program = install(&place);
     let pack = |arguments: &str| {

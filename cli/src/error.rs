@@ -60,7 +60,7 @@ pub enum CliError {
     UnknownTemplate { name: String, hint: String, allowed: String },
     #[error("cannot write manual pages to {}: {reason}", folder.display())]
     Pages { folder: PathBuf, reason: io::Error },
-    #[error("{option} is a setting of a run, and {what} is reported as it is; allowed: a scene")]
+    #[error("{option} is a setting of a run, and {what} is not run again; allowed: a scene")]
     NoRun { option: &'static str, what: String },
     #[error(transparent)]
     Report(#[from] ReportError),

@@ -1,4 +1,4 @@
-"""How this package was installed: from which wheel, and with which programs."""
+"""The wheel from which this package was installed, and the programs in it."""
 
 import json
 from importlib.metadata import Distribution, distributions

@@ -137,7 +137,7 @@ class Watched:
 
 
 def near(time: float, size: float) -> float:
-    """How far [s] "just before" and "just after" a time are, for steps of `size` [s]."""
+    """Distance [s] of "just before" and "just after" from a time, for steps of `size` [s]."""
     return max(_NEAR * size, 8 * float(np.spacing(abs(time))))
 
 

@@ -1,4 +1,4 @@
-"""What somebody may have meant who named something that is not there."""
+"""Suggestions for misspelt names."""
 
 import difflib
 from collections.abc import Iterable

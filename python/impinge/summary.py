@@ -73,7 +73,7 @@ class Summary:
 
 
 def listed(names: Iterable[str], joint: str = ", ") -> str:
-    """How many there are, and the first of them."""
+    """The number of items, and the first of them."""
     names = list(names)
     if not names:
         return ""
@@ -88,7 +88,7 @@ def name_with_unit(name: str, unit: str | None, shape: Sequence[int] = ()) -> st
 
 
 def shown_unit(unit: str | None) -> str:
-    """A unit of measurement as it is shown: pure numbers have none."""
+    """A unit of measurement for display; pure numbers have none."""
     return "" if unit in (None, "1") else unit
 
 

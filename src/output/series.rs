@@ -255,10 +255,10 @@ impl Drawing {
 /// Name of the list of all bodies' files; no body has a name with a hyphen.
 const ALL: &str = "all-bodies.pvd";
 
-/// How files show discs, which are modelled in a meridian section.
+/// Form of discs in files; they are modelled in a meridian section.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Discs {
-    /// The section as it is: x is the radius.
+    /// The section, whose x is the radius.
     Sections,
     /// The section turned about the axis; a file is some 25 times as large.
     Revolved,

@@ -20,7 +20,7 @@ pub struct Substance {
     pub text: &'static str,
 }
 
-/// Whether a substance is the material of a solid or the fluid of a droplet.
+/// Kind of a substance: material of a solid or fluid of a droplet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     Solid,

@@ -6,7 +6,7 @@ use serde::Deserialize;
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sheet {
-    /// What it is, in words.
+    /// Name in words, with grade and condition.
     pub title: String,
     /// Further names of it.
     #[serde(default)]

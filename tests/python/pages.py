@@ -126,14 +126,14 @@ class Reader:
 
 
 def alike(shown: str, printed: str) -> bool:
-    """Whether two lines have the same words and, but for `TOLERANCE`, the same numbers."""
+    """True if two lines have the same words and, but for `TOLERANCE`, the same numbers."""
     if re.sub(NUMBER, "#", shown).split() != re.sub(NUMBER, "#", printed).split():
         return False
     return all(map(close, NUMBER.findall(shown), NUMBER.findall(printed)))
 
 
 def close(shown: str, printed: str) -> bool:
-    """Whether numbers agree to `TOLERANCE` or to two units of the last digit that is shown."""
+    """True if numbers agree to `TOLERANCE` or to two units of the last digit that is shown."""
     first, second = (float(text.replace("−", "-")) for text in (shown, printed))
     decimals = len(shown.partition("e")[0].partition(".")[2])
     digit = 0.0 if "e" in shown else 2 * 10.0**-decimals
@@ -153,7 +153,7 @@ def is_crate(words: list[str]):
 
 
 def is_package(words: list[str]):
-    """What pip installs is a folder with a package, or a wheel of this project."""
+    """Checks that pip installs a folder with a package, or a wheel of this project."""
     wanted = words[words.index("install") + 1 :]
     for word in wanted:
         if word.startswith("."):

@@ -1,4 +1,4 @@
-"""What functions in a master must not get wrong in silence: declarations, results, memories."""
+"""Refusals of wrong declarations, results and memories of functions in a master."""
 
 import pickle
 from functools import partial

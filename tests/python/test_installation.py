@@ -1,4 +1,4 @@
-"""What the package knows of its own installation."""
+"""Installations that the package recognises."""
 
 import sys
 

@@ -47,7 +47,7 @@ at = [0.0, 0.0, 0.0]
 gives = ["temperature", "stress"]
 """  # noqa: E501
 
-# What a reader does, and what the page then shows.
+# Actions of a reader, and the state of the page after each.
 READER = """
 addEventListener("load", () => setTimeout(() => {
   const told = {}, first = (path) => document.querySelector(path);

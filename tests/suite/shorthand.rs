@@ -207,7 +207,7 @@ fn temperatures_beyond_the_range_of_a_substance_are_warned_of() {
 
 /// Every substance makes a scene whose values nothing is said about in the middle of its range.
 #[test]
-fn all_substances_make_scenes_without_warnings() {
+fn substances_raise_no_warning_within_their_range() {
     let plate = |name: &str, temperature: f64| {
         format!(
             "name = \"Plate\"\nstop_time = \"1 s\"\nstep = \"0.1 s\"\n[body.plate]\nkind = \"solid\"\n\

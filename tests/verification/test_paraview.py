@@ -1,4 +1,4 @@
-"""What a run writes opens in a viewer: one list has all bodies at all times, and is rendered."""
+"""Files of a run open in a viewer: one list has all bodies at all times, and is rendered."""
 
 import os
 import subprocess
@@ -50,7 +50,7 @@ def run(tmp_path_factory):
 
 
 def at(run, time):
-    """What a viewer reads of all bodies at a time [s]."""
+    """Reads all bodies at a time [s] as a viewer does."""
     reader = pyvista.get_reader(run / "all-bodies.pvd")
     reader.set_active_time_value(time)
     return [block for block in reader.read() if block is not None and block.n_points]

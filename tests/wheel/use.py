@@ -1,4 +1,4 @@
-"""What a user does after `pip install impinge-….whl matplotlib`, in a folder with a scene."""
+"""Uses the package after `pip install impinge-….whl matplotlib`, in a folder with a scene."""
 
 import sys
 import time

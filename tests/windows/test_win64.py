@@ -1,4 +1,4 @@
-"""Windows units under Wine, beside the same units on Linux. Run by `make win64-test`.
+"""Windows units under Wine, compared with the same units on Linux. Run by `make win64-test`.
 
 The libraries for both systems are in the unit, `tests/windows/drive.c` drives both the same way.
 """

@@ -13,7 +13,7 @@ use super::omissions::omissions;
 use super::words::key;
 use crate::units::{engineering, megabytes};
 
-/// What a report says beside the scene.
+/// Results of the check that the report shows.
 pub struct Findings<'f> {
     pub forecast: &'f Forecast,
     pub preparation: &'f Preparation,

@@ -1,4 +1,4 @@
-//! What a scene's model leaves out.
+//! Effects that a scene's model leaves out.
 
 use impinge::model::Forecast;
 use impinge::scene::{Droplet, Scene};

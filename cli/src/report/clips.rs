@@ -75,7 +75,7 @@ impl Frame {
     }
 }
 
-/// What is shown of a droplet.
+/// Part of a droplet that is shown.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Part {
     /// Rings, whose radius is x.
@@ -214,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn a_section_keeps_the_layers_beside_its_middle() {
+    fn sections_keep_the_layers_beside_the_middle() {
         let spacing = 1e-6;
         let y = [-1.5, -0.5, 0.5, 1.5].map(|layers| layers * spacing);
         let frame = Frame {

@@ -170,7 +170,7 @@ impl Cell {
 #[serde(deny_unknown_fields)]
 pub struct Clip {
     pub title: String,
-    /// What part of the droplet is shown.
+    /// Part of the droplet that is shown.
     pub about: String,
     pub axes: [String; 2],
     /// x0, y0, x1, y1 [m].
@@ -257,7 +257,7 @@ pub struct Mark {
 #[serde(deny_unknown_fields)]
 pub struct Histories {
     pub axis: Axis,
-    /// What is left out of the run's rows.
+    /// Note on rows and variables that are left out.
     #[serde(default)]
     pub note: String,
     pub series: Vec<Series>,

@@ -289,7 +289,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_revolved_section_has_its_radii_and_heights_back() {
+    fn radii_and_heights_follow_from_a_revolved_section() {
         let mut position = Vec::new();
         for z in [-1.0, -0.5, 0.0] {
             for angle in [0.0f64, 2.0, 4.0, 0.0] {

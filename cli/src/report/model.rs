@@ -1,4 +1,4 @@
-//! What a scene models, what was reduced and why, what is left out.
+//! The model of a scene: bodies, reductions with their reasons, and omissions.
 
 use impinge::model::{BodyForecast, DropletForecast, Timeline, forecast};
 use impinge::scene::Scene;

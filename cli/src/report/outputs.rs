@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn a_row_that_a_killed_run_has_begun_is_left_out() {
+    fn incomplete_last_rows_are_left_out() {
         assert_eq!(table("time [s],a [K]\n0.0,1.0\n1.0").unwrap().times, [0.0]);
         assert!(table("time [s],a [K]\n").is_err());
         assert!(table("t,a\n0,1\n").is_err());

@@ -1,4 +1,4 @@
-//! What a run says of itself, in `run.json` beside its files: the scene as it ran, messages, choices and times.
+//! The record of a run in `run.json` beside its files: its scene with all choices, messages and times.
 
 use std::fs;
 use std::path::Path;
@@ -20,7 +20,7 @@ pub const FILE: &str = "run.json";
 /// Version of the file.
 const FORMAT: u32 = 1;
 
-/// A run, told by itself.
+/// The record of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Story {

@@ -1,4 +1,4 @@
-"""What a Python function takes and gives as a unit of a master."""
+"""Declaration of a Python function as a unit of a master."""
 
 from __future__ import annotations
 
@@ -79,12 +79,12 @@ class Function:
 
     @property
     def has_state(self) -> bool:
-        """Whether it has a memory."""
+        """True if it has a memory."""
         return STATE in self.takes
 
     @property
     def follows_inputs(self) -> bool:
-        """Whether any output follows an input at once."""
+        """True if any output follows an input at once."""
         return any(self.dependencies.values())
 
     def open(self, name: str | None = None, time: float = 0.0) -> FunctionUnit:
@@ -101,7 +101,7 @@ class Function:
         more = f", {', '.join(words)}" if words else ""
         return f"<impinge.Function {self.name}({ends[0]}) -> {ends[1]}{more}>"
 
-    # What is declared
+    # Declaration
 
     def _fault(self, what: str, variable: str | None = None) -> FunctionError:
         return FunctionError(f"Function {self.name}: {what}", self.name, variable=variable)

@@ -1,4 +1,4 @@
-"""What a Python function has returned, as the values of its outputs."""
+"""Conversion of the results of a Python function to values of its outputs."""
 
 from __future__ import annotations
 

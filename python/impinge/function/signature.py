@@ -1,4 +1,4 @@
-"""What a Python function takes: the inputs that are declared, and what a master adds to them."""
+"""Parameters of a Python function: its declared inputs, and those that a master adds."""
 
 from __future__ import annotations
 

@@ -77,7 +77,7 @@ class FunctionUnit:
         self.ends_at_jump = self.begins_at_jump = False
 
     def _dependency_mask(self) -> np.ndarray:
-        """Whether values of outputs (rows) follow those of inputs (columns) at once."""
+        """True where values of outputs (rows) follow those of inputs (columns) at once."""
         mask = np.zeros((len(self.values) - self._count, self._count), bool)
         for output, inputs in self.function.dependencies.items():
             for name in inputs:
@@ -93,7 +93,7 @@ class FunctionUnit:
     def _place(self, variable: Variable) -> slice:
         return self._places[int(variable.references[0])]
 
-    # What there is
+    # Variables
 
     @property
     def scene(self) -> str:
@@ -129,7 +129,7 @@ class FunctionUnit:
 
     @property
     def can(self) -> Capabilities:
-        """What it can do: all that has to do with states, unless it has no rollback."""
+        """Its capabilities: all that concern states, unless it has no rollback."""
         return Capabilities(
             states=self.function.rollback,
             serialise=False,
@@ -144,13 +144,13 @@ class FunctionUnit:
 
     @property
     def takes_ends(self) -> bool:
-        """Whether its memory knows of inputs at the ends of steps alone."""
+        """True if its memory knows of inputs at the ends of steps alone."""
         function = self.function
         return function.has_state and BEFORE not in function.takes and function.follows_inputs
 
     @property
     def takes_means(self) -> bool:
-        """Whether it is called with the means of inputs over steps."""
+        """True if it is called with the means of inputs over steps."""
         function = self.function
         return function.has_state and BEFORE not in function.takes and not function.follows_inputs
 
@@ -161,7 +161,7 @@ class FunctionUnit:
 
     @property
     def identity(self) -> str:
-        """What records call it."""
+        """Its name in records."""
         return f"function {self.function.name}"
 
     def depends_on(self, output: str) -> set[str]:

@@ -1,4 +1,4 @@
-"""What a master couples."""
+"""The types that a master couples."""
 
 from impinge.function import FunctionUnit
 from impinge.unit import Unit

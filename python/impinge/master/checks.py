@@ -130,7 +130,7 @@ def check_memoryless(names: Collection[str], units: Mapping[str, AnyUnit]) -> No
 
 
 def check_set(function: FunctionUnit, names: Collection[str]) -> None:
-    """Whether every input of a function has a value: from a connection, `inputs` or its start."""
+    """Checks that a connection, `inputs` or its start gives every input of a function a value."""
     stems = {stem_of(name) for name in names}
     for name in function.inputs:
         if name not in stems and name not in function.function.started:
@@ -143,7 +143,7 @@ def check_set(function: FunctionUnit, names: Collection[str]) -> None:
 def check_rollback(
     functions: Collection[FunctionUnit], repeated: Collection[str], is_adaptive: bool
 ) -> None:
-    """Whether functions that are called once a step are in no step that may be repeated."""
+    """Checks that functions that are called once a step are in no step that may be repeated."""
     for function in functions:
         if function.can.states or not (is_adaptive or function.name in repeated):
             continue

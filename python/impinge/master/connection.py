@@ -166,7 +166,7 @@ def links(connections: Iterable[Any], units: Mapping[str, AnyUnit]) -> list[Link
 
 
 def _pass_means_on(links: list[Link], units: Mapping[str, AnyUnit]) -> None:
-    """What a function without a state makes of means alone belongs to the whole step, too."""
+    """Results of a function without a state that gets means alone are means over the step, too."""
     memoryless = {
         name
         for name, unit in units.items()

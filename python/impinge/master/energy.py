@@ -182,7 +182,7 @@ def _is_temperature(name: str, units: Mapping[str, AnyUnit]) -> bool:
 
 
 def _factor(link: Link, units: Mapping[str, AnyUnit]) -> float:
-    """What one of the target's unit of measurement is in SI's."""
+    """Factor from the target's unit of measurement to that of the SI."""
     unit = units[link.target_unit]
     found = unit.measure(unit.variable(link.target).unit)
     return 1.0 if found is None else found.factor

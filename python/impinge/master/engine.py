@@ -36,7 +36,7 @@ class Component:
 
     @property
     def has_guesses_left(self) -> bool:
-        """Whether targets may stand at guesses after a step: those that were not iterated."""
+        """True for targets that may keep guesses after a step because they were not iterated."""
         return bool(self.guessed) and not (self.iterates and self.real.all())
 
 

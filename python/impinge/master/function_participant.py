@@ -17,7 +17,7 @@ class FunctionParticipant(Participant):
     unit: FunctionUnit
 
     def connect(self, names: Sequence[str], paths: np.ndarray, order: int) -> None:
-        """Makes the calls; `paths` tells which values among the inputs may follow polynomials."""
+        """Makes the calls; `paths` marks the inputs whose values may follow polynomials."""
         self.names = list(names)
         self.writer = self.unit.writer(names) if names else None
         self.order = min(order, self.unit.can.interpolates)

@@ -599,7 +599,7 @@ def _function(name: str, value: Any, shape: tuple[int, ...]) -> Watched:
 
 
 def _told(unit: Unit | FunctionUnit) -> str:
-    """What a unit is, in short."""
+    """Describes a unit in short."""
     if isinstance(unit, Unit):
         return f"{unit.name} (FMI {unit.package.fmi})"
     return f"function {unit.function.name}"

@@ -30,7 +30,7 @@ MAP_TIMES, PROFILE_TIMES = 30, 200
 
 
 def coupled(result: xr.Dataset) -> dict[str, Any]:
-    """What a master has recorded, with balances and notes."""
+    """The record of a master, with balances and notes."""
     told = result.attrs
     names = [key.removeprefix("unit.") for key in told if key.startswith("unit.")]
     recorded = {str(n): a for n, a in result.data_vars.items() if not str(n).startswith(ENERGY)}
@@ -69,7 +69,7 @@ def _units(told: dict[str, Any], names: list[str]) -> list[dict[str, str]]:
 
 
 def _coupling(told: dict[str, Any]) -> list[dict[str, str]]:
-    """How units are coupled, and what that took."""
+    """Facts on the coupling of units and its cost."""
     words = {
         "scheme": "scheme",
         "acceleration": "acceleration",
@@ -140,7 +140,7 @@ def _map(result: xr.Dataset, array: xr.DataArray, count: int) -> dict[str, Any] 
 
 
 def _radii(result: xr.Dataset, name: str, count: int) -> dict[str, Any]:
-    """Radii of rings; places by number where the unit tells none."""
+    """Radii of rings; places by number where the unit has none."""
     keys = [f"{name}:{what}" for what in ("r", "inner", "outer")]
     if all(key in result.coords for key in keys):
         middle, inner, outer = (result.coords[key].values for key in keys)

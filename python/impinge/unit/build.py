@@ -17,7 +17,7 @@ PROGRAM = "build-fmu" + (".exe" if sys.platform == "win32" else "")
 
 
 def find_program(name: str = PROGRAM) -> Path:
-    """Where the program is: in the folder that IMPINGE_BIN names, among the files installed with
+    """Path of the program: in the folder that IMPINGE_BIN names, among the files installed with
     this package, on PATH, or in target/release of a checkout: the one that holds this package, or
     the one that holds the current folder."""
     said = os.environ.get("IMPINGE_BIN")
@@ -112,7 +112,7 @@ LIBRARIES = {
 
 
 def _libraries(program: Path) -> list[Path]:
-    """Where `build-fmu` looks for libraries."""
+    """Folders in which `build-fmu` looks for libraries."""
     folder = program.resolve().parent
     beside = [folder / name for name in dict.fromkeys(LIBRARIES.values())]
     folders = [folder, folder.parent / "share/impinge"]

@@ -93,7 +93,7 @@ class Package:
 
     @property
     def is_own(self) -> bool:
-        """Whether impinge has made the unit."""
+        """True if impinge has made the unit."""
         return (self.description.generationTool or "").startswith("impinge")
 
     def of_causality(self, *causalities: str) -> dict[str, Variable]:

@@ -204,7 +204,7 @@ class Unit:
         return self.package.measure(unit)
 
     def is_mean(self, name: str) -> bool:
-        """Whether an output is a mean over the last step, as impinge's units describe theirs."""
+        """True if an output is a mean over the last step, as impinge's units describe theirs."""
         return self.package.is_own and "mean over the last step" in self.variable(name).description
 
     @property

@@ -9,7 +9,7 @@ pub struct Refusal {
     pub allowed: String,
 }
 
-/// What a text is to be.
+/// The number that is wanted of a text.
 #[derive(Clone, Copy)]
 pub struct Wanted<'w> {
     /// SI unit of the number, in the words of the schema.

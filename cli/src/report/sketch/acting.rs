@@ -1,4 +1,4 @@
-//! What acts on solids and is read of them: loads, drops, walls, probes, fields.
+//! Sketches of loads, drops and walls on solids, and of probes and fields in them.
 
 use impinge::scene::{Droplet, FaceName, Footprint, Load, Place, Plane, Scene, Solid, Wall};
 

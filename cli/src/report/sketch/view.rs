@@ -161,7 +161,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_acts_on_a_small_part_has_a_detail() {
+    fn small_loads_have_a_detail() {
         let mut drawing = Drawing::default();
         drawing.rectangle("solid", [-1.0, -0.2, 1.0, 0.0], Words::none());
         drawing.disc("drop", [0.0, 0.05], 0.05, Words::none());
@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn what_acts_on_most_of_a_body_has_none() {
+    fn wide_loads_have_no_detail() {
         let mut drawing = Drawing::default();
         drawing.rectangle("solid", [-1.0, -0.2, 1.0, 0.0], Words::none());
         drawing.disc("load", [0.0, 0.0], 0.8, Words::none());
