@@ -143,7 +143,7 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
         complain(&format!("note: {note}"));
     }
     let (scene, warnings) =
-        advice::parse_with_warnings(&text, &file).map_err(|error| error.to_string())?;
+        advice::parse_with_warnings(&text, &file).map_err(|error| error.with_excerpts())?;
     for warning in warnings {
         complain(&format!("warning: {warning}"));
     }

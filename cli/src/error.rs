@@ -13,7 +13,7 @@ use super::set::SetErrors;
 /// Reasons why a command failed.
 #[derive(Debug, thiserror::Error)]
 pub enum CliError {
-    #[error(transparent)]
+    #[error("{}", .0.with_excerpts())]
     Scene(#[from] SceneError),
     #[error(transparent)]
     Set(#[from] SetErrors),

@@ -90,8 +90,9 @@ pub struct Options {
 }
 
 fn positive(text: &str) -> Result<f64, &'static str> {
-    let value = text.parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0);
-    value.ok_or("expected a positive number of seconds")
+    let value = text.parse().ok().or_else(|| scene::quantity(text, "s", false).ok());
+    let value = value.filter(|value: &f64| value.is_finite() && *value > 0.0);
+    value.ok_or("expected a positive number of seconds, or a text such as \"20 ms\"")
 }
 
 impl Options {

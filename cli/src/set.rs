@@ -3,7 +3,8 @@ use std::fmt;
 use std::str::FromStr;
 
 use impinge::limits::Bounds;
-use impinge::scene::Scene;
+use impinge::quantity::Quantity;
+use impinge::scene::{self, Scene};
 use impinge::variables::{Causality, Registry, Slot, Value, Variable};
 use impinge::warning::Warning;
 
@@ -135,13 +136,17 @@ fn put(
     Ok(())
 }
 
-/// Parses a finite number within the variable's bounds, whole if the variable is.
+/// Parses a finite number within the variable's bounds, whole if the variable is; texts with units stand for numbers.
 pub fn number(variable: &Variable, text: &str) -> Result<f64, SetError> {
+    let with_unit = || {
+        let is_temperature = variable.quantity == Some(Quantity::Temperature);
+        scene::quantity(text, variable.unit()?, is_temperature).ok()
+    };
     let is_whole = matches!(variable.start, Some(Value::Integer(_)));
     let fits = |value: &f64| {
         value.is_finite() && variable.bounds.hold(*value) && (!is_whole || value.fract() == 0.0)
     };
-    text.parse().ok().filter(fits).ok_or_else(|| SetError::Value {
+    text.parse().ok().or_else(with_unit).filter(fits).ok_or_else(|| SetError::Value {
         name: variable.name.clone(),
         value: text.to_owned(),
         expected: expectation(variable, is_whole),

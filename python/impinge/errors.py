@@ -41,14 +41,21 @@ class FunctionError(UnitError):
     """A `Function` does not fit what it declares, or fails; what it raised itself is the cause.
 
     `function` is its name in the master, `time` [s] when it failed, None while it is made, and
-    `variable` the input or output at fault, if it is one.
+    `variable` the input or output at fault, if it is one. `is_refusal` says that it could not bear
+    the values of its inputs, so that others, nearer to the last ones, may be tried.
     """
 
     def __init__(
-        self, what: str, function: str = "", time: float | None = None, variable: str | None = None
+        self,
+        what: str,
+        function: str = "",
+        time: float | None = None,
+        variable: str | None = None,
+        is_refusal: bool = False,
     ):
         super().__init__(what)
         self.function, self.time, self.variable = function, time, variable
+        self.is_refusal = is_refusal
 
 
 class StudyError(ImpingeError, RuntimeError):

@@ -30,7 +30,7 @@ impl Material {
     /// Returns the constants at a temperature [K], without latent heat.
     pub fn at(&self, temperature: f64) -> Constants {
         let value = |property: &Property| property.value(temperature);
-        let Elasticity { young, poisson, expansion } = self.law.deformation().elasticity();
+        let Elasticity { young, poisson, expansion, .. } = self.law.deformation().elasticity();
         Constants {
             density: self.heat.density,
             specific_heat: value(&self.heat.specific_heat),

@@ -27,11 +27,11 @@ impl CsvTable {
         if let Some(folder) = path.parent() {
             fs::create_dir_all(folder).map_err(OutputError::at("create the folder", folder))?;
         }
-        // A link is replaced, not written through.
-        if path.is_symlink() {
+        // A link is replaced, not written through, and a pipe would wait for its reader.
+        if path.symlink_metadata().is_ok() {
             fs::remove_file(path).map_err(OutputError::at("replace", path))?;
         }
-        let file = File::create(path).map_err(OutputError::at("create", path))?;
+        let file = File::create_new(path).map_err(OutputError::at("create", path))?;
         let mut header = vec!["time [s]".to_owned()];
         let mut columns = Vec::new();
         for variable in Registry::of(model.scene()).variables {

@@ -5,6 +5,7 @@ mod csv;
 mod error;
 mod forecast;
 mod lock;
+mod replace;
 mod series;
 mod vtk;
 
@@ -12,4 +13,5 @@ pub use csv::CsvTable;
 pub use error::OutputError;
 pub use forecast::FilesForecast;
 pub use lock::FolderLock;
+pub use replace::replace;
 pub use series::{Discs, FieldSeries};

@@ -28,8 +28,17 @@ fn read() -> Option<Usage> {
     let unit = if cfg!(target_vendor = "apple") { 1.0 } else { 1024.0 };
     Some(Usage {
         processor_time: seconds(usage.ru_utime) + seconds(usage.ru_stime),
-        peak_memory: unit * usage.ru_maxrss as f64,
+        peak_memory: peak_of_this_program().unwrap_or(unit * usage.ru_maxrss as f64),
     })
+}
+
+/// Largest resident memory of this program [B]; Linux counts in `ru_maxrss` that of the program that started it, too.
+#[cfg(unix)]
+fn peak_of_this_program() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let kilobytes: f64 = line.trim().strip_suffix("kB")?.trim_end().parse().ok()?;
+    Some(1024.0 * kilobytes)
 }
 
 #[cfg(not(unix))]

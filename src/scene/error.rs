@@ -3,6 +3,8 @@
 use std::borrow::Cow;
 use std::fmt;
 
+use super::excerpt::Excerpt;
+
 /// One error of a scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
@@ -18,6 +20,8 @@ pub struct Problem {
     pub message: String,
     /// The allowed values.
     pub allowed: String,
+    /// The line of the scene's text; `None` if it has none.
+    pub excerpt: Option<Excerpt>,
 }
 
 impl Problem {
@@ -57,6 +61,15 @@ impl SceneError {
         }
         problems.sort_by_key(|problem| problem.line);
         Err(Self { problems })
+    }
+
+    /// Returns each problem with the line of the scene below it, for a terminal.
+    pub fn with_excerpts(&self) -> String {
+        let shown = |problem: &Problem| match &problem.excerpt {
+            Some(excerpt) => format!("{problem}\n{excerpt}"),
+            None => problem.to_string(),
+        };
+        self.problems.iter().map(shown).collect::<Vec<_>>().join("\n")
     }
 }
 

@@ -9,7 +9,9 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{Problem, SceneError};
+use super::excerpt::Excerpt;
 use super::shorthand::NamedSubstance;
+use super::slip;
 
 /// Largest length of source text in a message.
 const LONGEST_VALUE: usize = 60;
@@ -186,20 +188,34 @@ impl<'a> Source<'a> {
 
     /// A problem with the value at `path`; if it is missing, with its table.
     pub fn problem(&self, path: &Path, message: String, allowed: String) -> Problem {
+        // The innermost table around a missing value.
+        let around = (0..=path.0.len()).rev().find_map(|steps| self.node(&path.0[..steps]));
+        let span = around.map_or(0..0, Spanned::span);
         Problem {
             file: self.file.clone(),
-            line: Some(self.line(path)),
+            line: Some(self.line_of_offset(span.start)),
             path: path.to_string(),
             value: self.node(&path.0).map(|node| self.text_of(node)).unwrap_or_default(),
             message,
             allowed,
+            excerpt: self.excerpt(&span),
         }
     }
 
-    /// Line of the value at `path`, or of the innermost table around it.
-    fn line(&self, path: &Path) -> usize {
-        let around = (0..=path.0.len()).rev().find_map(|steps| self.node(&path.0[..steps]));
-        around.map_or(1, |node| self.line_of_offset(node.span().start))
+    /// A problem with the last key of `path`, whatever its value.
+    pub fn problem_of_key(&self, path: &Path, message: String, allowed: String) -> Problem {
+        let problem = self.problem(path, message, allowed);
+        let Some(DeValue::Table(table)) = self.value(&path.parent()) else { return problem };
+        let key = table.keys().find(|key| key.get_ref() == path.last_key());
+        let excerpt = key.and_then(|key| self.excerpt(&key.span()));
+        Problem { excerpt: excerpt.or(problem.excerpt.clone()), ..problem }
+    }
+
+    fn excerpt(&self, span: &Range<usize>) -> Option<Excerpt> {
+        if span.is_empty() && span.start == 0 {
+            return None;
+        }
+        Excerpt::new(self.text, &self.ends, span)
     }
 
     fn node(&self, steps: &[Step]) -> Option<&Spanned<DeValue<'a>>> {
@@ -237,7 +253,10 @@ impl<'a> Source<'a> {
 
     fn not_toml(&self, error: &toml::de::Error) -> Problem {
         let span = error.span().unwrap_or(self.text.len()..self.text.len());
+        let excerpt = self.excerpt(&span);
+        let line = self.text.lines().nth(self.line_of_offset(span.start) - 1).unwrap_or_default();
         let (message, allowed) = match error.message().split_once(", expected ") {
+            _ if let Some(slip) = slip::explanation(line) => slip,
             Some((message, expected)) => (message, expected),
             None if error.message() == "duplicate key" => ("duplicate key", "each key once"),
             None => (error.message(), "TOML 1.0"),
@@ -249,6 +268,7 @@ impl<'a> Source<'a> {
             value: shortened(self.text.get(span).unwrap_or_default()),
             message: format!("not TOML: {message}"),
             allowed: allowed.to_owned(),
+            excerpt,
         }
     }
 }

@@ -10,6 +10,7 @@ mod decode;
 mod droplet;
 mod droplet_symmetry;
 mod error;
+mod excerpt;
 mod file;
 mod footprint;
 mod grid;
@@ -25,6 +26,7 @@ mod reservoir;
 mod sampling;
 pub(crate) mod schema;
 mod shorthand;
+mod slip;
 mod spelling;
 mod types;
 mod whole;
@@ -53,7 +55,7 @@ pub use refinement::MeshFactors;
 pub use reservoir::Reservoir;
 pub use sampling::{FieldCells, Sampling};
 pub use schema::{SCHEMA, derived_schema};
-pub use shorthand::NamedSubstance;
+pub use shorthand::{NamedSubstance, quantity};
 pub use spelling::hint;
 pub use types::*;
 
@@ -78,6 +80,7 @@ pub fn text_of(path: &Path, file: &str) -> Result<String, SceneError> {
         value: String::new(),
         message,
         allowed,
+        excerpt: None,
     };
     let unreadable = |error: io::Error| {
         problem(format!("cannot be read: {error}"), "a readable text file in UTF-8".to_owned())
@@ -129,10 +132,12 @@ pub fn check(scene: &Scene) -> Result<(), SceneError> {
         value: String::new(),
         message: format!("cannot be written as text: {error}"),
         allowed: "values that a scene can hold".to_owned(),
+        excerpt: None,
     })?;
     check::check(scene, &Source::parse(&text, file)?, &Schema::of_scenes()).map_err(|mut error| {
         for problem in &mut error.problems {
             problem.line = None;
+            problem.excerpt = None;
             // In TOML's notation, extreme numbers have hundreds of digits.
             if let Ok(value) = problem.value.parse() {
                 problem.value = check::number(value);

@@ -5,12 +5,19 @@ const SHORTEST_BEGINNING: usize = 3;
 
 /// The known word most similar to another one, or of which that is a prefix.
 pub fn meant<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let begins = |known: &str| word.len() >= SHORTEST_BEGINNING && known.starts_with(word);
+    let begins = |known: &str| {
+        word.len() >= SHORTEST_BEGINNING && (known.starts_with(word) || is_plural(word, known))
+    };
     known
         .map(|known| (if begins(known) { 1 } else { edits(word, known) }, known))
         .filter(|&(edits, known)| edits <= 2 && edits < known.len())
         .min_by_key(|&(edits, _)| edits)
         .map(|(_, known)| known)
+}
+
+/// Returns true for `bodies` of `body`.
+fn is_plural(word: &str, known: &str) -> bool {
+    word.strip_suffix("ies").is_some_and(|stem| known.strip_suffix('y') == Some(stem))
 }
 
 /// `" (did you mean …?)"` if a known word is similar.
@@ -50,6 +57,7 @@ mod tests {
         let known = ["shear", "pressure", "heat_flux"];
         assert_eq!(meant("heat", known.into_iter()), Some("heat_flux"));
         assert_eq!(meant("shaer", known.into_iter()), Some("shear"));
+        assert_eq!(meant("bodies", ["load", "body"].into_iter()), Some("body"));
         assert_eq!(meant("he", known.into_iter()), None);
     }
 

@@ -1,11 +1,12 @@
 """Refusals of wrong declarations, results and memories of functions in a master."""
 
 import pickle
+import signal
 from functools import partial
 
 import numpy as np
 import pytest
-from impinge import Function, FunctionError, Master, UnitError
+from impinge import Connection, Function, FunctionError, Master, UnitError
 from impinge.master import MasterError
 from linear_unit import make
 
@@ -271,3 +272,101 @@ def test_functions_say_what_they_are():
         "<impinge.Function pid(T [K]) -> q [W/m2], with a state, without rollback, sampled>"
     )
     assert repr(pid.open("left", 2.0)) == "<impinge.FunctionUnit left (function pid) at 2.0 s>"
+
+
+def store(folder):
+    """A store of 1 J/K that takes a heat flow and gives its temperature."""
+    told = {"u_unit": "W", "y_unit": "K", "x": [400.0]}
+    return make(folder, "store", [0.0], [1.0], [1.0], **told)
+
+
+RING = [("body.y", "law.T"), ("law.q", "body.u")]
+
+
+def coupled(folder, f, stop=1.0, scheme="iterate", outputs=None, **options):
+    law = Function(f, {"T": "K"}, outputs or {"q": "W"}, **options)
+    units = {"body": store(folder), "law": law}
+    with Master(units, RING, step=0.05, scheme=scheme) as master:
+        return master.run(stop)
+
+
+@pytest.mark.parametrize("scheme", ["jacobi", "gauss-seidel"])
+def test_a_false_declaration_of_no_dependence_is_found(folder, scheme):
+    with pytest.raises(FunctionError, match="`q` follows inputs that `depends_on` does not name"):
+        coupled(folder, lambda T: 2.0 * (300.0 - T), scheme=scheme, depends_on={"q": []})
+
+
+@pytest.mark.parametrize("first", [3, 20, 50])
+def test_memory_that_shows_late_is_found(folder, first):
+    calls = []
+
+    def law(T):
+        calls.append(T)
+        return 2.0 * (300.0 - T) + (1e-3 * len(calls) if len(calls) >= first else 0.0)
+
+    with pytest.raises(FunctionError, match="`q` differs when it is called twice"):
+        coupled(folder, law, stop=3.0)
+
+
+def test_an_exception_that_no_other_input_would_spare_ends_the_run(folder):
+    calls = []
+
+    def law(T):
+        calls.append(T)
+        if len(calls) == 20:
+            raise KeyError("table")
+        return 2.0 * (300.0 - T)
+
+    with pytest.raises(FunctionError, match="fails with KeyError: 'table'"):
+        coupled(folder, law)
+
+
+def test_ctrl_c_ends_a_run_after_a_step_and_another_goes_on(folder):
+    pressed = []
+
+    def law(T, time):
+        if time > 0.5 and not pressed:
+            pressed.append(time)
+            signal.raise_signal(signal.SIGINT)
+        return 2.0 * (300.0 - T)
+
+    units = {"body": store(folder), "law": Function(law, {"T": "K"}, {"q": "W"})}
+    with Master(units, RING, step=0.05) as master:
+        with pytest.raises(KeyboardInterrupt):
+            master.run(1.0)
+        assert 0.5 < master.time < 0.7
+        result = master.run(1.0)
+    whole = coupled(folder, lambda T: 2.0 * (300.0 - T))
+    assert result["body.y"].values == pytest.approx(whole["body.y"].values, rel=1e-12)
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        ({"units": [1]}, "units is \\[1\\]; a mapping of names to units is needed"),
+        ({"units": {"": 1}}, "names of units are texts without dots"),
+        ({"outputs": "body.y"}, "outputs is 'body.y'; a list of names is needed"),
+        ({"inputs": {"body.u": "warm"}}, "inputs: body.u is 'warm'; a number or a function"),
+        ({"inputs": {"body.u": np.nan}}, "inputs: body.u is nan, which is not finite"),
+    ],
+)
+def test_wrong_arguments_of_masters_are_named(folder, options, told):
+    units = options.pop("units", {"body": store(folder)})
+    with pytest.raises(MasterError, match=told), Master(units, step=0.1, **options) as master:
+        master.run(0.1)
+
+
+@pytest.mark.parametrize(
+    ("mapped", "told"),
+    [
+        (lambda q: 1 / 0, "the map of law.q -> body.u fails with ZeroDivisionError"),
+        (lambda q: "much", "the map of law.q -> body.u gives 'much', which is no real numbers"),
+    ],
+)
+def test_maps_that_fail_are_named(folder, mapped, told):
+    law = Function(lambda T: 1.0, {"T": "K"}, {"q": "W"})
+    links = [("body.y", "law.T"), Connection("law.q", "body.u", map=mapped)]
+    with pytest.raises(MasterError, match=told):
+        with Master({"body": store(folder), "law": law}, links, step=0.1) as master:
+            master.run(0.1)

@@ -205,3 +205,35 @@ def test_drops_on_the_film_of_others_are_told_of_as_a_run_ends(folder, apart, is
         assert (unit["drop.overlapping"] > 0) == is_told
     told = [text for status, _, text in heard if "came down on the film of another" in text]
     assert len(told) == is_told
+
+
+@both
+@pytest.mark.parametrize("is_done", [False, True])
+def test_a_step_that_ctrl_c_breaks_into_leaves_a_unit_that_goes_on(pack, monkeypatch, fmi, is_done):
+    with Unit(pack("tiles", fmi=fmi)) as unit, Unit(pack("tiles", fmi=fmi)) as other:
+        for each in (unit, other):
+            each["patch.heat_flux"] = 1e7
+            each.step(1e-5)
+        call = unit.slave._do_step
+
+        def interrupted(*arguments):
+            if is_done:
+                call(*arguments)
+            raise KeyboardInterrupt
+
+        monkeypatch.setattr(unit.slave, "_do_step", interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            unit.step(1e-5)
+        monkeypatch.setattr(unit.slave, "_do_step", call)
+        assert unit.time == (2e-5 if is_done else 1e-5)
+        unit.step(1e-5)
+        for _ in range(2 if is_done else 1):
+            other.step(1e-5)
+        names = list(unit.outputs)
+        assert unit.time == other.time
+        assert np.array_equal(unit.get(names), other.get(names))
+
+
+def test_what_is_no_state_is_refused(pack):
+    with Unit(pack("tiles")) as unit, pytest.raises(UnitError, match="None is no state"):
+        unit.restore(None)

@@ -1,6 +1,8 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use impinge::output::OutputError;
+
 /// Reasons why there is no report.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
@@ -22,6 +24,8 @@ pub enum ReportError {
     Document { path: PathBuf, reason: serde_json::Error, allowed: u32 },
     #[error("{} exists; allowed: another name (-o), or --overwrite", path.display())]
     Exists { path: PathBuf },
+    #[error(transparent)]
+    Output(#[from] OutputError),
     #[error("cannot write the document: {0}")]
     Json(#[from] serde_json::Error),
 }

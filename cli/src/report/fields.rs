@@ -3,15 +3,19 @@
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{Read, Seek, SeekFrom};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
+
+use impinge::scene::open_file;
 
 use super::error::ReportError;
 
 /// Largest list of files, and largest head of a field file [B].
 const MOST_HEAD: u64 = 64_000_000;
+/// Largest array of a field file [B].
+const LARGEST_ARRAY: u64 = 1_000_000_000;
 /// Begin of the numbers of a field file.
 const MARKER: &[u8] = b"<AppendedData encoding=\"raw\">_";
 
@@ -29,7 +33,7 @@ impl Frames {
             return Ok(None);
         }
         let mut text = String::new();
-        let file = File::open(&path).map_err(ReportError::read(&path))?;
+        let file = open_file(&path).map_err(ReportError::read(&path))?;
         file.take(MOST_HEAD).read_to_string(&mut text).map_err(ReportError::read(&path))?;
         let mut files = Vec::new();
         for start in elements(&text, &path)? {
@@ -39,6 +43,9 @@ impl Frames {
             let time =
                 start.number("timestep").ok_or_else(|| damaged(&path, "a time is missing"))?;
             let file = start.text("file").ok_or_else(|| damaged(&path, "a file is missing"))?;
+            if Path::new(file).components().any(|part| !matches!(part, Component::Normal(_))) {
+                return Err(damaged(&path, "a file is not in its folder"));
+            }
             files.push((time, folder.join(file)));
         }
         Ok((!files.is_empty()).then_some(Self { files }))
@@ -125,7 +132,7 @@ fn damaged(path: &Path, what: &str) -> ReportError {
 impl FieldFile {
     /// Reads the head of a file.
     pub fn open(path: &Path) -> Result<Self, ReportError> {
-        let mut file = File::open(path).map_err(ReportError::read(path))?;
+        let mut file = open_file(path).map_err(ReportError::read(path))?;
         let (mut head, mut at) = (Vec::new(), None);
         let mut part = [0; 1 << 14];
         while at.is_none() {
@@ -181,6 +188,9 @@ impl FieldFile {
         let size = u64::from_le_bytes(size);
         if at.saturating_add(8).saturating_add(size) > whole {
             return Err(damaged(&self.path, &format!("the array `{name}` is cut short")));
+        }
+        if size > LARGEST_ARRAY {
+            return Err(damaged(&self.path, &format!("the array `{name}` has {size} bytes")));
         }
         let mut bytes = vec![0; size as usize];
         read(&mut self.file, at + 8, &mut bytes).map_err(ReportError::read(&self.path))?;

@@ -18,10 +18,12 @@ mod sketch;
 mod story;
 
 use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use impinge::scene;
+use impinge::output::replace;
+use impinge::scene::{self, bytes_of};
 
 use super::CliError;
 use super::run::{Options, Run};
@@ -76,16 +78,25 @@ impl Report {
 fn written(document: &Document, path: &Path, overwrites: bool) -> Result<String, ReportError> {
     refuse_foreign(path, overwrites)?;
     let html = page::page(document)?;
-    if path.is_symlink() {
-        fs::remove_file(path).map_err(ReportError::write(path))?;
-    }
-    fs::write(path, html).map_err(ReportError::write(path))?;
+    replace(path, |out| out.write_all(html.as_bytes()))?;
     Ok(format!("report in {}\n", path.display()))
+}
+
+/// Largest file that is read as a whole [B].
+const LARGEST: u64 = 1_000_000_000;
+
+/// Reads a file of text.
+fn text_of(path: &Path) -> Result<String, ReportError> {
+    let bytes = bytes_of(path, LARGEST).map_err(ReportError::read(path))?;
+    String::from_utf8(bytes).map_err(|_| ReportError::Damaged {
+        path: path.to_owned(),
+        what: "it is no text in UTF-8".to_owned(),
+    })
 }
 
 /// Refuses to replace a file that is no page of this command.
 fn refuse_foreign(path: &Path, overwrites: bool) -> Result<(), ReportError> {
-    let is_own = || fs::read_to_string(path).is_ok_and(|text| text.contains(MARK));
+    let is_own = || text_of(path).is_ok_and(|text| text.contains(MARK));
     match path.symlink_metadata().is_ok() && !overwrites && !is_own() {
         true => Err(ReportError::Exists { path: path.to_owned() }),
         false => Ok(()),
@@ -95,7 +106,7 @@ fn refuse_foreign(path: &Path, overwrites: bool) -> Result<(), ReportError> {
 /// Removes the page of an earlier run, which a new one would contradict.
 pub fn remove_page(folder: &Path) -> Result<(), ReportError> {
     let path = folder.join(PAGE);
-    match fs::read_to_string(&path) {
+    match text_of(&path) {
         Ok(text) if text.contains(MARK) => {
             fs::remove_file(&path).map_err(ReportError::write(&path))
         }
@@ -105,7 +116,7 @@ pub fn remove_page(folder: &Path) -> Result<(), ReportError> {
 
 /// Reads a document, and adds sketch and model of its scenes.
 fn read_document(path: &Path) -> Result<Document, ReportError> {
-    let text = fs::read_to_string(path).map_err(ReportError::read(path))?;
+    let text = text_of(path)?;
     let mut document: Document = serde_json::from_str(&text).map_err(|reason| {
         ReportError::Document { path: path.to_owned(), reason, allowed: FORMAT }
     })?;

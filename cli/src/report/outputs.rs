@@ -17,13 +17,12 @@ pub struct Outputs {
 }
 
 impl Outputs {
-    /// Reads a table. A last row that is cut short, as of a run that was killed, is left out.
+    /// Reads a table. A last row without a line end, as of a run that was killed, is left out.
     pub fn read(path: &Path) -> Result<Self, ReportError> {
         let damaged = |what: String| ReportError::Damaged { path: path.to_owned(), what };
-        let mut reader = csv::ReaderBuilder::new()
-            .flexible(true)
-            .from_path(path)
-            .map_err(|error| damaged(error.to_string()))?;
+        let text = super::text_of(path)?;
+        let whole = text.rfind('\n').map_or("", |end| &text[..=end]);
+        let mut reader = csv::ReaderBuilder::new().flexible(true).from_reader(whole.as_bytes());
         let head = reader.headers().map_err(|error| damaged(error.to_string()))?.clone();
         if head.get(0) != Some(TIME) {
             return Err(damaged(format!("its first column is not `{TIME}`")));
@@ -36,10 +35,11 @@ impl Outputs {
             Self { times: Vec::new(), columns: vec![Vec::new(); head.len() - 1], places };
         for record in reader.records() {
             let record = record.map_err(|error| damaged(error.to_string()))?;
-            if record.len() < head.len() {
-                break;
-            }
             let line = record.position().map_or(0, csv::Position::line);
+            if record.len() != head.len() {
+                let (found, wanted) = (record.len(), head.len());
+                return Err(damaged(format!("line {line}: {found} values for {wanted} columns")));
+            }
             let number = |text: &str| {
                 text.parse::<f64>()
                     .map_err(|_| damaged(format!("line {line}: {text:?} is no number")))
@@ -105,7 +105,12 @@ mod tests {
 
     #[test]
     fn incomplete_last_rows_are_left_out() {
-        assert_eq!(table("time [s],a [K]\n0.0,1.0\n1.0").unwrap().times, [0.0]);
+        for rest in ["1.0", "1.0,2.7", "\"1.0"] {
+            let torn = table(&format!("time [s],a [K]\n0.0,1.0\n{rest}")).unwrap();
+            assert_eq!(torn.times, [0.0], "{rest}");
+        }
+        let refusal = table("time [s],a [K]\n0.0\n1.0,2.0\n").err().unwrap().to_string();
+        assert!(refusal.contains("line 2: 1 values for 2 columns"), "{refusal}");
         assert!(table("time [s],a [K]\n").is_err());
         assert!(table("t,a\n0,1\n").is_err());
         let refusal = table("time [s],a [K]\n0.0,x\n").err().unwrap().to_string();

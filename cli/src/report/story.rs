@@ -1,18 +1,19 @@
 //! The record of a run in `run.json` beside its files: its scene with all choices, messages and times.
 
-use std::fs;
+use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
 
 use impinge::model::tolerance::BodyEstimate;
 use impinge::model::{Model, Timeline};
+use impinge::output::replace;
 use impinge::runtime::Usage;
 use impinge::scene::Scene;
 use serde::{Deserialize, Serialize};
 
 use super::document::{BodyErrors, ErrorOf, Errors, Fact, Part, Timing};
 use super::error::ReportError;
-use super::model;
+use super::{model, text_of};
 use crate::messages::{self, Message};
 
 /// Name of the file.
@@ -95,11 +96,7 @@ impl Story {
         self.messages = messages::printed();
         let path = folder.join(FILE);
         let text = serde_json::to_string_pretty(self)?;
-        // A link is replaced, not written through.
-        if path.is_symlink() {
-            fs::remove_file(&path).map_err(ReportError::write(&path))?;
-        }
-        fs::write(&path, text).map_err(ReportError::write(&path))
+        Ok(replace(&path, |out| out.write_all(text.as_bytes()))?)
     }
 
     /// Reads the file of a run.
@@ -108,7 +105,7 @@ impl Story {
         if !path.is_file() {
             return Err(ReportError::NoRun { path: folder.to_owned() });
         }
-        let text = fs::read_to_string(&path).map_err(ReportError::read(&path))?;
+        let text = text_of(&path)?;
         let story: Self = serde_json::from_str(&text).map_err(|reason| ReportError::Damaged {
             path: path.clone(),
             what: reason.to_string(),

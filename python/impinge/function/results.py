@@ -13,11 +13,14 @@ from impinge.unit.variable import Variable
 
 
 class Fault(Exception):
-    """Why what a function has returned does not fit; `variable` names the output at fault."""
+    """Why what a function has returned does not fit; `variable` names the output at fault.
 
-    def __init__(self, what: str, variable: str | None = None):
+    `is_refusal` is true of values that are not finite: other inputs may have others.
+    """
+
+    def __init__(self, what: str, variable: str | None = None, is_refusal: bool = False):
         super().__init__(what)
-        self.variable = variable
+        self.variable, self.is_refusal = variable, is_refusal
 
 
 def split_state(returned: Any) -> tuple[Any, Any]:
@@ -49,14 +52,14 @@ def _values(value: Any, variable: Variable) -> np.ndarray:
     name = variable.name
     try:
         array = real_values(value)
-    except (TypeError, ValueError) as error:
+    except (OverflowError, TypeError, ValueError) as error:
         raise Fault(f"`{name}` is {_shown(value)}, which is no real number", name) from error
     if array.shape != variable.shape and not array.size == variable.size == 1:
         shape = f"the shape {variable.shape}" if variable.shape else "one number"
         raise Fault(f"`{name}` has the shape {array.shape}, where {shape} is declared", name)
     flat = array.ravel()
     if not np.isfinite(flat).all():
-        raise Fault(f"`{name}` is {_first_of(flat)}", name)
+        raise Fault(f"`{name}` is {_first_of(flat)}", name, is_refusal=True)
     return flat
 
 

@@ -73,7 +73,8 @@ class FunctionUnit:
         self._is_started = self._output_mask(function.started)
         self._changed = np.zeros(self._count, bool)
         self._is_new = True  # no output belongs to this time
-        self._unchecked = {False, function.has_state} if function.rollback else set()
+        self._calls = {False: 0, True: 0}  # before and after the first step
+        self._called_with = self.values[: self._count].copy()
         self.ends_at_jump = self.begins_at_jump = False
 
     def _dependency_mask(self) -> np.ndarray:
@@ -311,7 +312,7 @@ class FunctionUnit:
             self._evaluate(np.ones(len(self._follows), bool))
         elif self._changed.any() and self.function.rollback and self.function.follows_inputs:
             rows = self._follows[:, self._changed].any(axis=1)
-            if rows.any() or self.function.has_state:
+            if rows.any() or self.function.has_state or self._is_to_be_checked():
                 self._evaluate(rows)
         self._is_new = False
         self._changed[:] = False
@@ -322,16 +323,26 @@ class FunctionUnit:
             rows = rows & ~self._is_started
             if self._is_started.all():
                 return
+        is_to_be_checked = self._is_to_be_checked()
         outputs, memory = self._call()
-        if self._has_begun in self._unchecked:
+        if is_to_be_checked:
             self._check_again(outputs)
+            self._check_dependencies(outputs)
+        self._calls[self._has_begun] += 1
+        self._called_with[:] = self.values[: self._count]
         kept = ~rows if self._has_begun else ~rows & ~self._is_started
         held = self.values[self._count :]
         if not self.function.has_state and not np.array_equal(held[kept], outputs[kept]):
-            name = self._name_of(np.flatnonzero(kept & (held != outputs))[0])
-            raise self._error(f"`{name}` follows inputs that `depends_on` does not name", name)
+            raise self._misdeclared(kept & (held != outputs))
         held[rows] = outputs[rows]
         self._next_memory = memory
+
+    def _is_to_be_checked(self) -> bool:
+        """True for the first call, the second, the fourth and so on, which cost little in all."""
+        function = self.function
+        count = self._calls[self._has_begun] + 1
+        is_called = self._has_begun or not self._is_started.all()
+        return function.rollback and is_called and count & (count - 1) == 0
 
     def _check_again(self, outputs: np.ndarray) -> None:
         """Finds what the function remembers beside its state, which no step could take back."""
@@ -342,7 +353,29 @@ class FunctionUnit:
             if self.function.has_state:
                 remedy += "; rollback=False calls it once a step"
             raise self._error(f"`{name}` differs when it is called twice: {remedy}", name)
-        self._unchecked.discard(self._has_begun)
+
+    def _check_dependencies(self, outputs: np.ndarray) -> None:
+        """Finds outputs that follow inputs which they are declared not to follow, among those that
+        have changed since the last call."""
+        if self.function.has_state:
+            return
+        inputs = self.values[: self._count]
+        present = inputs.copy()
+        for follows in np.unique(self._follows, axis=0):
+            inputs[:] = np.where(follows, present, self._called_with)
+            try:
+                others = outputs if np.array_equal(inputs, present) else self._call()[0]
+            except FunctionError:  # it cannot bear inputs that do not go together
+                continue
+            finally:
+                inputs[:] = present
+            rows = (self._follows == follows).all(axis=1) & (outputs != others)
+            if rows.any():
+                raise self._misdeclared(rows)
+
+    def _misdeclared(self, rows: np.ndarray) -> FunctionError:
+        name = self._name_of(np.flatnonzero(rows)[0])
+        return self._error(f"`{name}` follows inputs that `depends_on` does not name", name)
 
     def _call(self) -> tuple[np.ndarray, Any]:
         arguments = self._arguments()
@@ -350,14 +383,18 @@ class FunctionUnit:
             returned = self.function.f(**arguments)
         except Exception as error:
             told = f"{type(error).__name__}: {error}".rstrip(": ")
-            raise self._error(f"fails with {told}{self._hint()}") from error
+            raised = self._error(f"fails with {told}{self._hint()}")
+            raised.is_refusal = isinstance(error, ArithmeticError | ValueError)
+            raise raised from error
         try:
             memory = None
             if self.function.has_state:
                 returned, memory = split_state(returned)
             return np.concatenate(read_outputs(returned, self.outputs)), memory
         except Fault as fault:
-            raise self._error(str(fault), fault.variable) from fault.__cause__
+            raised = self._error(str(fault), fault.variable)
+            raised.is_refusal = fault.is_refusal
+            raise raised from fault.__cause__
 
     def _hint(self) -> str:
         if self._has_begun or STEP not in self.function.takes:
@@ -369,7 +406,9 @@ class FunctionUnit:
         bad = np.flatnonzero(~np.isfinite(inputs))
         if bad.size:
             name = self._name_of(int(bad[0]) - self._count)
-            raise self._error(f"its input `{name}` is {inputs[bad[0]]}", name)
+            raised = self._error(f"its input `{name}` is {inputs[bad[0]]}", name)
+            raised.is_refusal = True
+            raise raised
         if self._has_begun and self.takes_means:
             inputs = self._means
         arguments = self._named(inputs)

@@ -8,6 +8,8 @@ from math import isfinite, isnan
 from numbers import Real
 from typing import Any
 
+import numpy as np
+
 from impinge.function import Function, FunctionUnit
 from impinge.master.any_unit import AnyUnit
 from impinge.master.errors import MasterError
@@ -44,6 +46,24 @@ def check_lengths(step: Any, tolerance: Any, least: Any, largest: Any) -> None:
         raise MasterError(f"least_step ({least!r} s) is above largest_step ({largest!r} s)")
 
 
+def check_names(what: str, names: Any) -> None:
+    """A list of names, which one text is not."""
+    if isinstance(names, str):
+        raise MasterError(f"{what} is {names!r}; a list of names is needed: [{names!r}]")
+
+
+def flat_numbers(name: str, value: Any, shape: tuple[int, ...]) -> np.ndarray:
+    """The finite numbers of an input, flat, of one number or of an array of its shape."""
+    try:
+        numbers = np.broadcast_to(np.asarray(value, float), shape).ravel()
+    except (OverflowError, TypeError, ValueError):
+        wanted = f"numbers of the shape {shape}" if shape else "a number"
+        raise MasterError(f"inputs: {name} is {value!r}; {wanted} or a function of time") from None
+    if not np.isfinite(numbers).all():
+        raise MasterError(f"inputs: {name} is {value!r}, which is not finite")
+    return numbers
+
+
 def check_jumps(jumps: Sequence[Any], start: float) -> None:
     """Times that a run can come to."""
     for jump in jumps:
@@ -74,10 +94,12 @@ def check_units(
     units: Mapping[str, Unit | Function | str | os.PathLike[str]], parameters: Mapping[str, Any]
 ) -> None:
     """Names, and that each unit stands under one of them; parameters are of units that are made."""
+    if not isinstance(units, Mapping):
+        raise MasterError(f"units is {units!r}; a mapping of names to units is needed")
     given: dict[int, str] = {}
     for name, unit in units.items():
-        if "." in name:
-            raise MasterError(f"`{name}`: names of units have no dots")
+        if not isinstance(name, str) or not name or "." in name:
+            raise MasterError(f"`{name}`: names of units are texts without dots")
         if callable(unit) and not isinstance(unit, Function):
             raise MasterError(
                 f"{name} is {unit!r}: Function(f, inputs={{…}}, outputs={{…}}) makes a unit of it"

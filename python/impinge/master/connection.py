@@ -125,13 +125,24 @@ class Link:
         if self.is_plain:
             return values
         if self.connection.map is not None:
-            values = np.ravel(self.connection.map(self._factor * values + self._shift))
+            values = self._mapped(self._factor * values + self._shift)
             if values.size != self.size:
                 raise MasterError(
                     f"the map of {self.connection.source} -> {self.connection.target} gives"
                     f" {values.size} values for {self.size}"
                 )
         return self._gain * values + self._offset
+
+    def _mapped(self, values: np.ndarray) -> np.ndarray:
+        what = f"the map of {self.connection.source} -> {self.connection.target}"
+        try:
+            mapped = self.connection.map(values)
+        except Exception as error:
+            raise MasterError(f"{what} fails with {type(error).__name__}: {error}") from error
+        try:
+            return np.ravel(np.asarray(mapped, dtype=float))
+        except (OverflowError, TypeError, ValueError) as error:
+            raise MasterError(f"{what} gives {mapped!r}, which is no real numbers") from error
 
     def scale(self, present: np.ndarray | None = None) -> float:
         """What residuals are a share of: as given, else the largest magnitude among values that

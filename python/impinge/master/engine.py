@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from impinge.errors import UnitError
+from impinge.errors import FunctionError, UnitError
 from impinge.jumps import Watched
 from impinge.master import waveform
 from impinge.master.acceleration import Acceleration
@@ -250,8 +250,8 @@ class Engine:
             try:
                 self._sweep(*step)
                 return x
-            except UnitError:
-                if attempt == _BACK:
+            except UnitError as error:
+                if attempt == _BACK or not refused(error):
                     raise
                 component.acceleration.forget()
                 self._go_back(component)
@@ -326,5 +326,7 @@ class Engine:
 
 
 def refused(error: Exception) -> bool:
-    """Whether a shorter step may succeed."""
+    """True if a shorter step, or a guess nearer to the last values, may succeed."""
+    if isinstance(error, FunctionError):
+        return error.is_refusal
     return isinstance(error, NoConvergence | UnitError)

@@ -24,18 +24,21 @@ from impinge.master.checks import (
     check_jumps,
     check_lengths,
     check_memoryless,
+    check_names,
     check_rollback,
     check_set,
     check_stop,
     check_units,
+    flat_numbers,
 )
 from impinge.master.connection import Connection, Link, links, split
 from impinge.master.energy import Balance, bond, powers
-from impinge.master.engine import Component, Engine, NoConvergence
+from impinge.master.engine import Component, Engine, NoConvergence, refused
 from impinge.master.errors import MasterError, MasterWarning
 from impinge.master.exchange import Exchange
 from impinge.master.function_participant import FunctionParticipant
 from impinge.master.graph import best_order, unit_components
+from impinge.master.interruption import interruptible_between_steps
 from impinge.master.participant import Participant
 from impinge.master.record import Record
 from impinge.master.stepping import Graded, Schedule
@@ -109,6 +112,8 @@ class Master:
         check_choices(scheme, order, extrapolation, max_iterations, relaxation)
         check_lengths(step, tolerance, least_step, largest_step)
         check_units(units, parameters or {})
+        check_names("outputs", outputs)
+        check_names("energy", energy)
         self.notes: list[str] = []
         self._warned: set[str] = set()
         self._own: list[Unit] = []
@@ -309,6 +314,8 @@ class Master:
         """Goes on to `stop` [s]; what has been recorded since the start comes back.
 
         progress: whether a bar is shown; only in runs of more than two seconds if left out.
+
+        Ctrl-C ends the run after the present step; another `run` goes on from there.
         """
         began = time.perf_counter()
         check_stop(stop, self.time)
@@ -324,8 +331,9 @@ class Master:
             disable=False if progress else (None if progress is None else True),
             leave=False,
         )
-        with bar:
+        with bar, interruptible_between_steps() as check_for_interruption:
             while self.time < stop:
+                check_for_interruption()
                 if self._step(stop):
                     bar.n = self.time
                     bar.set_postfix_str(f"{self.steps} steps", refresh=False)
@@ -448,7 +456,7 @@ class Master:
 
     def _may_go_on(self, error: Exception, size: float) -> bool:
         """What to do with a step that failed: a shorter one, an error, or to pass over it."""
-        if self.adaptive:
+        if self.adaptive and refused(error):
             self._reject(size, error)
             self._schedule.shrink(size)
             return False
@@ -592,9 +600,8 @@ def _participant(name: str, unit: AnyUnit) -> Participant:
 def _function(name: str, value: Any, shape: tuple[int, ...]) -> Watched:
     """A constant or a function of time as a function of time that gives a flat array."""
     if callable(value):
-        function = lambda time: np.broadcast_to(np.asarray(value(time), float), shape)  # noqa: E731
-        return Watched(name, function)
-    constant = np.broadcast_to(np.asarray(value, float), shape).ravel()
+        return Watched(name, lambda time: flat_numbers(name, value(time), shape))
+    constant = flat_numbers(name, value, shape)
     return Watched(name, lambda _: constant, is_constant=True)
 
 

@@ -297,6 +297,8 @@ class Study:
                 f"{stop / step:.3g} steps of {step:g} s (allowed: {stop / _MOST_STEPS:.3g} s or"
                 f" more, for at most {_MOST_STEPS:.0e} steps)"
             )
+        if isinstance(outputs, str):
+            raise ValueError(f"outputs is {outputs!r} (allowed: a list of names, [{outputs!r}])")
         kept = tuple(output_of(output) for output in outputs)
         if not kept:
             raise ValueError("no outputs (allowed: at least one)")

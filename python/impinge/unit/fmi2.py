@@ -4,6 +4,7 @@ import ctypes
 from collections.abc import Callable
 from ctypes import byref, c_char_p, c_double, c_int, c_size_t, c_void_p
 from functools import partial
+from math import nan
 from typing import Any
 
 import numpy as np
@@ -47,7 +48,11 @@ class Fmi2(Slave):
         if not self.component:
             raise UnitError(f"{package.source}: no instance could be made", log.take())
         self.set_debug_logging()
-        self._do_step = self.function("DoStep", c_double, c_double, c_int)
+        # Filled by the call itself: an exception of a signal cannot come between.
+        self._statuses: list[int] = []
+        self._began = nan
+        types = (c_double, c_double, c_int)
+        self._do_step = self.function("DoStep", *types, result=self._statuses.append)
         self._keep_past = not package.can.states
 
     def setup(self, start: float, stop: float | None) -> None:
@@ -82,12 +87,20 @@ class Fmi2(Slave):
 
     def do_step(self, time: float, size: float) -> None:
         self.must_live()
-        status = self._do_step(time, size, self._keep_past)
+        self._statuses.clear()
+        self._began = time
+        self._do_step(time, size, self._keep_past)
+        status = self._statuses[0]
         if status <= 1:
             return
         if status == _DISCARD:
             raise self.discarded(self._last_time(time), self._has_terminated())
         self.check(status, "DoStep")
+
+    def reached(self, time: float, size: float) -> float:
+        """The time [s] after a step from `time` that an exception from elsewhere has broken off."""
+        is_done = self._began == time and self._statuses and self._statuses[0] <= 1
+        return time + size if is_done else time
 
     def _last_time(self, time: float) -> float:
         value = c_double(time)

@@ -109,6 +109,11 @@ class Fmi3(Slave):
         types = (c_void_p, c_size_t, c_void_p, c_size_t)
         self.call("SetString", *where, ctypes.addressof(values), len(texts), types=types)
 
+    def reached(self, time: float, size: float) -> float:
+        """The time [s] after a step from `time` that an exception from elsewhere has broken off."""
+        last = self._last.value
+        return last if time <= last <= time + size else time
+
     def do_step(self, time: float, size: float) -> None:
         self.must_live()
         event, terminate, early = self._flags

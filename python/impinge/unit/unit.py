@@ -376,6 +376,9 @@ class Unit:
         except StepDiscarded as error:
             self.time = error.time
             raise
+        except KeyboardInterrupt:
+            self.time = self.slave.reached(self.time, size)
+            raise
         self.time += size
 
     def step_to(self, time: float) -> None:
@@ -398,6 +401,8 @@ class Unit:
     def restore(self, state: State) -> None:
         """Goes back to a state of this instance."""
         self._must_be_able("states")
+        if not isinstance(state, State):
+            raise UnitError(f"{state!r} is no state; unit.state() saves one")
         if not state.belongs_to(self):
             raise UnitError("the state belongs to another unit, or has been freed")
         self.slave.set_state(state.handle)

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::law::Need;
 use crate::laws::part::{Part, number_among};
 use crate::laws::{AtStart, MaterialConstant, Property};
-use crate::limits::{Bounds, plausible, positive, signed, within};
+use crate::limits::{Bounds, own_temperature, plausible, positive, signed, within};
 use crate::quantity::Quantity;
 
 /// Constants of isotropic thermo-elasticity: numbers, or tables over the temperature. Where nothing mechanical is asked
@@ -23,11 +23,17 @@ pub struct Elasticity {
         .condition("without these ends")
         .otherwise(NO_STRESS))]
     pub poisson: Option<Property>,
-    /// Mean coefficient of linear thermal expansion α from the temperature without stress [1/K].
+    /// Mean coefficient of linear thermal expansion α from `expansion_reference` on [1/K].
     #[schemars(transform = signed("1/K", "the coefficient of expansion")
         .plausible(&plausible::EXPANSION)
         .otherwise(NO_STRESS))]
     pub expansion: Option<Property>,
+    /// Temperature T₀ from which the mean coefficient is measured [K]: the thermal strain at T of a body without stress at
+    /// T_f is α(T) (T − T₀) − α(T_f) (T_f − T₀). Data sheets mostly have 293.15 K.
+    #[schemars(transform = own_temperature()
+        .otherwise("the temperature without stress")
+        .condition("matters to tables only"))]
+    pub expansion_reference: Option<f64>,
 }
 
 /// Default of a constant of elasticity, in words.
@@ -48,7 +54,12 @@ impl Elasticity {
     /// Returns the constants at a temperature [K].
     pub fn linearised(&self, temperature: f64) -> Self {
         let at = |property: &Option<Property>| property.as_ref().map(|own| own.at(temperature));
-        Self { young: at(&self.young), poisson: at(&self.poisson), expansion: at(&self.expansion) }
+        Self {
+            young: at(&self.young),
+            poisson: at(&self.poisson),
+            expansion: at(&self.expansion),
+            expansion_reference: None,
+        }
     }
 }
 

@@ -64,15 +64,17 @@ pub struct Elastoplastic {
     pub young: OfTemperature,
     /// Poisson's ratio ν [1].
     pub poisson: OfTemperature,
-    /// Mean coefficient of linear thermal expansion α between T_ref and T [1/K].
+    /// Mean coefficient of linear thermal expansion α from a temperature T₀ on [1/K].
     pub expansion: OfTemperature,
+    /// T₀ [K].
+    pub expansion_reference: f64,
     /// Initial yield stress σ_y [Pa]; infinite if the material never yields.
     pub yield_stress: OfTemperature,
     /// Isotropic hardening modulus H_i [Pa].
     pub isotropic: OfTemperature,
     /// Kinematic hardening modulus H_k [Pa].
     pub kinematic: OfTemperature,
-    /// Temperature T_ref without thermal strain [K].
+    /// Temperature T_f without thermal strain [K].
     pub stress_free_temperature: f64,
 }
 
@@ -152,6 +154,7 @@ impl Elastoplastic {
             young: given(&elasticity.young),
             poisson: given(&elasticity.poisson),
             expansion: given(&elasticity.expansion),
+            expansion_reference: elasticity.expansion_reference.unwrap_or(stress_free_temperature),
             yield_stress: or(&yielding.yield_stress, otherwise),
             isotropic: or(&yielding.isotropic_hardening, 0.0),
             kinematic: or(&yielding.kinematic_hardening, 0.0),
@@ -165,6 +168,7 @@ impl Elastoplastic {
             young: constant(law.young),
             poisson: constant(law.poisson),
             expansion: constant(law.expansion),
+            expansion_reference: stress_free_temperature,
             yield_stress: constant(f64::INFINITY),
             isotropic: constant(0.0),
             kinematic: constant(0.0),
@@ -179,14 +183,25 @@ impl Elastoplastic {
         let constants = PointConstants {
             bulk: young / (3.0 * (1.0 - 2.0 * poisson)),
             shear: young / (2.0 * (1.0 + poisson)),
-            thermal_strain: (self.expansion)(temperature)
-                * (temperature - self.stress_free_temperature),
+            thermal_strain: self.thermal_strain(temperature),
             yield_stress: (self.yield_stress)(temperature),
             isotropic: (self.isotropic)(temperature),
             kinematic: (self.kinematic)(temperature),
             overstress: Overstress::NONE,
         };
         constants.is_sensible().then_some(constants)
+    }
+}
+
+impl Elastoplastic {
+    /// `ε_T = α(T) (T − T₀) − α(T_f) (T_f − T₀)`
+    fn thermal_strain(&self, temperature: f64) -> f64 {
+        let free = self.stress_free_temperature;
+        let from_reference = |t: f64| (self.expansion)(t) * (t - self.expansion_reference);
+        if free == self.expansion_reference {
+            return from_reference(temperature);
+        }
+        from_reference(temperature) - from_reference(free)
     }
 }
 

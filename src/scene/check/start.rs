@@ -31,7 +31,8 @@ fn amounts(checker: &mut Checker, path: &Path, load: &Load) {
 }
 
 fn keys(channels: impl Iterator<Item = Channel>) -> String {
-    channels.map(Channel::key).collect::<Vec<_>>().join(", ")
+    let keys: Vec<_> = channels.map(Channel::key).collect();
+    if keys.is_empty() { "no amounts".to_owned() } else { keys.join(", ") }
 }
 
 /// Refuses lists that do not have one value per cell.

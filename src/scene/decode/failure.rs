@@ -78,6 +78,9 @@ impl Misfit {
     }
 }
 
+/// serde's words for the name of a variant of an enum.
+pub const VARIANT: &str = "variant identifier";
+
 /// Describes what a type accepts, in terms of scenes instead of serde's.
 pub fn expectation(serde: &str) -> String {
     match serde {
@@ -86,7 +89,7 @@ pub fn expectation(serde: &str) -> String {
         "a boolean" => "true or false".to_owned(),
         "a string" => "a text in quotes".to_owned(),
         "a sequence" => "a list".to_owned(),
-        "a map" => "a table".to_owned(),
+        "a map" | VARIANT => "a table".to_owned(),
         _ if serde.starts_with("struct ") || serde.contains(" enum ") => "a table".to_owned(),
         _ => match serde.strip_prefix("an array of length ") {
             Some(length) => format!("a list of {length} values"),

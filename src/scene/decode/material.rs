@@ -47,7 +47,11 @@ impl Decoder<'_> {
             Some(None) => Misfit::Unexpected { expected: "a string".to_owned() },
         };
         let place = if tag.is_some() { path.key(TAG) } else { path.clone() };
-        self.note(&misfit, &place, SolidLaw::MODELS.join(", "));
+        let mut allowed = SolidLaw::MODELS.join(", ");
+        if tag.is_none() {
+            allowed.push_str("; or `substance = \"copper\"` for constants of the library");
+        }
+        self.note(&misfit, &place, allowed);
         self.left_out.insert(path.clone());
     }
 
@@ -68,7 +72,7 @@ impl Decoder<'_> {
             models.iter().map(|model| format!("{TAG} = \"{model}\"")).collect();
         let message = format!("`{key}` is a key of another model");
         let allowed = format!("{}, or no such key", quoted.join(", "));
-        self.problems.push(self.source.problem(&place, message, allowed));
+        self.problems.push(self.source.problem_of_key(&place, message, allowed));
         self.left_out.insert(place);
     }
 }

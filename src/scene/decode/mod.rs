@@ -22,7 +22,7 @@ use super::schema::Schema;
 use super::spelling::hint;
 use super::types::{Body, Scene, Solid};
 use crate::substances::Kind;
-use failure::{Failure, Misfit, expectation};
+use failure::{Failure, Misfit, VARIANT, expectation};
 use unit::with_unit;
 use value::{Keys, Node, View};
 
@@ -167,15 +167,32 @@ impl Decoder<'_> {
             Misfit::MissingKey(key) => place.key(key),
             _ => place.clone(),
         };
-        let is_table = matches!(self.source.value(&place), Some(DeValue::Table(_)));
+        let value = self.source.value(&place);
+        let is_table = matches!(value, Some(DeValue::Table(_)));
+        let is_list = matches!(value, Some(DeValue::Array(_)));
         let allowed = match misfit {
             // One pair of brackets begins a table, two pairs the next table of a list.
             Misfit::Unexpected { expected } if is_table && expected == "a sequence" => {
                 format!("`[[{place}]]`, with two brackets, once for each")
             }
+            Misfit::Unexpected { expected } if is_list && expected == VARIANT => {
+                format!("`[{place}]`, with one bracket")
+            }
+            Misfit::UnknownKey { .. } if self.is_of_substance(&place.parent()) => {
+                format!("{allowed}, model, substance, at")
+            }
             _ => with_unit(allowed, self.schema, &place),
         };
-        self.problems.push(self.source.problem(&place, misfit.message(), allowed));
+        let problem = match misfit {
+            Misfit::UnknownKey { .. } => Source::problem_of_key,
+            _ => Source::problem,
+        };
+        self.problems.push(problem(self.source, &place, misfit.message(), allowed));
+    }
+
+    /// Returns true if a table has the constants of a substance of the library.
+    fn is_of_substance(&self, table: &Path) -> bool {
+        self.source.substances().iter().any(|named| named.table == *table)
     }
 
     /// Omits a misfit: a whole table if it lacks a key, otherwise the single value; for a misspelt key also the

@@ -1,5 +1,6 @@
 //! Texts that stand for numbers and tables: `"90 °C"`, `material = "copper"`, `fluid = "water"`.
 
+mod decimal;
 mod quantity;
 mod substance;
 mod unit;
@@ -14,6 +15,15 @@ use quantity::Wanted;
 pub use quantity::{is_convertible, is_meant_as_number};
 pub use substance::NamedSubstance;
 
+/// Returns the number in SI units that a text such as `90 °C` stands for, where one in `unit` is wanted.
+///
+/// # Errors
+/// If the text is no number with a unit of that kind; the message says what is wrong and what is allowed.
+pub fn quantity(text: &str, unit: &str, is_temperature: bool) -> Result<f64, String> {
+    let number = quantity::read(text, Wanted { unit, is_temperature });
+    number.map_err(|refusal| format!("{}; allowed: {}", refusal.message, refusal.allowed))
+}
+
 /// Replaces names of substances by their constants and texts with units by numbers; returns what is wrong with them.
 pub fn expand(source: &mut Source, schema: &Schema) -> Vec<(Path, Problem)> {
     let mut problems = substance::expand(source);
@@ -22,7 +32,8 @@ pub fn expand(source: &mut Source, schema: &Schema) -> Vec<(Path, Problem)> {
     for (path, text) in texts {
         let is_known = source.number(&path).is_some();
         let Some((unit, is_temperature)) = schema.number_at(source, &path) else { continue };
-        if is_known || !is_convertible(unit) || !is_meant_as_number(&text) {
+        let is_refused = problems.iter().any(|(refused, _)| path.is_within(refused));
+        if is_known || is_refused || !is_convertible(unit) || !is_meant_as_number(&text) {
             continue;
         }
         match quantity::read(&text, Wanted { unit, is_temperature }) {

@@ -1,6 +1,7 @@
 //! Numbers with units, as in `"90 °C"`.
 
-use super::unit::Unit;
+use super::decimal::Decimal;
+use super::unit::{Dimension, NUMBER, Unit};
 
 /// Reason why a text is not a number of the wanted unit, and what is allowed.
 #[derive(Debug, PartialEq)]
@@ -41,7 +42,7 @@ pub fn read(text: &str, wanted: Wanted) -> Result<f64, Refusal> {
     if unit.starts_with(',') {
         return Err(refusal("decimals follow a point, not a comma".to_owned()));
     }
-    if unit.is_empty() && si.dimension != [0; 4] {
+    if unit.is_empty() && si.dimension != NUMBER {
         return Err(refusal("this text has no unit".to_owned()));
     }
     let own = match unit {
@@ -51,29 +52,39 @@ pub fn read(text: &str, wanted: Wanted) -> Result<f64, Refusal> {
         }
     };
     if own.dimension != si.dimension {
-        let hint = if unit.contains('/') && !unit.contains('(') && unit.contains(' ') {
-            "; units in a denominator stand in brackets"
-        } else {
-            ""
-        };
+        let hint = slip(unit, si.dimension);
         return Err(refusal(format!("`{unit}` cannot be converted to {}{hint}", wanted.unit)));
     }
-    if own.offset != 0.0 && !wanted.is_temperature {
+    if own.zero != 0.0 && !wanted.is_temperature {
         return Err(refusal(format!("`{unit}` is for temperatures; this is a constant in K")));
     }
-    let value = scaled(number, value, own.factor / si.factor) + own.offset;
+    let number = number.replace('−', "-");
+    let (factor, zero) = (own.factor / si.factor, own.zero);
+    let value = exact(&number, zero, factor).unwrap_or(factor * (value + zero));
     if value.is_finite() { Ok(value) } else { Err(refusal("not a finite number".to_owned())) }
 }
 
-/// The product of a number and a factor; powers of ten shift its decimal point, so that `2.1 µm` is 2.1e-6 to the bit.
-fn scaled(number: &str, value: f64, factor: f64) -> f64 {
+/// `factor · (number + zero)` to the bit, so that `2.1 µm` is 2.1e-6; `None` if it has too many digits.
+fn exact(number: &str, zero: f64, factor: f64) -> Option<f64> {
+    let sum = Decimal::read(number)?.plus(Decimal::of(zero)?)?;
     let shift = factor.log10().round();
-    if (factor / 10f64.powf(shift) - 1.0).abs() > 1e-12 {
-        return factor * value;
+    // Products of prefixes are powers of ten only to rounding.
+    let is_power = (factor / 10f64.powf(shift) - 1.0).abs() < 1e-12;
+    let factor = if is_power { Decimal::read(&format!("1e{shift}")) } else { Decimal::of(factor) };
+    sum.times(factor?)?.value()
+}
+
+/// Hint for a unit that is not of the wanted dimension.
+fn slip(unit: &str, wanted: Dimension) -> &'static str {
+    let meant = unit.replace("mK", "(m K)");
+    let denominator = unit.split_once('/').map_or("", |(_, after)| after);
+    if meant != unit && Unit::read(&meant).is_ok_and(|meant| meant.dimension == wanted) {
+        "; `mK` is a millikelvin: write `(m K)`"
+    } else if denominator.contains(' ') && !denominator.contains('(') {
+        "; units in a denominator stand in brackets"
+    } else {
+        ""
     }
-    let (digits, exponent) = number.split_once(['e', 'E']).unwrap_or((number, "0"));
-    let exponent = exponent.replace('−', "-").parse::<f64>().unwrap_or_default() + shift;
-    format!("{}e{exponent}", digits.replace('−', "-")).parse().unwrap_or(factor * value)
 }
 
 /// Splits a text after its number.
@@ -143,10 +154,13 @@ mod tests {
     }
 
     #[test]
-    fn powers_of_ten_change_no_bit() {
+    fn numbers_are_the_nearest_to_what_is_written() {
         assert_eq!(read_as("2.1 µm", "m"), Ok(2.1e-6));
         assert_eq!(read_as("0.3e-3 GPa", "Pa"), Ok(0.3e6));
         assert_eq!(read_as("-0.1 mm", "m"), Ok(-0.1e-3));
+        assert_eq!(read_as("138.040 °C", "K"), Ok(411.19));
+        assert_eq!(read_as("-40 °F", "K"), read_as("-40 °C", "K"));
+        assert_eq!(read_as("29 cal", "J"), Ok(121.336));
     }
 
     #[test]
@@ -161,7 +175,15 @@ mod tests {
         let brackets =
             "`W/m2 K` cannot be converted to W/(m² K); units in a denominator stand in brackets";
         refuse("5 W/m2 K", "W/(m² K)", brackets);
+        refuse(
+            "15 W/mK",
+            "W/(m K)",
+            "`W/mK` cannot be converted to W/(m K); `mK` is a millikelvin: write `(m K)`",
+        );
         refuse("1e400 m", "m", "not a finite number");
+        refuse("20°", "1", "`°` cannot be converted to 1");
+        refuse("50 %", "rad", "`%` cannot be converted to rad");
+        refuse("2", "rad", "this text has no unit");
         let constant = Wanted { unit: "K", is_temperature: false };
         assert!(read("20 °C", constant).is_err());
         assert_eq!(read("20 K", constant), Ok(20.0));

@@ -34,25 +34,48 @@ pub fn expand(source: &mut Source) -> Vec<(Path, Problem)> {
     let mut problems = Vec::new();
     let materials = Path::default().key("material");
     for name in keys(source, &materials) {
-        expand_table(source, &materials.key(&name), Kind::Solid, None, &mut problems);
+        let free = user_of(source, &name).and_then(|body| without_stress(source, &body));
+        expand_table(source, &materials.key(&name), Kind::Solid, free, &mut problems);
     }
     let bodies = Path::default().key("body");
     for name in keys(source, &bodies) {
         let body = bodies.key(&name);
-        let layers = body.key("layers");
-        let count = match source.value(&layers) {
-            Some(DeValue::Array(list)) => list.len(),
-            _ => 0,
-        };
-        let places = (0..count).map(|i| layers.index(i).key("material"));
-        for place in places.chain([body.key("material")]) {
+        let free = without_stress(source, &body);
+        for place in materials_of(source, &body) {
             name_material(source, &place);
-            expand_table(source, &place, Kind::Solid, None, &mut problems);
+            expand_table(source, &place, Kind::Solid, free, &mut problems);
         }
         let start = number(source, &body.key("initial_temperature"));
         expand_table(source, &body.key("fluid"), Kind::Fluid, start, &mut problems);
     }
     problems
+}
+
+/// Places of the materials of a body and of its layers.
+fn materials_of(source: &Source, body: &Path) -> Vec<Path> {
+    let layers = body.key("layers");
+    let count = match source.value(&layers) {
+        Some(DeValue::Array(list)) => list.len(),
+        _ => 0,
+    };
+    let of_layers = (0..count).map(|i| layers.index(i).key("material"));
+    of_layers.chain([body.key("material")]).collect()
+}
+
+/// The first body of a material.
+fn user_of(source: &Source, material: &str) -> Option<Path> {
+    let bodies = Path::default().key("body");
+    let uses = |body: &Path| {
+        let places = materials_of(source, body);
+        places.iter().any(|place| text(source, place).is_some_and(|name| name == material))
+    };
+    keys(source, &bodies).iter().map(|name| bodies.key(name)).find(uses)
+}
+
+/// Temperature of a body without stress [K].
+fn without_stress(source: &Source, body: &Path) -> Option<f64> {
+    let own = number(source, &body.key("stress_free_temperature"));
+    own.or_else(|| number(source, &body.key("initial_temperature")))
 }
 
 fn keys(source: &Source, path: &Path) -> Vec<String> {
@@ -88,12 +111,13 @@ fn identifier(name: &str) -> String {
     if name.starts_with(|c: char| c.is_ascii_digit()) { format!("_{name}") } else { name }
 }
 
-/// Replaces a fluid's name, or a table with the key `substance`, by all constants.
+/// Replaces a fluid's name, or a table with the key `substance`, by all constants; `body` is the temperature of a fluid at
+/// time zero, and that of a solid without stress [K].
 fn expand_table(
     source: &mut Source,
     place: &Path,
     kind: Kind,
-    start: Option<f64>,
+    body: Option<f64>,
     problems: &mut Vec<(Path, Problem)>,
 ) {
     let (named, own) = match source.value(place) {
@@ -113,7 +137,7 @@ fn expand_table(
     };
     let Some(span) = source.span(place) else { return };
     let given = if own.contains_key(AT) {
-        match number(source, &place.key(AT)).filter(|at| *at > 0.0) {
+        match number(source, &place.key(AT)).filter(|at| *at > 0.0 && at.is_finite()) {
             Some(at) => Some(at),
             None => {
                 let message = "this is not a temperature".to_owned();
@@ -126,12 +150,13 @@ fn expand_table(
     } else {
         None
     };
+    let (start, free) = if kind == Kind::Fluid { (body, None) } else { (None, body) };
     let at = given.or(start);
     let mut known: DeTable<'static> = constants(substance, &span);
     if kind == Kind::Solid {
         known.insert(spanned("model", &span), Spanned::new(span.clone(), string("thermoelastic")));
     }
-    let mut taken = at.map(|at| take_at(&mut known, at)).unwrap_or_default();
+    let mut taken = at.map(|at| take_at(&mut known, at, free)).unwrap_or_default();
     taken.retain(|(key, _)| !own.contains_key(*key));
     let mut table: DeTable = known;
     table.extend(own.into_iter().filter(|(key, _)| !matches!(key.get_ref().as_ref(), KEY | AT)));
@@ -178,7 +203,7 @@ fn moved(value: &DeValue<'static>, span: &Range<usize>) -> DeValue<'static> {
 }
 
 /// Takes tables over the temperature at one temperature, and leaves melting out; returns the constants.
-fn take_at(table: &mut DeTable<'static>, at: f64) -> Vec<(&'static str, f64)> {
+fn take_at(table: &mut DeTable<'static>, at: f64, free: Option<f64>) -> Vec<(&'static str, f64)> {
     const KEYS: [&str; 7] = [
         "density",
         "viscosity",
@@ -189,25 +214,45 @@ fn take_at(table: &mut DeTable<'static>, at: f64) -> Vec<(&'static str, f64)> {
         "expansion",
     ];
     table.remove("melting");
+    let reference = table.remove("expansion_reference").and_then(|value| float(value.get_ref()));
     let mut taken = Vec::new();
     for key in KEYS {
         let Some(value) = table.get_mut(key) else { continue };
-        let Some(found) = interpolated(value.get_ref(), at) else { continue };
+        let Some(property) = over_temperature(value.get_ref()) else { continue };
         *value.get_mut() = string(key);
+        let found = match (key, reference, free) {
+            ("expansion", Some(reference), Some(free)) => {
+                mean_expansion(&property, reference, [free, at])
+            }
+            _ => property.value(at),
+        };
         taken.push((key, found));
     }
     taken
 }
 
-/// The value at a temperature of a table over it: linear between, held outside.
-fn interpolated(table: &DeValue, at: f64) -> Option<f64> {
+/// Mean coefficient of expansion between two temperatures, of one that is measured from a third [1/K].
+fn mean_expansion(property: &Property, reference: f64, [from, to]: [f64; 2]) -> f64 {
+    /// Between temperatures that are closer the mean is the slope in their middle [K].
+    const CLOSEST: f64 = 1.0;
+    let (middle, half) = (0.5 * (from + to), 0.5 * (to - from).abs().max(CLOSEST));
+    let strain = |temperature: f64| property.value(temperature) * (temperature - reference);
+    (strain(middle + half) - strain(middle - half)) / (2.0 * half)
+}
+
+/// A table over the temperature: linear between its knots, held outside.
+fn over_temperature(table: &DeValue) -> Option<Property> {
     let list = |key: &str| -> Option<Vec<f64>> {
         let DeValue::Array(list) = table.get(key)?.get_ref() else { return None };
-        list.iter().map(|value| value.get_ref().as_float()?.as_str().parse().ok()).collect()
+        list.iter().map(|value| float(value.get_ref())).collect()
     };
     let property =
         Property::Table(Table { temperature: list("temperature")?, value: list("value")? });
-    property.check().ok().map(|()| property.value(at))
+    property.check().ok().map(|()| property)
+}
+
+fn float(value: &DeValue) -> Option<f64> {
+    value.as_float()?.as_str().parse().ok()
 }
 
 fn number(source: &Source, path: &Path) -> Option<f64> {

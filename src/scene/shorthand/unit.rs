@@ -2,52 +2,65 @@
 
 use std::f64::consts::PI;
 
-/// A unit: `SI value = factor · value + offset`.
+/// A unit: `SI value = factor · (value + zero)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
     pub factor: f64,
     /// Not zero only for temperatures that are counted from another zero.
-    pub offset: f64,
+    pub zero: f64,
     pub dimension: Dimension,
 }
 
-/// Twice the exponents of kg, m, s and K, as effusivities have the root of a second; angles count as numbers.
-pub type Dimension = [i32; 4];
+/// Twice the exponents of kg, m, s, K, rad and B, as effusivities have the root of a second.
+pub type Dimension = [i32; 6];
 
-const NUMBER: Dimension = [0; 4];
+/// The dimension of pure numbers.
+pub const NUMBER: Dimension = [0; 6];
 
-const fn unit(factor: f64, [kg, m, s, kelvin]: Dimension) -> Unit {
-    Unit { factor, offset: 0.0, dimension: [2 * kg, 2 * m, 2 * s, 2 * kelvin] }
+const fn unit(factor: f64, exponents: Dimension) -> Unit {
+    let [kg, m, s, kelvin, radian, byte] = exponents;
+    Unit { factor, zero: 0.0, dimension: [2 * kg, 2 * m, 2 * s, 2 * kelvin, 2 * radian, 2 * byte] }
 }
 
-const KELVIN: Dimension = [0, 0, 0, 1];
-const PRESSURE: Dimension = [1, -1, -2, 0];
-const LENGTH: Dimension = [0, 1, 0, 0];
-const ENERGY: Dimension = [1, 2, -2, 0];
-const TIME: Dimension = [0, 0, 1, 0];
-const ZERO_CELSIUS: f64 = 273.15;
+const MASS: Dimension = [1, 0, 0, 0, 0, 0];
+const KELVIN: Dimension = [0, 0, 0, 1, 0, 0];
+const PRESSURE: Dimension = [1, -1, -2, 0, 0, 0];
+const LENGTH: Dimension = [0, 1, 0, 0, 0, 0];
+const VOLUME: Dimension = [0, 3, 0, 0, 0, 0];
+const FORCE: Dimension = [1, 1, -2, 0, 0, 0];
+const ENERGY: Dimension = [1, 2, -2, 0, 0, 0];
+const POWER: Dimension = [1, 2, -3, 0, 0, 0];
+const TIME: Dimension = [0, 0, 1, 0, 0, 0];
+const FREQUENCY: Dimension = [0, 0, -1, 0, 0, 0];
+const VISCOSITY: Dimension = [1, -1, -1, 0, 0, 0];
+const ANGLE: Dimension = [0, 0, 0, 0, 1, 0];
+const MEMORY: Dimension = [0, 0, 0, 0, 0, 1];
+
+/// Most brackets and roots within each other.
+const DEEPEST: usize = 8;
 
 /// Units that take prefixes.
-const PREFIXED: [(&str, Unit); 14] = [
+const PREFIXED: [(&str, Unit); 15] = [
     ("m", unit(1.0, LENGTH)),
-    ("g", unit(1e-3, [1, 0, 0, 0])),
+    ("g", unit(1e-3, MASS)),
     ("s", unit(1.0, TIME)),
     ("K", unit(1.0, KELVIN)),
-    ("N", unit(1.0, [1, 1, -2, 0])),
+    ("N", unit(1.0, FORCE)),
     ("Pa", unit(1.0, PRESSURE)),
     ("J", unit(1.0, ENERGY)),
-    ("W", unit(1.0, [1, 2, -3, 0])),
-    ("Hz", unit(1.0, [0, 0, -1, 0])),
-    ("rad", unit(1.0, NUMBER)),
+    ("W", unit(1.0, POWER)),
+    ("Hz", unit(1.0, FREQUENCY)),
+    ("rad", unit(1.0, ANGLE)),
     ("bar", unit(1e5, PRESSURE)),
-    ("l", unit(1e-3, [0, 3, 0, 0])),
-    ("L", unit(1e-3, [0, 3, 0, 0])),
-    ("P", unit(0.1, [1, -1, -1, 0])),
+    ("l", unit(1e-3, VOLUME)),
+    ("L", unit(1e-3, VOLUME)),
+    ("P", unit(0.1, VISCOSITY)),
+    ("B", unit(1.0, MEMORY)),
 ];
 
-const DEGREE: Unit = unit(PI / 180.0, NUMBER);
-const CELSIUS: Unit = Unit { offset: ZERO_CELSIUS, ..unit(1.0, KELVIN) };
-const FAHRENHEIT: Unit = Unit { offset: ZERO_CELSIUS - 32.0 / 1.8, ..unit(1.0 / 1.8, KELVIN) };
+const DEGREE: Unit = unit(PI / 180.0, ANGLE);
+const CELSIUS: Unit = Unit { zero: 273.15, ..unit(1.0, KELVIN) };
+const FAHRENHEIT: Unit = Unit { zero: 459.67, ..unit(1.0 / 1.8, KELVIN) };
 
 /// Units without prefixes.
 const PLAIN: [(&str, Unit); 22] = [
@@ -66,8 +79,8 @@ const PLAIN: [(&str, Unit); 22] = [
     ("ft", unit(0.3048, LENGTH)),
     ("mil", unit(2.54e-5, LENGTH)),
     ("Å", unit(1e-10, LENGTH)),
-    ("psi", unit(6_894.757_293_168, PRESSURE)),
-    ("ksi", unit(6_894_757.293_168, PRESSURE)),
+    ("psi", unit(6_894.757_293_168_361, PRESSURE)),
+    ("ksi", unit(6_894_757.293_168_361, PRESSURE)),
     ("atm", unit(101_325.0, PRESSURE)),
     ("cal", unit(4.184, ENERGY)),
     ("kcal", unit(4184.0, ENERGY)),
@@ -99,20 +112,22 @@ impl Unit {
     ///
     /// A quotient divides by what follows up to the next product sign, blank or slash: `W/m² K` is W K/m².
     pub fn read(text: &str) -> Result<Self, String> {
-        let mut reader = Reader { rest: text.trim() };
+        let mut reader = Reader { rest: text.trim(), depth: 0 };
         let unit = reader.product()?;
         if reader.rest.is_empty() { Ok(unit) } else { Err(reader.rest.to_owned()) }
     }
 
     fn times(self, other: Unit, power: i32) -> Self {
-        let dimension: [i32; 4] =
+        let dimension: Dimension =
             std::array::from_fn(|i| self.dimension[i] + power * other.dimension[i]);
-        Self { factor: self.factor * other.factor.powi(power), offset: 0.0, dimension }
+        Self { factor: self.factor * other.factor.powi(power), zero: 0.0, dimension }
     }
 }
 
 struct Reader<'t> {
     rest: &'t str,
+    /// Number of brackets and roots around it.
+    depth: usize,
 }
 
 impl<'t> Reader<'t> {
@@ -136,7 +151,7 @@ impl<'t> Reader<'t> {
             } else {
                 return Ok(product);
             };
-            product.offset = 0.0;
+            product.zero = 0.0;
         }
     }
 
@@ -147,13 +162,23 @@ impl<'t> Reader<'t> {
     /// A unit, a bracket or the number one, and its power.
     fn factor(&mut self) -> Result<(Unit, i32), String> {
         self.rest = self.rest.trim_start();
+        let all = self.rest;
         if self.takes('√') {
+            self.descend()?;
             let (unit, power) = self.factor()?;
-            let dimension = unit.dimension.map(|twice| twice * power / 2);
-            return Ok((Unit { factor: unit.factor.powi(power).sqrt(), dimension, ..unit }, 1));
+            self.depth -= 1;
+            let dimension = unit.dimension.map(|twice| twice * power);
+            if dimension.iter().any(|twice| twice % 2 != 0) {
+                return Err(all.to_owned());
+            }
+            let (factor, dimension) =
+                (unit.factor.powi(power).sqrt(), dimension.map(|twice| twice / 2));
+            return Ok((Unit { factor, zero: 0.0, dimension }, 1));
         }
         let unit = if self.takes('(') {
+            self.descend()?;
             let inner = self.product()?;
+            self.depth -= 1;
             if !self.takes(')') {
                 return Err(format!("({}", self.rest));
             }
@@ -167,6 +192,12 @@ impl<'t> Reader<'t> {
             named(name).ok_or_else(|| if name.is_empty() { rest } else { name }.to_owned())?
         };
         Ok((unit, self.power()))
+    }
+
+    /// Enters a bracket or a root; refuses more than anyone writes.
+    fn descend(&mut self) -> Result<(), String> {
+        self.depth += 1;
+        if self.depth > DEEPEST { Err("so many brackets".to_owned()) } else { Ok(()) }
     }
 
     /// `2`, `^2`, `²`, `-1`, `^-1` or `⁻¹`; 1 if there is none.
@@ -247,5 +278,7 @@ mod tests {
         assert!(Unit::read("W/(m2").is_err());
         assert!(Unit::read("mm)").is_err());
         assert!(Unit::read("m²²").is_err());
+        assert!(Unit::read(&"(".repeat(100_000)).is_err());
+        assert!(Unit::read("W/√√m").is_err());
     }
 }

@@ -49,6 +49,7 @@ fn laws() -> Vec<Case> {
                 young: falls(young),
                 poisson: constant(poisson),
                 expansion: falls(expansion),
+                expansion_reference: 300.0,
                 yield_stress: falls(yield_stress),
                 isotropic: falls(isotropic),
                 kinematic: falls(kinematic),
