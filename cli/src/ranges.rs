@@ -1,10 +1,13 @@
 //! Lowest and highest values of outputs over a run.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use impinge::body::Reading;
+use impinge::model::Model;
 use impinge::scene::Scene;
 use impinge::variables::{ArrayRegistry, Quantity, Registry, Slot, Variable};
+use impinge::warning::Warning;
 
 use super::summary::shown;
 use super::table::table;
@@ -17,6 +20,8 @@ struct Range {
     name: String,
     /// Number of places.
     places: usize,
+    /// Number of its body.
+    body: usize,
     quantity: Quantity,
     lowest: f64,
     highest: f64,
@@ -41,9 +46,10 @@ impl Ranges {
             if !matches!(first.slot, Slot::Input(_) | Slot::Output(_)) {
                 continue;
             }
-            let range = followed(scene, first).map(|quantity| Range {
+            let range = followed(scene, first).map(|(body, quantity)| Range {
                 name: array.name.clone(),
                 places: elements.len(),
+                body,
                 quantity,
                 lowest: f64::INFINITY,
                 highest: f64::NEG_INFINITY,
@@ -67,6 +73,17 @@ impl Ranges {
         }
     }
 
+    /// Warns of temperatures at which constants of the library do not hold, once for each body.
+    pub fn warnings(&self, model: &Model) -> Vec<Warning> {
+        let mut hottest: BTreeMap<usize, f64> = BTreeMap::new();
+        for range in self.ranges.iter().filter(|range| range.quantity == Quantity::Temperature) {
+            let own = hottest.entry(range.body).or_insert(range.highest);
+            *own = own.max(range.highest);
+        }
+        let warning = |(body, value)| model.warning_on_temperature(body, value);
+        hottest.into_iter().filter_map(warning).collect()
+    }
+
     /// Formats the ranges as a table, probes first; empty without any.
     pub fn table(&self) -> String {
         let row = |range: &Range| {
@@ -87,8 +104,8 @@ impl Ranges {
     }
 }
 
-/// The quantity of a variable whose range is followed.
-fn followed(scene: &Scene, variable: &Variable) -> Option<Quantity> {
+/// The body and the quantity of a variable whose range is followed.
+fn followed(scene: &Scene, variable: &Variable) -> Option<(usize, Quantity)> {
     let Slot::Output(output) = &variable.slot else { return None };
     let quantity = variable.quantity?;
     let is_followed = match output.reading {
@@ -100,5 +117,5 @@ fn followed(scene: &Scene, variable: &Variable) -> Option<Quantity> {
         }
         _ => false,
     };
-    is_followed.then_some(quantity)
+    is_followed.then_some((output.body, quantity))
 }

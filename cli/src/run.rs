@@ -494,7 +494,8 @@ impl Running<'_> {
         let overflows = self.model.warnings(&self.state);
         let strays = self.model.closing_warnings(&self.state);
         let balances_off = self.balances.iter().filter_map(Balance::warning);
-        let warnings = balances_off.chain(overflows).chain(strays).chain(of_values);
+        let too_hot = self.ranges.warnings(self.model);
+        let warnings = balances_off.chain(overflows).chain(strays).chain(of_values).chain(too_hot);
         super::warn(&warnings.collect::<Vec<_>>());
         let balances = summary::balance_table(&self.balances);
         let tables = [self.ranges.table(), peaks, balances, totals];

@@ -1,17 +1,23 @@
 //! Temperatures at which constants of the library do not hold.
 
 use super::{Reviewer, number};
+use crate::laws::Fluid;
 use crate::limits::TEMPERATURE;
 use crate::scene::locate::{Path, Step};
 use crate::scene::schema::Schema;
-use crate::scene::{NamedSubstance, Source};
+use crate::scene::{Droplet, NamedSubstance, Scene};
 use crate::warning;
 
+/// Difference of temperatures [K], and of constants relative to them, below which those of another temperature will do.
+const CLOSE: f64 = 1.0;
+const ALIKE: f64 = 0.02;
+
 /// Warns of each substance whose constants are taken beyond their range, or that a body is colder or hotter than, on the
-/// first such temperature.
+/// first such temperature; and of drops that are of another temperature than their constants.
 pub fn review(reviewer: &mut Reviewer, schema: &Schema) {
-    for named in reviewer.source.substances() {
-        let [low, high] = named.substance.sheet().valid;
+    let scene = reviewer.scene;
+    for named in &scene.substances {
+        let [low, high] = named.valid;
         let at = named.at.filter(|at| !(low..=high).contains(at));
         let mut outside = at.map(|at| (named.table.clone(), at));
         schema.numbers(reviewer.source, &mut |place, limits, value| {
@@ -19,7 +25,7 @@ pub fn review(reviewer: &mut Reviewer, schema: &Schema) {
                 return;
             }
             let path = place.path();
-            if outside.is_none() && is_met(reviewer.source, named, &path) {
+            if outside.is_none() && is_met(scene, named, &path) {
                 outside = Some((path, value));
             }
         });
@@ -29,23 +35,56 @@ pub fn review(reviewer: &mut Reviewer, schema: &Schema) {
             reviewer.warn(&path, warning::substance_out_of_range(name, low, high, value));
         }
     }
+    for (name, droplet) in scene.droplets() {
+        let path = Path::default().key("body").key(name).key("initial_temperature");
+        for named in scene.substances_of(name) {
+            drops(reviewer, &path, droplet, named);
+        }
+    }
 }
 
 /// Returns true if a temperature is one that the body of a substance has from outside or from the start.
-fn is_met(source: &Source, named: &NamedSubstance, path: &Path) -> bool {
+fn is_met(scene: &Scene, named: &NamedSubstance, path: &Path) -> bool {
     let [Step::Key(root), Step::Key(body), Step::Key(key), ..] = path.steps() else { return false };
-    if root != "body" || !matches!(key.as_str(), "initial_temperature" | "faces") {
-        return false;
+    root == "body"
+        && matches!(key.as_str(), "initial_temperature" | "faces")
+        && scene.substances_of(body).any(|own| own == named)
+}
+
+/// Warns of a drop whose temperature was set after its constants had been taken.
+fn drops(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet, named: &NamedSubstance) {
+    let (start, None, Some(taken)) = (droplet.initial_temperature, named.at, named.taken) else {
+        return;
+    };
+    if (start - taken).abs() < CLOSE {
+        return;
     }
-    let body = Path::default().key("body").key(body);
-    if named.table.is_within(&body) {
-        return true;
+    let (then, now) = (named.constants_at(taken), named.constants_at(start));
+    let changed = then.iter().zip(&now).filter(|((key, old), (_, new))| {
+        constant(&droplet.fluid, key) == Some(*old) && (new / old - 1.0).abs() > ALIKE
+    });
+    let changed: Vec<_> = changed
+        .map(|((key, old), (_, new))| format!("{key} = {} instead of {old}", number(digits(*new))))
+        .collect();
+    if !changed.is_empty() {
+        let (name, taken) = (named.substance.name, number(taken));
+        let finding = warning::constants_of_other_temperature(name, taken, changed.join(", "));
+        reviewer.warn(path, finding);
     }
-    let is_named = |place: &Path| source.value(place).and_then(|value| value.as_str());
-    let layers = (0..).map(|i| body.key("layers").index(i).key("material"));
-    let layers = layers.take_while(|place| source.value(place).is_some());
-    layers.chain([body.key("material")]).any(|place| {
-        is_named(&place)
-            .is_some_and(|name| Path::default().key("material").key(name) == named.table)
-    })
+}
+
+fn constant(fluid: &Fluid, key: &str) -> Option<f64> {
+    match key {
+        "density" => Some(fluid.density),
+        "viscosity" => Some(fluid.viscosity),
+        "specific_heat" => Some(fluid.specific_heat),
+        "conductivity" => Some(fluid.conductivity),
+        "surface_tension" => Some(fluid.surface_tension),
+        _ => None,
+    }
+}
+
+/// Rounds to four digits.
+fn digits(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
 }

@@ -73,6 +73,22 @@ impl Model {
         self.bodies[output.body].warning_on_value(&output.reading, value)
     }
 
+    /// Warns of a temperature in a body that is above the range of the substances that it consists of [K].
+    pub fn warning_on_temperature(&self, body: usize, value: f64) -> Option<Warning> {
+        let name = self.bodies[body].name();
+        let solid = self.scene.solid(name)?;
+        let beyond = self.scene.substances_of(name).filter(|named| value > named.valid[1]);
+        let named = beyond.min_by(|a, b| a.valid[1].total_cmp(&b.valid[1]))?;
+        let melts = named.melts.filter(|&point| value > point && !solid.melts());
+        let melting = melts.map_or(String::new(), |point| {
+            format!(", and above the {point} K at which it melts: the model keeps it solid")
+        });
+        let (temperature, high) = (format!("{value:.0}"), named.valid[1]);
+        let name_of = named.substance.name;
+        let finding = warning::solid_beyond_substance(temperature, name_of, high, melting);
+        Some(finding.at(name).of_subject(format!("{name} beyond {name_of}")))
+    }
+
     /// Warns of all values of whole bodies in a state.
     pub fn warnings_on_values(
         &self,

@@ -9,7 +9,8 @@ use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
 use serde::{Serialize, Serializer};
 
 use super::locate::Path;
-use super::types::{Layer, Probe, Scene, Side, Solid};
+use super::shorthand::NamedSubstance;
+use super::types::{Body, Layer, Probe, Scene, Side, Solid};
 use crate::laws::{Constants, Material, Thermoelastic};
 
 /// Tolerance, relative to a body's thickness, for points on an interface and for the sum of layers.
@@ -22,6 +23,29 @@ pub struct MaterialChoice {
     pub name: Option<String>,
     /// A copy of the named material, or the body's own one; `None` until the name has been resolved.
     material: Option<Material>,
+}
+
+impl Scene {
+    /// The substances of the library that a body consists of.
+    pub fn substances_of<'s>(
+        &'s self,
+        body: &'s str,
+    ) -> impl Iterator<Item = &'s NamedSubstance> + use<'s> {
+        let choices: Vec<&MaterialChoice> = match self.body.get(body) {
+            Some(Body::Solid(solid)) => {
+                let layers = solid.layers.iter().flatten().map(|layer| &layer.material);
+                solid.material.iter().chain(layers).collect()
+            }
+            _ => Vec::new(),
+        };
+        let own = Path::default().key("body").key(body);
+        let materials = Path::default().key("material");
+        self.substances.iter().filter(move |named| {
+            let names = choices.iter().filter_map(|choice| choice.name.as_deref());
+            let mut tables = names.map(|name| materials.key(name));
+            named.table.is_within(&own) || tables.any(|table| table == named.table)
+        })
+    }
 }
 
 impl MaterialChoice {

@@ -114,6 +114,7 @@ pub fn parse(text: &str, file: &str) -> Result<Scene, SceneError> {
 pub(crate) fn parse_located(source: &mut Source, schema: &Schema) -> Result<Scene, SceneError> {
     let misread = shorthand::expand(source, schema);
     let mut scene = decode::decode(source, schema, misread)?;
+    scene.substances = source.substances().to_vec();
     scene.store_surfaces_below();
     check::check(&scene, source, schema)?;
     Ok(scene)

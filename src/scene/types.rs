@@ -9,6 +9,7 @@ use super::droplet::{Coupling, Droplet, Wall};
 use super::materials::MaterialChoice;
 use super::refinement::MeshFactors;
 use super::reservoir::Reservoir;
+use super::shorthand::NamedSubstance;
 use crate::kernel::Kernel;
 use crate::laws::Material;
 use crate::limits::{
@@ -46,6 +47,10 @@ pub struct Scene {
     #[serde(default, skip_serializing_if = "is_false")]
     #[schemars(extend("otherwise" = "false"))]
     pub cryogenic: bool,
+    /// Substances of the library that the text names.
+    #[serde(skip)]
+    #[schemars(skip)]
+    pub substances: Vec<NamedSubstance>,
     /// Tables `[material.NAME]` that solids and layers name.
     #[serde(default)]
     pub material: BTreeMap<String, Material>,

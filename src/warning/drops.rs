@@ -16,8 +16,8 @@ rules! {
 
     Check freezes_on_contact(below, temperature)
     "on `{below}` the fluid is predicted to be at {temperature} K in contact, where it freezes, and the model keeps it \
-     liquid";
-    "do not rely on spread, later heat and forces"
+     liquid, without latent heat";
+    "do not rely on spread, later heat and forces, nor on temperatures that latent heat would raise"
 
     Check boils_on_contact(below, temperature)
     "on `{below}` the fluid is predicted to be at {temperature} K in contact, where it boils, and the model keeps it \
@@ -48,8 +48,8 @@ rules! {
     "did you mean a `spacing` of {spacing} m or less?"
 
     Check middle_too_hot(spacing)
-    "the temperature under the middle of the drop rises too high, by a tenth to a third with 20 particles across, as \
-     its thermal layer √(aD/U) is thinner than three quarters of a particle";
+    "the temperature under the middle of the drop changes too much, by a tenth to a third with 20 particles across, \
+     as its thermal layer √(aD/U) is thinner than three quarters of a particle";
     "did you mean a `spacing` of {spacing} m or less?"
 
     Check film_breaks_up(layers, spacing)

@@ -32,13 +32,18 @@ rules! {
 
     Step fluid_freezes(time, temperature, x, y, z, point)
     "at {time} s the fluid is at {temperature} K at x = {x}, y = {y}, z = {z} m, below the {point} K at which it \
-     freezes (`freezes_at`): the model keeps it liquid";
-    "do not rely on spread, heat and forces of what freezes from here on"
+     freezes (`freezes_at`): the model keeps it liquid, without latent heat";
+    "do not rely on spread, forces and heat of what freezes from here on"
 
     Step fluid_boils(time, temperature, x, y, z, point)
     "at {time} s the fluid is at {temperature} K at x = {x}, y = {y}, z = {z} m, above the {point} K at which it \
      boils (`boils_at`): the model keeps it liquid";
     "do not rely on spread, heat and forces of what boils from here on"
+
+    Step solid_beyond_substance(temperature, name, high, melting)
+    "{temperature} K is above the {high} K up to which the library's constants of `{name}` hold{melting}";
+    "do not rely on temperatures and stresses from here on; a material with constants that hold there, and with \
+     `melting`, has them"
 
     Step fluid_beyond_edge()
     "fluid lies beyond the edge of the solid: it transfers no heat there, and its force, which does not act on the \

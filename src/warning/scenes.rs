@@ -20,6 +20,10 @@ rules! {
     "the library's constants of `{name}` hold from {low} to {high} K, and this is {value} K; beyond, the values at the \
      end are used"; "give constants that hold there, as tables over the temperature"
 
+    Check constants_of_other_temperature(name, taken, there)
+    "constants of `{name}` were taken at {taken} K, the temperature in the scene; here they would be {there}";
+    "set these, too, or change the temperature in the scene"
+
     Check light_solid_conducts(conductivity, meant, given)
     "no solid this light conducts {conductivity} W/(m K)"; "did you mean {meant} ({given} g/cm³)?"
 

@@ -3,62 +3,113 @@
 use std::fmt::Write;
 
 use impinge::advice::{HeatError, Resolution};
-use impinge::model::tolerance::{BodyEstimate, percent};
+use impinge::model::tolerance::{BodyEstimate, percent, warned_from};
 use impinge::scene::Scene;
 
 /// Most outputs that are listed on lines of their own.
 const MOST: usize = 4;
+/// Most gaps of the estimates that are listed.
+const MOST_GAPS: usize = 3;
+/// Notes on gaps of an estimate begin with the first of these or have the second.
+const GAP: [&str; 2] = ["no estimate", "left out"];
 
 /// Error of an output, or the largest of the elements of an array.
 struct Line {
     name: String,
     /// Part of the output's range.
     error: f64,
+    mark: char,
     elements: usize,
 }
 
-/// Marks the expected error of each output, the largest first, and those that drops bring.
+/// Marks the expected error of each output, the largest first, and those that drops bring; then names what has no
+/// estimate.
+///
+/// ✓ is within the tolerance, ✗ is warned of, and ≈ is between: estimates of chosen meshes are high by a factor of two, and
+/// those of drops follow from measurements of others.
 pub fn accuracy(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<String> {
     let tolerance = scene.fidelity.tolerance;
-    let mark = |error: f64| if error <= tolerance { '✓' } else { '✗' };
-    let lines = by_output(estimates);
+    let lines = by_output(scene, estimates);
     let width = lines.iter().take(MOST).map(|line| line.name.chars().count()).max().unwrap_or(0);
     let mut text: Vec<String> = lines
         .iter()
         .take(MOST)
-        .map(|Line { name, error, elements }| {
-            let mut line = format!("{} {name:width$}  {}", mark(*error), percent(*error));
+        .map(|Line { name, error, mark, elements }| {
+            let mut line = format!("{mark} {name:width$}  {}", percent(*error));
             if *elements > 1 {
                 let _ = write!(line, " at the worst of {elements} places");
             }
             line
         })
         .collect();
+    if let Some(first) = text.first_mut() {
+        let _ = write!(first, " of its range (wanted: {})", percent(tolerance));
+    }
     if let [next, ..] = &lines[MOST.min(lines.len())..] {
         let (more, most) = (lines.len() - MOST, percent(next.error));
-        text.push(format!("{} {more} more, {most} at most", mark(next.error)));
+        text.push(format!("{} {more} more, {most} at most", next.mark));
     }
     text.extend(scene.droplets().filter_map(|(name, droplet)| {
-        let HeatError { expected, half, .. } = Resolution::of(scene, (name, droplet))?.heat()?;
-        let mark = mark(expected.abs() + half);
-        let [expected, half] = [expected, half].map(|part| 100.0 * part);
-        Some(format!("{mark} heat of {name}, and what it warms: {expected:+.0} ± {half:.0} % by its particles"))
+        Some(of_drop(name, &Resolution::of(scene, (name, droplet))?, tolerance))
     }));
+    if text.iter().any(|line| line.starts_with('≈')) {
+        text.push("≈ near the tolerance, or beyond it by measurements of other drops".to_owned());
+    }
+    let notes = |estimate: &BodyEstimate| {
+        let is_gap = |note: &&String| note.starts_with(GAP[0]) || note.contains(GAP[1]);
+        let shown = |note: &String| format!("{}: {note}", estimate.body);
+        estimate.notes.iter().filter(is_gap).map(shown).collect::<Vec<_>>()
+    };
+    text.extend(estimates.iter().flat_map(notes).take(MOST_GAPS));
     text
 }
 
+/// Errors of a drop by its particles: of its heat if it has any, of its spread and of its force.
+fn of_drop(name: &str, resolution: &Resolution, tolerance: f64) -> String {
+    let (mut parts, mut worst) = (Vec::new(), 0.0_f64);
+    if let Some(HeatError { expected, half, .. }) = resolution.heat() {
+        worst = worst.max(expected.abs() + half);
+        let [expected, half] = [expected, half].map(|part| 100.0 * part);
+        parts.push(format!("heat by the stop time {expected:+.0} ± {half:.0} %"));
+    }
+    let [low, high] = resolution.spread().map(|error| 100.0 * error);
+    worst = worst.max(0.01 * high);
+    parts.push(format!("largest spread {low:.0} to {high:.0} %"));
+    if resolution.outside_of_force().is_none() {
+        worst = worst.max(resolution.force());
+        parts.push(format!("means of force {:.0} %", 100.0 * resolution.force()));
+    }
+    let mark = if worst <= tolerance { '✓' } else { '≈' };
+    format!("{mark} {name}, by its particles: {}", parts.join(", "))
+}
+
 /// Errors by output, the largest first; elements of an array are one line.
-fn by_output(estimates: &[BodyEstimate]) -> Vec<Line> {
+fn by_output(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<Line> {
+    let tolerance = scene.fidelity.tolerance;
     let mut lines: Vec<Line> = Vec::new();
-    for output in estimates.iter().flat_map(|estimate| &estimate.outputs) {
-        let name = output.name.split('[').next().unwrap_or(&output.name);
-        let error = output.total();
-        match lines.iter_mut().find(|line| line.name == name) {
-            Some(line) => {
-                line.error = line.error.max(error);
-                line.elements += 1;
+    for estimate in estimates {
+        let warned_from = warned_from(scene, &estimate.body).unwrap_or(tolerance);
+        let mark = |error: f64| match error {
+            kept if kept <= tolerance => '✓',
+            near if near <= warned_from => '≈',
+            _ => '✗',
+        };
+        for output in &estimate.outputs {
+            let name = output.name.split('[').next().unwrap_or(&output.name);
+            let error = output.total();
+            match lines.iter_mut().find(|line| line.name == name) {
+                Some(line) => {
+                    line.error = line.error.max(error);
+                    line.mark = mark(line.error);
+                    line.elements += 1;
+                }
+                None => lines.push(Line {
+                    name: name.to_owned(),
+                    error,
+                    mark: mark(error),
+                    elements: 1,
+                }),
             }
-            None => lines.push(Line { name: name.to_owned(), error, elements: 1 }),
         }
     }
     lines.sort_by(|a, b| b.error.total_cmp(&a.error));

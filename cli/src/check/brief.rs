@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use impinge::model::tolerance::{BodyEstimate, percent};
+use impinge::model::tolerance::BodyEstimate;
 use impinge::model::{Forecast, Timeline};
 use impinge::output::FilesForecast;
 use impinge::scene::Scene;
@@ -36,14 +36,10 @@ pub fn brief(scene: &Scene, findings: &Findings) -> String {
         }
     };
     add("models", &[models(findings.forecast)]);
-    add("takes", &[findings.preparation.cost(findings.forecast)]);
+    add("takes", &[findings.preparation.cost(findings.forecast, findings.files.table_time)]);
     add("writes", &[writes(&findings.files, scene)]);
     add("not modelled", &omissions(scene, findings.forecast));
-    let mut errors = accuracy(scene, findings.estimates);
-    if let Some(first) = errors.first_mut() {
-        let _ = write!(first, " of its range (wanted: {})", percent(scene.fidelity.tolerance));
-    }
-    add("accuracy", &errors);
+    add("accuracy", &accuracy(scene, findings.estimates));
     let warnings = match findings.warnings {
         0 => "none".to_owned(),
         1 => "1, above".to_owned(),

@@ -22,9 +22,9 @@ impl Preparation {
         self.done.peak_memory.max(self.begun.peak_memory + data)
     }
 
-    /// Describes the cost of a run: that of its preparation and that of its model.
-    pub fn cost(&self, forecast: &Forecast) -> String {
-        let total = forecast.run_time() + self.time();
+    /// Describes the cost of a run: that of its preparation, that of its model, and the time for its table [s].
+    pub fn cost(&self, forecast: &Forecast, table_time: f64) -> String {
+        let total = forecast.run_time() + self.time() + table_time;
         let memory = self.process_memory(forecast.memory()) / 1e6;
         let of_it = match self.time() {
             time if time > NOTABLE * total => {

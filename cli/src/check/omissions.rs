@@ -7,6 +7,9 @@ use impinge::scene::{Droplet, Scene};
 const FREE_FALL: f64 = 9.81;
 /// Bond number ρgD²/σ above which gravity flattens a drop by some per cent.
 const FELT: f64 = 0.1;
+/// `√We Re^¼` from which on drops splash on dry walls (C. Mundo, M. Sommerfeld & C. Tropea 1995, Int. J. Multiphase Flow
+/// 21, 151–173, doi 10.1016/0301-9322(94)00069-V).
+const SPLASHES: f64 = 57.7;
 
 /// Lists effects that the model leaves out and that somebody may expect of such a scene.
 pub fn omissions(scene: &Scene, forecast: &Forecast) -> Vec<String> {
@@ -21,7 +24,7 @@ pub fn omissions(scene: &Scene, forecast: &Forecast) -> Vec<String> {
     }
     let droplets: Vec<_> = scene.droplets().collect();
     if !droplets.is_empty() {
-        list.push("freezing, boiling and evaporation of liquids, the air, splashing".to_owned());
+        list.push("freezing, boiling and evaporation of liquids, the air".to_owned());
     }
     let heavy = |&(name, droplet): &(&str, &Droplet)| {
         let bond = bond(droplet);
@@ -29,7 +32,21 @@ pub fn omissions(scene: &Scene, forecast: &Forecast) -> Vec<String> {
             .then(|| format!("gravity on {name} (Bond number {bond:.2}; `gravity = 9.81`)"))
     };
     list.extend(droplets.iter().filter_map(heavy));
+    let violent = |&(name, droplet): &(&str, &Droplet)| {
+        let splash = splash(droplet);
+        (splash > SPLASHES && splash.is_finite())
+            .then(|| format!("splashing of {name}: We^½ Re^¼ is {splash:.0}, and drops splash above some {SPLASHES}"))
+    };
+    list.extend(droplets.iter().filter_map(violent));
     list
+}
+
+/// `√We Re^¼` at impact.
+fn splash(droplet: &Droplet) -> f64 {
+    let (fluid, speed) = (&droplet.fluid, droplet.impact_velocity);
+    let weber = fluid.density * speed.powi(2) * droplet.diameter / fluid.surface_tension;
+    let reynolds = fluid.density * speed * droplet.diameter / fluid.viscosity;
+    weber.sqrt() * reynolds.powf(0.25)
 }
 
 fn bond(droplet: &Droplet) -> f64 {

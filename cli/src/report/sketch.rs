@@ -10,8 +10,8 @@ use impinge::scene::{Scene, Solid};
 use super::document::Sketch;
 use view::Views;
 
-/// Largest number of drops that are drawn.
-const MOST_DROPS: usize = 30;
+/// Largest number of drops that are drawn, evenly chosen.
+const MOST_DROPS: usize = 500;
 
 /// A sketch of each solid with what acts on it, and of each droplet above a wall of its own.
 pub fn sketches(scene: &Scene) -> Vec<Sketch> {

@@ -123,7 +123,7 @@ const TOTALS: [Total; 31] = [
     ),
     above_a_wall(
         "spread_diameter",
-        "diameter of the film on the wall, without holes and spray",
+        "diameter of the film on the wall, without holes and spray; zero before fluid is near it",
         Quantity::Length,
         Read::Totals(|totals| totals.spread_diameter),
     ),

@@ -10,6 +10,7 @@ use super::built::{expect_room, explain};
 use super::kind::{Kind, look_up, wrong_type};
 use crate::fmi::gate::answer::{Answer, Reference, Refusal, Status};
 use crate::fmi::table::Phase;
+use crate::quantity::Quantity;
 use crate::runtime::address_space::SPARE;
 use crate::runtime::thread::{STACK, aside};
 use crate::variables::{Causality, Output, Registry, Slot, Variable};
@@ -33,14 +34,18 @@ impl Unit {
 
     /// Warns once of each output whose value is less accurate than it seems.
     fn warn_of_values(&mut self, variables: &[&Variable], values: &[f64]) {
-        let Some(run) = self.run.as_ref().filter(|_| self.scene.has_drops()) else {
-            return;
-        };
+        let has_rules = self.scene.has_drops() || !self.scene.substances.is_empty();
+        let Some(run) = self.run.as_ref().filter(|_| has_rules) else { return };
         let model = Arc::clone(&run.model);
         for (variable, &value) in variables.iter().zip(values) {
             let warning =
                 output_of(variable).and_then(|output| model.warning_on_value(output, value));
             self.warn_once(warning.map(|warning| warning.of_subject(&variable.name)));
+            if let Some(output) = output_of(variable)
+                && variable.quantity == Some(Quantity::Temperature)
+            {
+                self.warn_once(model.warning_on_temperature(output.body, value));
+            }
         }
     }
 

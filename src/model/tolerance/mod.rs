@@ -23,7 +23,8 @@ use crate::scene::{MeshFactors, Scene};
 use choice::{Choice, choose, is_chosen};
 pub use levels::{Levels, levels, reduced_model, stored_reductions};
 pub use report::{
-    BodyEstimate, PACKED, estimate as estimate_of, estimates, finer_mesh, packed_text, warnings,
+    BodyEstimate, PACKED, estimate as estimate_of, estimates, finer_mesh, packed_text, warned_from,
+    warnings,
 };
 use twin::MOST_PROBES;
 

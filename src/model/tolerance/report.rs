@@ -189,11 +189,17 @@ pub fn warnings(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<Warning> {
     of_meshes.chain(warnings_on_landing(scene)).collect()
 }
 
+/// Estimate of an output's error from which on the mesh of a body causes a warning; `None` for bodies without a mesh.
+pub fn warned_from(scene: &Scene, body: &str) -> Option<f64> {
+    let is_open = open(scene.meshed(body)?) == [true; 2];
+    Some(scene.fidelity.tolerance * if is_open { OVER } else { 1.0 })
+}
+
 fn beyond_tolerance(scene: &Scene, estimate: &BodyEstimate) -> Option<Warning> {
     let tolerance = scene.fidelity.tolerance;
     let solid = scene.meshed(&estimate.body)?;
     let is_open = open(solid) == [true; 2];
-    let most = if is_open { OVER * tolerance } else { tolerance };
+    let most = warned_from(scene, &estimate.body)?;
     let worst = estimate.worst().filter(|&worst| worst > most)?;
     let name = &estimate.body;
     let output = estimate.outputs.iter().max_by(|a, b| a.total().total_cmp(&b.total()))?;

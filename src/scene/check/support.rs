@@ -8,12 +8,21 @@ pub fn check(checker: &mut Checker) {
     for (name, solid) in checker.scene.solids() {
         if checker.scene.asks_mechanics(name) {
             let free = free_motions(solid);
-            let message = format!(
-                "stress or displacement is an output, but nothing supports the body against {}",
-                free.join(", ")
-            );
+            let scene = checker.scene;
+            let (why, spare) = if scene.gives_mechanics(name) {
+                ("stress or displacement is an output", "")
+            } else if scene.needs_mechanics(name) {
+                ("a load carries traction", "")
+            } else {
+                (
+                    "drops push the body",
+                    "; or `traction = false` in the `[[coupling]]`, for heat alone",
+                )
+            };
+            let against = free.join(", ");
+            let message = format!("{why}, but nothing supports the body against {against}");
             let path = Path::default().key("body").key(name);
-            checker.require(free.is_empty(), &path, message, remedy(solid));
+            checker.require(free.is_empty(), &path, message, format!("{}{spare}", remedy(solid)));
         }
     }
 }

@@ -25,8 +25,28 @@ pub struct NamedSubstance {
     pub table: Path,
     pub kind: Kind,
     pub substance: Substance,
+    /// Temperatures between which the constants hold [K].
+    pub valid: [f64; 2],
+    /// Temperature at which it melts [K].
+    pub melts: Option<f64>,
     /// Temperature at which the scene takes the constants [K].
     pub at: Option<f64>,
+    /// Temperature at which constants of a fluid are taken [K]: the given one, or that of the drop.
+    pub taken: Option<f64>,
+}
+
+impl NamedSubstance {
+    fn new(table: Path, kind: Kind, substance: Substance) -> Self {
+        let sheet = substance.sheet();
+        let melting = sheet.constants.get("melting").and_then(|melting| melting.get("solidus"));
+        let melts = melting.and_then(toml::Value::as_float);
+        Self { table, kind, substance, valid: sheet.valid, melts, at: None, taken: None }
+    }
+
+    /// Constants at a temperature [K], of those that depend on it.
+    pub fn constants_at(&self, temperature: f64) -> Vec<(&'static str, f64)> {
+        take_at(&mut constants(self.substance, &(0..0)), temperature, None)
+    }
 }
 
 /// Puts constants in the place of names; returns what is wrong with them.
@@ -102,7 +122,7 @@ fn name_material(source: &mut Source, place: &Path) {
     let mut table = constants(substance, &span);
     table.insert(spanned("model", &span), Spanned::new(span.clone(), string("thermoelastic")));
     source.insert(["material", &name], &span, DeValue::Table(table));
-    source.add_substance(NamedSubstance { table: path, kind: Kind::Solid, substance, at: None });
+    source.add_substance(NamedSubstance::new(path, Kind::Solid, substance));
 }
 
 /// The name of a substance as one of a material, which is part of the names of parameters: `steel-304` is `steel_304`.
@@ -164,7 +184,8 @@ fn expand_table(
     for (key, value) in taken {
         source.set_number(place.key(key), value);
     }
-    source.add_substance(NamedSubstance { table: place.clone(), kind, substance, at: given });
+    let named = NamedSubstance::new(place.clone(), kind, substance);
+    source.add_substance(NamedSubstance { at: given, taken: at, ..named });
 }
 
 fn unknown(source: &Source, place: &Path, name: &str, kind: Kind) -> Problem {

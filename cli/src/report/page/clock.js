@@ -3,6 +3,9 @@
 const clock = {
   times: [],
   place: 0,
+  /** Time at which the page opens [s], instead of the last one. */
+  first: null,
+  hasMoved: false,
   timer: null,
   listeners: [],
   /** The time that is shown [s]. */
@@ -10,7 +13,7 @@ const clock = {
   /** Adds what shows times of its own; it is told the time whenever that changes. */
   add(times, listener) {
     this.times = [...new Set([...this.times, ...times])].sort((a, b) => a - b);
-    this.place = this.times.length - 1;
+    this.place = this.first === null ? this.times.length - 1 : frameAt(this.times, this.first);
     this.listeners.push(listener);
   },
   go(place) {
@@ -22,9 +25,10 @@ const clock = {
     clearInterval(this.timer);
     this.timer = null;
   },
-  /** Plays all times within some seconds, from the start if it stands at the end. */
+  /** Plays all times within some seconds, from the start if it stands at the end or where the page has opened. */
   run(changed) {
-    if (this.place === this.times.length - 1) this.place = -1;
+    if (!this.hasMoved || this.place === this.times.length - 1) this.place = -1;
+    this.hasMoved = true;
     const pause = Math.min(Math.max(6000 / this.times.length, 40), 400);
     this.timer = setInterval(() => {
       this.go(this.place + 1);
@@ -60,6 +64,7 @@ function transport() {
   });
   slider.addEventListener("input", () => {
     clock.stop();
+    clock.hasMoved = true;
     clock.go(Number(slider.value));
   });
   clock.listeners.push(refresh);

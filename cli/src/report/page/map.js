@@ -25,9 +25,25 @@ class FieldMap {
     this.note = el("span", { class: "soft" });
     this.element = el("figure", { class: "map" }, el("figcaption", {}, el("b", {}, map.title), " ", this.note), this.tools(), this.plot, this.readout);
     this.listen();
+    if (map.layout !== "profile") clock.first = clock.first ?? map.times[this.fullest()];
     if (map.layout !== "profile") clock.add(map.times, (time) => this.show(time));
     recolour.add(() => this.draw());
     onWidth(this.element, (width) => { this.width = width; this.draw(); });
+  }
+
+  /** The place of the time at which values of the first field differ most. */
+  fullest() {
+    const { values } = this.fields[0];
+    let [best, most] = [this.map.times.length - 1, -Infinity];
+    this.map.times.forEach((_, frame) => {
+      let [low, high] = [Infinity, -Infinity];
+      for (const value of values.subarray(frame * this.cells, (frame + 1) * this.cells)) {
+        if (value < low) low = value;
+        if (value > high) high = value;
+      }
+      if (high - low > most) [best, most] = [frame, high - low];
+    });
+    return best;
   }
 
   tools() {

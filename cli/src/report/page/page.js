@@ -73,6 +73,6 @@ section("timings", "Time taken", report.timings.length ? timingsOf(report.timing
 section("notes", "Notes", report.notes.length ? el("ul", { class: "plain" }, report.notes.map((note) => el("li", {}, rich(note)))) : null);
 looks.forEach((look) => look());
 document.getElementById("places").append(el("ul", {}, sections.map(([id, title]) => el("li", {}, el("a", { href: `#${id}` }, title)))));
-if (clock.times.length) clock.go(clock.times.length - 1);
+if (clock.times.length) clock.go(clock.place);
 addEventListener("beforeprint", () => recolour.all());
 document.documentElement.dataset.ready = "true";

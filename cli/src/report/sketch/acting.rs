@@ -7,6 +7,7 @@ use super::body::half_widths;
 use super::view::{Drawing, Views, Words};
 use crate::check::bodies::speed;
 use crate::check::words::{keys, metres};
+use crate::report::fields::thinned;
 use crate::units::kelvin;
 
 /// Most rings or tiles whose edges are drawn.
@@ -92,7 +93,13 @@ pub fn drops(name: &str, droplet: &Droplet, views: &mut Views) {
     }
     places.dedup();
     let [u, _, w] = droplet.velocity();
-    for (i, [x, y]) in places.into_iter().take(MOST_DROPS).enumerate() {
+    let drawn = thinned(places.len(), MOST_DROPS);
+    let label = match drawn.len() {
+        1 => label,
+        some if some < places.len() => format!("{label}; {some} of {} places", places.len()),
+        all => format!("{label}; {all} places"),
+    };
+    for (i, [x, y]) in drawn.into_iter().map(|place| places[place]).enumerate() {
         let words = || Words { label: label.clone(), short: if i == 0 { name } else { "" } };
         views.side.disc("drop", [x, height], radius, words());
         views.side.arrow("velocity", [x, height - radius], [u, w], Words::none());
