@@ -172,7 +172,7 @@ class Master:
             ("scheme", f"{scheme}; order {self.order}, tolerance {self.tolerance:g}"),
             ("steps", f"{self.steps} so far, {step} {self._schedule.step:g} s"),
             ("records", listed(self._record.names)),
-            ("notes", "; ".join(self.notes)),
+            *(("note", note) for note in self.notes),
         ]
         tables = [
             Table("connections", ("from", "to"), pairs),
@@ -287,9 +287,11 @@ class Master:
             p.name for p in self.participants.values() if self.order and p.writer and not p.order
         ]
 
-    def _note(self, text: str) -> None:
-        self.notes.append(text)
-        warnings.warn(text, MasterWarning, stacklevel=4)
+    def _note(self, text: str, stacklevel: int = 4) -> None:
+        """Warns of something once, and keeps it for the result."""
+        if text not in self.notes:
+            self.notes.append(text)
+            warnings.warn(text, MasterWarning, stacklevel=stacklevel)
 
     def _proposed_step(self) -> float:
         proposed = [unit.default_step for unit in self.units.values() if unit.default_step]
@@ -352,7 +354,7 @@ class Master:
             values, shares = engine.inputs[place], weight[place]
             unknown = participant.probe(values, shares, self._schedule.step)
             if unknown and self.order:
-                self.notes.append(
+                self._note(
                     f"{participant.name} {unknown}, so that its outputs are taken as computed in"
                     " its steps from inputs at their ends: of first order if they are states that"
                     " it does not declare to follow no input at once"
@@ -403,7 +405,8 @@ class Master:
             self._warned.add("steep")
             self._note(
                 f"{steep[0]} changes within the step from {self.time:.6g} s as no parabola does:"
-                " what it brings in is not exact"
+                " what it brings in is not exact",
+                stacklevel=5,
             )
         if not jumping:
             return end
@@ -417,7 +420,8 @@ class Master:
             _, function, at = jumping[0]
             self._note(
                 f"{function.name} jumps at {at[0]:.6g} s, within a step, and units take steps of"
-                " one length: its mean over the step is held"
+                " one length: its mean over the step is held",
+                stacklevel=5,
             )
         return end
 
@@ -458,7 +462,7 @@ class Master:
                 raise MasterError(f"{where} does not converge: {error}") from None
             self.unconverged += 1
             if self.unconverged == 1:
-                warnings.warn(f"{where} does not converge: {error}", MasterWarning, stacklevel=4)
+                self._note(f"{where} does not converge: {error}", stacklevel=5)
             return True
         raise error
 
@@ -554,6 +558,7 @@ class Master:
             "energy_error": max((balance.share for balance in self._powers), default=0.0),
             "held_inputs": " ".join(self.held),
             "notes": "; ".join(self.notes),
+            "warnings": list(self.notes),
             "seconds": self.seconds,
             "impinge": impinge.__version__,
         }
