@@ -1,28 +1,46 @@
-"""Outputs that are values at one point in the middle of a load, and means to take instead."""
+"""Outputs that are values at one point in the middle of a load, and means to take instead.
+
+Under a drop of 10 to 29 particles across on two meshes, temperature rises at the middle after its
+fall are 17 % apart, means over its width 5 %. In the middle of a Gaussian spot a node spacing of
+half its radius changes the rise by 7 % with linear elements and 0.3 % with quadratic ones, means by
+0.9 % and 0.02 %. In the middle of a uniform disc they change less than means do.
+"""
 
 from __future__ import annotations
 
+import logging
 import re
 import tomllib
-from collections.abc import Iterable, Iterator, Mapping
+import warnings
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from math import hypot
 from typing import Any
 
 from impinge import measure
-from impinge.errors import UnitError
+from impinge.errors import StudyWarning, UnitError
 from impinge.unit import Package
 
-_ROUND = ("disc", "gaussian")
+_LOGGER = logging.getLogger("impinge")
 _SAME = 1e-3  # of a load's radius: a point nearer to its axis lies on it
 _QUANTITY = re.compile(r"\s*([-+]?[\d.]+(?:e[-+]?\d+)?)\s*(\D.*?)?\s*", re.I)
 
 
 @dataclass(frozen=True)
+class Note:
+    """A note on the outputs of a probe. is_warning: whether their error may be large on a mesh that
+    keeps its tolerance, as under drops."""
+
+    text: str
+    is_warning: bool
+
+
+@dataclass(frozen=True)
 class Spot:
-    """A round load on a face: its name, what its middle depends on, and where it is [m]."""
+    """A drop or a Gaussian spot on a face, and where it is [m]."""
 
     name: str
+    is_drop: bool
     depends: str
     face: str
     centre: tuple[float, float]
@@ -30,13 +48,29 @@ class Spot:
     footprint: str
 
 
-def notes_on_points(
-    package: Package, outputs: Iterable[str], moved: Iterable[str] = ()
+def tell_of_points(
+    package: Package, outputs: Iterable[str], moved: Collection[str] = (), stacklevel: int = 2
 ) -> list[str]:
+    """Warns of points under drops, logs the notes on others, and returns the texts of all.
+
+    stacklevel: of the warnings, counted from the caller.
+    """
+    notes = notes_on_points(package, outputs, moved)
+    for note in notes:
+        if note.is_warning:
+            warnings.warn(StudyWarning(note.text), stacklevel=stacklevel + 1)
+        else:
+            _LOGGER.info("%s", note.text)
+    return [note.text for note in notes]
+
+
+def notes_on_points(
+    package: Package, outputs: Iterable[str], moved: Collection[str] = ()
+) -> list[Note]:
     """Notes on outputs that are values of a probe on a loaded face in the middle of a drop or spot,
     with the mean to take instead; one note for each probe.
 
-    moved: names of variables whose values are not those of the scene.
+    moved: names of variables and of keys of the scene whose values are not those of the scene.
     """
     path = package.folder / "resources/scene.toml"
     try:
@@ -50,13 +84,16 @@ def notes_on_points(
     found = []
     for probe in scene.get("probe", []):
         quantities = asked.get(probe.get("name"), [])
-        spot = _spot_above(scene, probe, set(moved)) if quantities else None
+        if not quantities or any(name.startswith(f"probe.{probe['name']}.at") for name in moved):
+            continue
+        spot = _spot_above(scene, probe, moved)
         if spot:
-            found.append(_note(package, scene, probe, quantities, spot))
+            text = _text(package, scene, probe, quantities, spot)
+            found.append(Note(text, spot.is_drop))
     return found
 
 
-def _note(
+def _text(
     package: Package,
     scene: Mapping[str, Any],
     probe: Mapping[str, Any],
@@ -68,9 +105,8 @@ def _note(
     several = len(quantities) > 1
     begin = (
         f"{told} {'are values' if several else 'is the value'} at one point, under the axis of"
-        f" `{spot.name}`, where {'they depend' if several else 'it depends'} most on"
-        f" {spot.depends}; a mean over the footprint depends less on"
-        f" {'these' if ' and ' in spot.depends else 'it'}:"
+        f" `{spot.name}`, where {'they depend' if several else 'it depends'} on {spot.depends} more"
+        f" than means over {'the width of the drop' if spot.is_drop else 'the spot'} do: consider"
     )
     means = [_mean_of(package, scene, spot, quantity) for quantity in quantities]
     if all(means):
@@ -84,14 +120,14 @@ def _note(
         "gives = [" + ", ".join(f'"{g}"' for g in gives) + "]",
     ]
     names = ", ".join(f"{name}_mean.{quantity}" for quantity in quantities)
-    return f"{begin} {names}, with a table [[field]] in the scene of {', '.join(table)}"
+    return f"{begin} {names}, with a table `[[field]]` in the scene: {', '.join(table)}"
 
 
 def _mean_of(package: Package, scene: Mapping[str, Any], spot: Spot, quantity: str) -> str:
     """The mean of a quantity around the middle of a spot that the unit has already, or nothing."""
     for field in scene.get("field", []):
         footprint = field.get("footprint") or {}
-        if field.get("on") != spot.face or not {*_ROUND, "rings"} & footprint.keys():
+        if field.get("on") != spot.face or not {"disc", "gaussian", "rings"} & footprint.keys():
             continue
         centre = [_metres(x) for x in field.get("at", [0.0, 0.0])]
         if None in centre or not _is_at(centre, spot):
@@ -104,7 +140,9 @@ def _mean_of(package: Package, scene: Mapping[str, Any], spot: Spot, quantity: s
     return ""
 
 
-def _spot_above(scene: Mapping[str, Any], probe: Mapping[str, Any], moved: set[str]) -> Spot | None:
+def _spot_above(
+    scene: Mapping[str, Any], probe: Mapping[str, Any], moved: Collection[str]
+) -> Spot | None:
     """The drop or spot whose axis a probe lies on, on the face that it loads."""
     at = [_metres(x) for x in probe.get("at", [])]
     if len(at) != 3 or None in at:
@@ -133,20 +171,19 @@ def _drops(scene: Mapping[str, Any]) -> Iterator[Spot]:
             x, y = centre
             if x is not None and y is not None:
                 face = str(coupling.get("to"))
-                yield Spot(str(name), depends, face, (x, y), diameter / 2, "disc")
+                yield Spot(str(name), True, depends, face, (x, y), diameter / 2, "disc")
 
 
-def _spots(scene: Mapping[str, Any], moved: set[str]) -> Iterator[Spot]:
+def _spots(scene: Mapping[str, Any], moved: Collection[str]) -> Iterator[Spot]:
     for load in scene.get("load", []):
         name = str(load.get("name"))
-        if moved & {f"{name}.x", f"{name}.y"}:
+        if any(f"{key}.{axis}" in moved for key in (name, f"load.{name}.start") for axis in "xy"):
             continue
         start = load.get("start", {})
         x, y = (_metres(start.get(key, 0.0)) for key in ("x", "y"))
-        for kind in _ROUND:
-            radius = _metres((load.get("footprint", {}).get(kind) or {}).get("radius"))
-            if None not in (radius, x, y):
-                yield Spot(name, "the mesh", str(load.get("on")), (x, y), radius, kind)
+        radius = _metres((load.get("footprint", {}).get("gaussian") or {}).get("radius"))
+        if x is not None and y is not None and radius is not None:
+            yield Spot(name, False, "the mesh", str(load.get("on")), (x, y), radius, "gaussian")
 
 
 def _is_at(at: list[float | None], spot: Spot) -> bool:

@@ -6,8 +6,9 @@ Results are plain `xarray.Dataset`s. Whatever this package adds to them is at `r
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import xarray as xr
 
@@ -85,7 +86,7 @@ class Results:
             ("units", listed(f"{name} = {told[f'unit.{name}']}" for name in names)),
             ("scheme", f"{told['scheme']}; order {told['order']}"),
             ("steps", f"{told['steps']}, {told['rejected']} repeated shorter"),
-            *(("note", note) for note in words(told.get("warnings", told.get("notes", "")))),
+            *(("note", note) for note in notes_of_master(told)),
         ]
         head = f"<impinge results of a coupled run: {len(times)} times to {times[-1]:g} s>"
         return Summary(head, lines)
@@ -104,6 +105,11 @@ class Results:
             *(("note", note) for note in words(told.get("notes", []))),
         ]
         return Summary(f"<impinge results of a study of {name}: {told['rows']} rows>", lines)
+
+
+def notes_of_master(attributes: Mapping[str, Any]) -> list[str]:
+    """Notes of a coupled run, one by one; those of older files are one text."""
+    return str(attributes.get("warnings", attributes.get("notes", ""))).splitlines()
 
 
 def words(stored: object) -> list[str]:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from impinge.errors import StudyWarning, UnitError
-from impinge.points import notes_on_points
+from impinge.errors import UnitError
+from impinge.points import tell_of_points
 from impinge.unit import Unit
 
 from .rollout import Rollout, sizes_of_changes
@@ -49,8 +48,7 @@ def step_sensitivity(
 
     C. J. F. Ridders, Adv. Eng. Softw. 4 (1982), doi 10.1016/S0141-1195(82)80057-0.
     """
-    for note in notes_on_points(unit.package, outputs, inputs):
-        warnings.warn(StudyWarning(note), stacklevel=2)
+    tell_of_points(unit.package, outputs, inputs)
     with Rollout(unit, inputs, outputs, step, 1) as rollout:
         columns = [
             _column(rollout, number, size)

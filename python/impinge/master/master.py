@@ -288,7 +288,8 @@ class Master:
         ]
 
     def _note(self, text: str, stacklevel: int = 4) -> None:
-        """Warns of something once, and keeps it for the result."""
+        """Warns of something once, and keeps it for the result, in one line."""
+        text = " ".join(text.split())
         if text not in self.notes:
             self.notes.append(text)
             warnings.warn(text, MasterWarning, stacklevel=stacklevel)
@@ -558,7 +559,7 @@ class Master:
             "energy_error": max((balance.share for balance in self._powers), default=0.0),
             "held_inputs": " ".join(self.held),
             "notes": "; ".join(self.notes),
-            "warnings": list(self.notes),
+            "warnings": "\n".join(self.notes),
             "seconds": self.seconds,
             "impinge": impinge.__version__,
         }

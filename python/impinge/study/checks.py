@@ -6,8 +6,8 @@ import warnings
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from impinge.errors import StudyWarning, UnitError
-from impinge.points import notes_on_points
+from impinge.errors import UnitError
+from impinge.points import tell_of_points
 from impinge.unit import Variable
 
 from .runner import Row
@@ -81,7 +81,7 @@ def _check_ends(study: Study, name: str, refusal: Callable[[Row], str]) -> None:
     for place, why in refused:
         note = f"rows with {name} = {values[place]!r} will fail: {why}"
         study.notes.append(note)
-        warnings.warn(note, stacklevel=5)
+        warnings.warn(note, stacklevel=4)
 
 
 def _out_of(name: str, study: Study, low: float | None, high: float | None) -> Callable[[Row], str]:
@@ -122,7 +122,7 @@ def warn_of_inputs(study: Study) -> None:
         return
     for note in line.notes:
         study.notes.append(note)
-        warnings.warn(note, stacklevel=4)
+        warnings.warn(note, stacklevel=3)
 
 
 def warn_of_points(study: Study) -> None:
@@ -130,6 +130,4 @@ def warn_of_points(study: Study) -> None:
     experiment = study.experiment
     outputs = [name for output in experiment.outputs for name in output.needs]
     moved = [*study.parameters, *experiment.inputs]
-    for note in notes_on_points(study.package, outputs, moved):
-        study.notes.append(note)
-        warnings.warn(StudyWarning(note), stacklevel=4)
+    study.notes += tell_of_points(study.package, outputs, moved, stacklevel=3)
