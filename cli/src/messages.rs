@@ -17,6 +17,9 @@ pub struct Message {
     pub message: String,
     /// Empty if there is none.
     pub remedy: String,
+    /// Id in the library's table of warnings; empty for other messages.
+    #[serde(default)]
+    pub id: String,
 }
 
 /// Messages that this process has printed.
@@ -32,6 +35,7 @@ pub fn warn(warnings: &[Warning]) {
             place: warning.place().to_owned(),
             message: finding.message.clone(),
             remedy: finding.remedy.clone(),
+            id: finding.id.to_owned(),
         });
     }
 }
@@ -40,7 +44,8 @@ pub fn warn(warnings: &[Warning]) {
 pub fn print_message(kind: &str, what: &dyn Display) {
     write(kind, what);
     let (kind, message) = (kind.to_owned(), what.to_string());
-    keep(Message { kind, place: String::new(), message, remedy: String::new() });
+    let (place, remedy, id) = (String::new(), String::new(), String::new());
+    keep(Message { kind, place, message, remedy, id });
 }
 
 /// Returns what has been printed so far.

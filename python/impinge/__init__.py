@@ -10,7 +10,14 @@ from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, Any
 
 from impinge import errors
-from impinge.errors import FunctionError, ImpingeError, StepDiscarded, StudyError, UnitError
+from impinge.errors import (
+    FunctionError,
+    ImpingeError,
+    StepDiscarded,
+    StudyError,
+    StudyWarning,
+    UnitError,
+)
 from impinge.unit import State, Unit, Variable
 
 if TYPE_CHECKING:
@@ -36,6 +43,7 @@ __all__ = [
     "StepDiscarded",
     "Study",
     "StudyError",
+    "StudyWarning",
     "Surface",
     "Unit",
     "UnitError",

@@ -62,6 +62,18 @@ class StudyError(ImpingeError, RuntimeError):
     """The folder of a study is in use, or holds files that are none of a study."""
 
 
+class StudyWarning(UserWarning):
+    """What rows of a study warn of or fail of, or what its outputs should not be relied on for.
+
+    `id` is that of a unit's warning, empty if it has none; `rows` are the numbers of the rows that
+    it concerns, from 0 in the order of the table.
+    """
+
+    def __init__(self, what: str, id: str = "", rows: tuple[int, ...] = ()):
+        super().__init__(what)
+        self.id, self.rows = id, rows
+
+
 def extra(name: str) -> str:
     """The command that installs an extra of this package; no index of packages has it."""
     wheel = installation.wheel()

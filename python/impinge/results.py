@@ -6,11 +6,16 @@ Results are plain `xarray.Dataset`s. Whatever this package adds to them is at `r
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import xarray as xr
 
 from impinge.summary import Summary, Table, listed, name_with_unit, number, shown_unit
+
+if TYPE_CHECKING:
+    from impinge.study.findings import Finding
 
 COUPLED, STUDIED = "coupled run", "study"
 
@@ -31,6 +36,13 @@ class Results:
         if "order_of_units" in attributes:
             return COUPLED
         raise ValueError("a data set that is neither of a Master nor of a Study")
+
+    @property
+    def findings(self) -> list[Finding]:
+        """Failures and warnings of a study, each once with all rows that it concerns."""
+        from impinge.study.findings import findings
+
+        return findings(self._dataset)
 
     def report(
         self, path: str | os.PathLike[str], *, title: str | None = None, overwrite: bool = False
@@ -74,7 +86,7 @@ class Results:
             ("units", listed(f"{name} = {told[f'unit.{name}']}" for name in names)),
             ("scheme", f"{told['scheme']}; order {told['order']}"),
             ("steps", f"{told['steps']}, {told['rejected']} repeated shorter"),
-            ("notes", told.get("notes", "")),
+            *(("note", note) for note in notes_of_master(told)),
         ]
         head = f"<impinge results of a coupled run: {len(times)} times to {times[-1]:g} s>"
         return Summary(head, lines)
@@ -89,8 +101,15 @@ class Results:
             ("parameters", listed(name_with_unit(each, unit) for each, unit in pairs)),
             ("sampler", str(told["sampler"])),
             ("rows", f"{told['rows']}, {told['failed']} failed, {told['not_run']} not run"),
+            *(("failure" if f.has_failed else "warning", f.short) for f in self.findings),
+            *(("note", note) for note in words(told.get("notes", []))),
         ]
         return Summary(f"<impinge results of a study of {name}: {told['rows']} rows>", lines)
+
+
+def notes_of_master(attributes: Mapping[str, Any]) -> list[str]:
+    """Notes of a coupled run, one by one; those of older files are one text."""
+    return str(attributes.get("warnings", attributes.get("notes", ""))).splitlines()
 
 
 def words(stored: object) -> list[str]:

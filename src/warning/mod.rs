@@ -1,7 +1,7 @@
 //! Warnings: one table of rules with the texts that users see. The test of a rule is next to the code that it examines:
 //! in `advice` for scenes, in `body` for running bodies, in `model` for meshes and steps.
 //!
-//! Every warning reads `place: what is wrong, with the number; remedy`.
+//! Every warning reads `place: what is wrong, with the number; remedy [id]`.
 
 mod drops;
 mod rule;

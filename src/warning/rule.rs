@@ -96,9 +96,9 @@ impl Warning {
 }
 
 impl fmt::Display for Warning {
-    /// `place: what is wrong; remedy`
+    /// `place: what is wrong; remedy [id]`. The id is last, so that what lines begin with does not depend on it.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.place, self.finding)
+        write!(f, "{}: {} [{}]", self.place, self.finding, self.finding.id)
     }
 }
 

@@ -1,9 +1,12 @@
 """What a master must not get wrong in silence: scales, dead units, times and names."""
 
+import re
+
 import numpy as np
 import pytest
 from impinge import Connection, Master, Unit
 from impinge.master import Bond, Graded, MasterError, MasterWarning
+from impinge.reporting.coupled import coupled
 from linear_unit import make
 from python_unit import BODY, CUBE, LATE, LINK, STAGES, python_unit
 
@@ -155,6 +158,22 @@ def test_what_cannot_be_told_from_a_state_is_noted(folder):
         "a cannot go back, so that its outputs are taken as computed in its steps"
         in (result.attrs["notes"])
     )
+
+
+def test_each_note_of_a_master_is_a_warning_of_its_own_once(folder):
+    """In the result, too, each has a line, and in its report a place."""
+    stuck = python_unit(folder / "stuck", "Body", BODY, states=False)
+    with pytest.warns(MasterWarning) as told:
+        _, result = bodies(folder, stuck, step=0.1)
+    notes = [str(each.message) for each in told]
+    assert len(notes) > 1 and len(set(notes)) == len(notes)
+    assert result.attrs["warnings"].splitlines() == notes
+    assert result.attrs["notes"] == "; ".join(notes)
+    assert [warning["message"] for warning in coupled(result)["warnings"]] == notes
+    older = result.copy()
+    del older.attrs["warnings"]
+    assert [warning["message"] for warning in coupled(older)["warnings"]] == ["; ".join(notes)]
+    assert re.findall(r"^  note +(.*)$", repr(result.impinge), re.M) == notes
 
 
 def test_what_is_computed_in_steps_is_still_known_for_that(folder):

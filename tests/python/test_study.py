@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from impinge import Study, Unit, UnitError, linear_map
+from impinge import Study, StudyWarning, Unit, UnitError, linear_map
 from impinge.study import (
     Grid,
     LatinHypercube,
@@ -239,8 +239,9 @@ def test_warnings_of_a_run_stand_in_its_row(tmp_path, caplog, name):
         stop=0.02,
         step=0.01,
     )
-    with caplog.at_level("WARNING", "impinge"):
+    with caplog.at_level("INFO", "impinge"), pytest.warns(StudyWarning, match="4 of 4") as told:
         table = study.run(1, folder=tmp_path)
+    assert len(told) == 1
     assert (table.status == 0).all()
     messages = table.message.values.ravel().tolist()
     assert all(re.match(r"plate: a step of 1.0e-2 s is shorter than", text) for text in messages)
@@ -249,7 +250,8 @@ def test_warnings_of_a_run_stand_in_its_row(tmp_path, caplog, name):
     for conductivity in (5.0, 10.0):
         begin = f"({name} = {conductivity}, plate.top.flux = 1000.0): plate: a step"
         assert sum(begin in text for text in records) == 1
-    xr.testing.assert_equal(study.run(1, folder=tmp_path), table)
+    with pytest.warns(StudyWarning, match="4 of 4"):
+        xr.testing.assert_equal(study.run(1, folder=tmp_path), table)
 
 
 DROP = """

@@ -202,7 +202,7 @@ fn a_warning_names_file_line_key_value_range_and_what_was_meant() {
         warnings(&text),
         [
             "scene.toml:7: body.plate.material.young = 300.0: Young's modulus is plausible from 5000 to \
-          1.4e12 Pa; did you mean 3e11 (300 GPa)?"
+          1.4e12 Pa; did you mean 3e11 (300 GPa)? [wrong_unit]"
         ]
     );
     let text =
@@ -212,7 +212,7 @@ fn a_warning_names_file_line_key_value_range_and_what_was_meant() {
         [
             "scene.toml:8: body.plate.initial_temperature = 20.0: a temperature is plausible from 250 \
           to 6000 K beside warmer ones, and 20 K is −253.15 °C; did you mean 293.15 (20 °C)? If the \
-          scene is meant to be this cold, set `cryogenic = true`"
+          scene is meant to be this cold, set `cryogenic = true` [celsius]"
         ]
     );
 }

@@ -11,8 +11,8 @@ const PAGE: &str = "docs/warnings.md";
 const HEAD: &str = "# Warnings
 
 Warnings name what may be wrong and change no result; what cannot be computed is refused instead. Every warning reads
-`place: what is wrong, with the number; remedy`, where the place is `FILE:LINE: KEY = VALUE`, the name of a body or an
-output, or `INPUT = VALUE`.
+`place: what is wrong, with the number; remedy [id]`, where the place is `FILE:LINE: KEY = VALUE`, the name of a body or
+an output, or `INPUT = VALUE`.
 
 This page follows from the table of rules in `src/warning`. Names in braces stand for values.
 

@@ -87,6 +87,7 @@ fn messages(story: &Story) -> (Vec<Message>, Vec<String>) {
             place: FILE.to_owned(),
             message: "the run has not ended: the report shows what it had written".to_owned(),
             remedy: "make the report again once it has".to_owned(),
+            id: String::new(),
         });
     }
     (warnings, of_kind("note").map(|one| one.message.clone()).collect())

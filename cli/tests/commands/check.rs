@@ -41,7 +41,7 @@ fn check_and_run_warn_of_implausible_values() {
         let said = place.call(&arguments).succeeds().stderr();
         let wanted = "warning: scene.toml:11: body.plate.initial_temperature = 20.0: a temperature is \
                       plausible from 250 to 6000 K beside warmer ones, and 20 K is −253.15 °C; did you mean 293.15 \
-                      (20 °C)? If the scene is meant to be this cold, set `cryogenic = true`";
+                      (20 °C)? If the scene is meant to be this cold, set `cryogenic = true` [celsius]\n";
         assert!(said.contains(wanted), "{arguments:?}: {said}");
     }
     let arguments = ["--overwrite", "--set", "plate.initial_temperature=25"];

@@ -97,9 +97,10 @@ fn warnings_of_a_run_are_reported_with_their_remedies() {
     assert_eq!(warnings.len(), warned);
     assert!(warned > 0, "{told}");
     for warning in warnings {
-        let [place, message, remedy] =
-            ["place", "message", "remedy"].map(|key| warning[key].as_str().unwrap().to_owned());
-        assert!(told.contains(&format!("warning: {place}: {message}; {remedy}")), "{message}");
+        let [place, message, remedy, id] = ["place", "message", "remedy", "id"]
+            .map(|key| warning[key].as_str().unwrap().to_owned());
+        let line = format!("warning: {place}: {message}; {remedy} [{id}]\n");
+        assert!(told.contains(&line) && !id.is_empty(), "{line}");
     }
 }
 

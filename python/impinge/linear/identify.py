@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from impinge.errors import UnitError
+from impinge.points import tell_of_points
 from impinge.unit import Unit
 
 from .map import LinearMap
@@ -65,6 +66,7 @@ def linear_map(
         raise ValueError("parameters go with a file (allowed with an open unit: none)")
     if ramps and not source.can.interpolates:
         raise UnitError(f"{source.name} holds its inputs over a step (allowed: ramps=False)")
+    tell_of_points(source.package, outputs, inputs)
     with Rollout(source, inputs, outputs, step, steps) as rollout:
         tunable = [v.name for v in rollout.inputs if v.causality != "input"]
         if ramps and tunable:

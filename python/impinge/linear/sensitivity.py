@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from impinge.errors import UnitError
+from impinge.points import tell_of_points
 from impinge.unit import Unit
 
 from .rollout import Rollout, sizes_of_changes
@@ -47,6 +48,7 @@ def step_sensitivity(
 
     C. J. F. Ridders, Adv. Eng. Softw. 4 (1982), doi 10.1016/S0141-1195(82)80057-0.
     """
+    tell_of_points(unit.package, outputs, inputs)
     with Rollout(unit, inputs, outputs, step, 1) as rollout:
         columns = [
             _column(rollout, number, size)

@@ -177,7 +177,7 @@ class Master:
             ("scheme", f"{scheme}; order {self.order}, tolerance {self.tolerance:g}"),
             ("steps", f"{self.steps} so far, {step} {self._schedule.step:g} s"),
             ("records", listed(self._record.names)),
-            ("notes", "; ".join(self.notes)),
+            *(("note", note) for note in self.notes),
         ]
         tables = [
             Table("connections", ("from", "to"), pairs),
@@ -292,9 +292,12 @@ class Master:
             p.name for p in self.participants.values() if self.order and p.writer and not p.order
         ]
 
-    def _note(self, text: str) -> None:
-        self.notes.append(text)
-        warnings.warn(text, MasterWarning, stacklevel=4)
+    def _note(self, text: str, stacklevel: int = 4) -> None:
+        """Warns of something once, and keeps it for the result, in one line."""
+        text = " ".join(text.split())
+        if text not in self.notes:
+            self.notes.append(text)
+            warnings.warn(text, MasterWarning, stacklevel=stacklevel)
 
     def _proposed_step(self) -> float:
         proposed = [unit.default_step for unit in self.units.values() if unit.default_step]
@@ -360,7 +363,7 @@ class Master:
             values, shares = engine.inputs[place], weight[place]
             unknown = participant.probe(values, shares, self._schedule.step)
             if unknown and self.order:
-                self.notes.append(
+                self._note(
                     f"{participant.name} {unknown}, so that its outputs are taken as computed in"
                     " its steps from inputs at their ends: of first order if they are states that"
                     " it does not declare to follow no input at once"
@@ -411,7 +414,8 @@ class Master:
             self._warned.add("steep")
             self._note(
                 f"{steep[0]} changes within the step from {self.time:.6g} s as no parabola does:"
-                " what it brings in is not exact"
+                " what it brings in is not exact",
+                stacklevel=5,
             )
         if not jumping:
             return end
@@ -425,7 +429,8 @@ class Master:
             _, function, at = jumping[0]
             self._note(
                 f"{function.name} jumps at {at[0]:.6g} s, within a step, and units take steps of"
-                " one length: its mean over the step is held"
+                " one length: its mean over the step is held",
+                stacklevel=5,
             )
         return end
 
@@ -466,7 +471,7 @@ class Master:
                 raise MasterError(f"{where} does not converge: {error}") from None
             self.unconverged += 1
             if self.unconverged == 1:
-                warnings.warn(f"{where} does not converge: {error}", MasterWarning, stacklevel=4)
+                self._note(f"{where} does not converge: {error}", stacklevel=5)
             return True
         raise error
 
@@ -562,6 +567,7 @@ class Master:
             "energy_error": max((balance.share for balance in self._powers), default=0.0),
             "held_inputs": " ".join(self.held),
             "notes": "; ".join(self.notes),
+            "warnings": "\n".join(self.notes),
             "seconds": self.seconds,
             "impinge": impinge.__version__,
         }

@@ -23,6 +23,7 @@ from impinge.reporting.document import (
     unit_of,
     warning,
 )
+from impinge.results import notes_of_master
 
 ENERGY = "energy_"
 MOST_FIGURES = 6
@@ -36,7 +37,6 @@ def coupled(result: xr.Dataset) -> dict[str, Any]:
     recorded = {str(n): a for n, a in result.data_vars.items() if not str(n).startswith(ENERGY)}
     single = {name: array for name, array in recorded.items() if array.dims == ("time",)}
     arrays = {name: array for name, array in recorded.items() if array.ndim > 1}
-    notes = str(told.get("notes", ""))
     seconds = float(told.get("seconds", 0.0))
     return document(
         f"Coupled run of {_joined(names)}",
@@ -48,7 +48,7 @@ def coupled(result: xr.Dataset) -> dict[str, Any]:
             if key.startswith("scene.") and text
         ],
         figures=_figures(recorded),
-        warnings=[warning(notes)] if notes else [],
+        warnings=[warning(note) for note in notes_of_master(told)],
         model=[{"title": "Coupling", "facts": _coupling(told), "lines": [], "tables": []}],
         maps=[made for made in (_map(result, a, len(arrays)) for a in arrays.values()) if made],
         histories=_histories(result, single),

@@ -43,8 +43,8 @@ def fact(label: str, text: Any) -> dict[str, str]:
     return {"label": label, "text": str(text)}
 
 
-def warning(message: str, place: str = "", remedy: str = "") -> dict[str, str]:
-    return {"kind": "warning", "place": place, "message": message, "remedy": remedy}
+def warning(message: str, place: str = "", id: str = "") -> dict[str, str]:
+    return {"kind": "warning", "place": place, "message": message, "remedy": "", "id": id}
 
 
 def numbers(values: Any) -> list[float | None]:

@@ -22,6 +22,7 @@ from impinge.reporting.document import (
     warning,
 )
 from impinge.results import words
+from impinge.study.findings import Finding, findings
 
 MOST_CURVES = 24
 """Rows whose outputs over time are drawn."""
@@ -36,7 +37,6 @@ def studied(result: xr.Dataset) -> dict[str, Any]:
     outputs = [each for each in words(told["outputs"]) if each in result]
     indices, notes = _sensitivities(result)
     scene = str(told.get("scene", ""))
-    failed = int(told["failed"])
     return document(
         f"Study of {name}",
         f"{told['rows']} rows, {told['sampler']}",
@@ -47,8 +47,8 @@ def studied(result: xr.Dataset) -> dict[str, Any]:
         ],
         scenes=[{"name": "", "text": scene}] if scene else [],
         figures=_figures(result, dims, outputs),
-        warnings=[_failures(result, dims)] if failed else [],
-        notes=notes,
+        warnings=[_warning(finding) for finding in findings(result)],
+        notes=[*words(told.get("notes", [])), *notes],
         model=[{"title": "Study", "facts": _facts(told), "lines": [], "tables": []}],
         histories=_histories(result, dims, outputs),
         study={"columns": _columns(result, dims, outputs), "sensitivities": indices},
@@ -126,12 +126,10 @@ def _facts(told: dict[str, Any]) -> list[dict[str, str]]:
     return facts
 
 
-def _failures(result: xr.Dataset, dims: tuple[str, ...]) -> dict[str, str]:
-    status = _by_row(result["status"], result, dims)
-    first = int(np.flatnonzero(status == FAILED)[0])
-    message = str(_by_row(result["message"], result, dims)[first])
-    count = int((status == FAILED).sum())
-    return warning(f"{count} of {len(status)} rows have failed: {message}", f"row {first}")
+def _warning(finding: Finding) -> dict[str, str]:
+    kind = "failed" if finding.has_failed else "warned"
+    message = f"{finding.message} ({'; '.join(finding.listed)})"
+    return warning(message, f"{finding.concerned} {kind}", finding.id)
 
 
 def _histories(

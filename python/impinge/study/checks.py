@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from impinge.errors import UnitError
+from impinge.points import tell_of_points
 from impinge.unit import Variable
 
 from .runner import Row
@@ -78,7 +79,9 @@ def _check_ends(study: Study, name: str, refusal: Callable[[Row], str]) -> None:
     if len(refused) == len(told):
         raise UnitError(f"{name} = {values[refused[0][0]]!r}: {refused[0][1]}")
     for place, why in refused:
-        warnings.warn(f"rows with {name} = {values[place]!r} will fail: {why}", stacklevel=5)
+        note = f"rows with {name} = {values[place]!r} will fail: {why}"
+        study.notes.append(note)
+        warnings.warn(note, stacklevel=4)
 
 
 def _out_of(name: str, study: Study, low: float | None, high: float | None) -> Callable[[Row], str]:
@@ -118,4 +121,13 @@ def warn_of_inputs(study: Study) -> None:
     except Exception:  # rows keep what their functions raise
         return
     for note in line.notes:
-        warnings.warn(note, stacklevel=4)
+        study.notes.append(note)
+        warnings.warn(note, stacklevel=3)
+
+
+def warn_of_points(study: Study) -> None:
+    """Points to means where an output is the value in the middle of a drop or a spot."""
+    experiment = study.experiment
+    outputs = [name for output in experiment.outputs for name in output.needs]
+    moved = [*study.parameters, *experiment.inputs]
+    study.notes += tell_of_points(study.package, outputs, moved, stacklevel=3)

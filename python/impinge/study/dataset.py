@@ -21,6 +21,7 @@ from impinge.unit.variable import stem_of
 
 from . import identity
 from .distributions import is_held
+from .findings import failure, findings, warnings_of
 from .journal import Finished
 from .outputs import Output
 from .signals import parts
@@ -36,7 +37,8 @@ def assemble(study: Study, finished: Mapping[str, Finished]) -> xr.Dataset:
 
     Dims: `row`, or those of the grid; then `time` and the indices of arrays. `status` is 0 for
     rows that have run, 1 for those that have failed, 2 for others. `message` says why a row has
-    failed, or what its unit has warned of.
+    failed, or what its unit has warned of; the attributes `failures` and `warnings` have each of
+    these once, with the rows that it concerns.
     """
     answers = [finished.get(key) for key in study.keys]
     status = np.array([NOT_RUN if a is None else FAILED if a.failed else DONE for a in answers])
@@ -60,6 +62,9 @@ def assemble(study: Study, finished: Mapping[str, Finished]) -> xr.Dataset:
     table["status"] = (axes, status.astype(np.int8).reshape(lengths), meanings)
     table["message"] = (axes, messages.astype(str).reshape(lengths), {})
     table.attrs = _provenance(study, status)
+    found = findings(table)
+    table.attrs["failures"] = [str(finding) for finding in found if finding.has_failed]
+    table.attrs["warnings"] = [str(finding) for finding in found if not finding.has_failed]
     return table
 
 
@@ -111,8 +116,11 @@ def _column(
         if value.shape == shape:
             column[row] = value
         else:
+            if status[row] == FAILED:
+                continue  # another of its outputs has said so
             status[row] = FAILED
-            messages[row] = f"{output.name} has shape {value.shape}, not {shape} as in other rows"
+            reason = f"{output.name} has shape {value.shape}, not {shape} as in other rows"
+            messages[row] = failure(reason, warnings_of(messages[row]))
     return column
 
 
@@ -204,6 +212,7 @@ def _provenance(study: Study, status: np.ndarray) -> dict[str, Any]:
         "rows": len(status),
         "failed": int((status == FAILED).sum()),
         "not_run": int((status == NOT_RUN).sum()),
+        "notes": study.notes,
         "versions": [
             f"impinge {impinge.__version__}",
             *(f"{name} {_version(name)}" for name in ("FMPy", "numpy", "SALib")),

@@ -17,6 +17,7 @@ from impinge.errors import ImpingeError
 from impinge.unit import Package, State, Unit, open_package
 from impinge.unit.temporary import temporary_folder
 
+from .findings import failure, joined
 from .journal import Finished
 from .outputs import Output
 from .scenes import Variant
@@ -114,10 +115,12 @@ class Runner:
         try:
             values = self._values(row)
         except Exception as error:
+            warned = dict.fromkeys(self._live.heard if self._live else [])
             self._drop()
-            message = f"{type(error).__name__}: {error}" + "".join(
+            reason = f"{type(error).__name__}: {error}" + "".join(
                 f"\n  {note}" for note in getattr(error, "__notes__", [])
             )
+            message = failure(reason, warned)
             return Finished(None, self._told(row, message), time.perf_counter() - begin)
         return Finished(values, self._warnings(row), time.perf_counter() - begin)
 
@@ -125,7 +128,7 @@ class Runner:
         """What the unit has warned of in a row that has run, each once."""
         live = self._live
         assert live
-        message = "\n".join(dict.fromkeys(live.heard))
+        message = joined(dict.fromkeys(live.heard))
         if len(live.heard) > live.at_start:
             self._drop()
         return self._told(row, message)
@@ -137,7 +140,8 @@ class Runner:
             message = re.sub(
                 place + (r"(scene\.toml)(:\d+)?" if row.scene else "()"), r"\1", message
             )
-        return message[:_LONGEST_MESSAGE]
+        beyond = len(message) - _LONGEST_MESSAGE
+        return message if beyond <= 0 else f"{message[:_LONGEST_MESSAGE]}… ({beyond} letters more)"
 
     def close(self) -> None:
         """Ends the instance and removes what was unpacked."""

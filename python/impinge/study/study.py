@@ -24,6 +24,7 @@ from impinge.unit.temporary import temporary_folder
 
 from . import checks, dataset, identity
 from .distributions import Distribution, distribution_of, is_held
+from .findings import findings, warning_of
 from .journal import Finished, Journal, read
 from .outputs import Output, output_of
 from .processes import Processes
@@ -85,8 +86,10 @@ class Study:
         self.design: Design = self.sampler.design(self.parameters)
         self.texts: dict[str, str] = {}  # scenes by hash
         self.rows = [self._row(index, values) for index, values in enumerate(self.design.rows)]
+        self.notes: list[str] = []  # on its inputs and outputs, each said once
         checks.check_values(self)
         checks.warn_of_inputs(self)
+        checks.warn_of_points(self)
         self.unit_hash = identity.hash_of_unit(self.package.folder)
         shared = identity.hash_of_experiment(self.unit_hash, self.experiment)
         self.keys = [identity.key_of_row(shared, row) for row in self.rows]
@@ -106,6 +109,7 @@ class Study:
             ("inputs", listed(of.inputs)),
             ("outputs", listed(output.name for output in of.outputs)),
             ("steps", f"of {of.step:g} s to {of.stop:g} s"),
+            *(("note", note) for note in self.notes),
         ]
         about = [self.description_of(name) for name in names]
         rows = [(*row, words) for row, words in zip(parameters, about, strict=True)]
@@ -146,8 +150,10 @@ class Study:
             refused with `StudyError` otherwise.
 
         A row that fails keeps its message (`status`, `message` of the table), one whose process
-        dies too. Warnings of a row's unit stand in its `message`, and go to the logger `impinge`
-        with the row's values. After Ctrl-C all finished rows are in the folder.
+        dies too. Warnings of a row's unit stand in its `message`. At the end each failure and each
+        warning is a `StudyWarning`, once, with the rows that it concerns and what varies there; so
+        are the attributes `failures` and `warnings` of the table. Meanwhile the logger `impinge`
+        has them row by row at the level INFO. After Ctrl-C all finished rows are in the folder.
         """
         finished: dict[str, Finished] = {}
         path = Path(folder) / "study.nc" if folder is not None else None
@@ -174,6 +180,8 @@ class Study:
         finally:
             if journal:
                 journal.close()
+        for finding in findings(table):
+            warnings.warn(warning_of(finding), stacklevel=2)
         return table
 
     def results(self, folder: str | os.PathLike[str]) -> xr.Dataset:
@@ -210,11 +218,12 @@ class Study:
                 journal.append(rows)
             finished.update(rows)
             for row, answer in batch:
-                self._log_warnings(row, answer)
+                self._log_message(row, answer)
             bar.update(len(rows))
             failed = sum(answer.failed for answer in finished.values())
-            if failed:
-                bar.set_postfix(failed=failed, refresh=False)
+            warned = sum(bool(a.message) and not a.failed for a in finished.values())
+            counts = {"failed": failed, "warned": warned}
+            bar.set_postfix({word: n for word, n in counts.items() if n}, refresh=False)
 
         if not pending:
             return
@@ -226,13 +235,13 @@ class Study:
             finally:
                 keep(workers.stop())
 
-    def _log_warnings(self, row: Row, answer: Finished) -> None:
+    def _log_message(self, row: Row, answer: Finished) -> None:
         """Here, not where the row ran: loggers of other processes are not the user's."""
-        if answer.failed or not answer.message:
+        if not answer.message:
             return
         values = self.design.rows[row.index]
         told = ", ".join(f"{name} = {values[name]!r}" for name in self.varying)
-        _LOGGER.warning("%s, row %d (%s): %s", self.package.name, row.index, told, answer.message)
+        _LOGGER.info("%s, row %d (%s): %s", self.package.name, row.index, told, answer.message)
 
     def _workers(
         self,

@@ -60,9 +60,9 @@ function timingsOf(timings) {
     el("tr", {}, el("th", { scope: "row" }, label), el("td", { class: "number" }, quantity(seconds, "s", 3)), el("td", {}, bar(seconds / most))))));
 }
 
-/** Warnings, each with its remedy. */
+/** Warnings, each with its remedy and its id. */
 function warningsOf(warnings) {
-  return warnings.map(({ place, message, remedy }) => el("div", { class: "warning" },
-    el("p", {}, place ? el("b", {}, place, ": ") : null, rich(message)),
+  return warnings.map(({ place, message, remedy, id }) => el("div", { class: "warning" },
+    el("p", {}, place ? el("b", {}, place, ": ") : null, rich(message), id ? el("span", { class: "small soft" }, ` [${id}]`) : null),
     remedy ? el("p", {}, el("b", {}, "Remedy: "), rich(remedy)) : null));
 }
