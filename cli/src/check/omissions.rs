@@ -1,12 +1,16 @@
 //! Effects that a scene's model leaves out.
 
 use impinge::model::Forecast;
-use impinge::scene::{Droplet, Scene};
+use impinge::model::tolerance::percent;
+use impinge::scene::{Carries, Droplet, Load, Scene};
 
 /// Acceleration of free fall [m/s²].
 const FREE_FALL: f64 = 9.81;
 /// Bond number ρgD²/σ above which gravity flattens a drop by some per cent.
 const FELT: f64 = 0.1;
+
+/// Share of a beam on its face below which the remainder is reported.
+const WHOLE_BEAM: f64 = 0.99;
 
 /// Lists effects that the model leaves out and that somebody may expect of such a scene.
 pub fn omissions(scene: &Scene, forecast: &Forecast) -> Vec<String> {
@@ -29,7 +33,25 @@ pub fn omissions(scene: &Scene, forecast: &Forecast) -> Vec<String> {
             .then(|| format!("gravity on {name} (Bond number {bond:.2}; `gravity = 9.81`)"))
     };
     list.extend(droplets.iter().filter_map(heavy));
+    list.extend(scene.load.iter().filter_map(|load| beam_beyond_face(scene, load)));
     list
+}
+
+/// The power of a beam whose tails leave the face.
+fn beam_beyond_face(scene: &Scene, load: &Load) -> Option<String> {
+    let shape = &scene.solid_under(load)?.shape;
+    let share = load.least_share_on(shape);
+    let leaves = load.carries.contains(&Carries::Power) && share < WHOLE_BEAM;
+    leaves.then(|| {
+        let moves = load.range.x.or(load.range.y).or(load.range.radius).is_some();
+        let least = if moves { "at least " } else { "" };
+        format!(
+            "the part of the beam {} beside {}: {least}{} of its power act on the face",
+            load.name,
+            load.on,
+            percent(share)
+        )
+    })
 }
 
 fn bond(droplet: &Droplet) -> f64 {

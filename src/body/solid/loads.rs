@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::body::BodyError;
-use crate::channel::Direction;
+use crate::channel::{Channel, Direction};
 use crate::coupling::{Pattern, Placement, split_load};
 use crate::inputs::{FaceInputKind, InputLayout, LoadInputs};
 use crate::method::fem::{Geometry, Mesh, Parity, Plan, SolidLoads};
@@ -178,41 +178,52 @@ impl BodyLoads {
     ) -> Vec<Part> {
         let top = load.body_and_face().1 == FaceName::Top;
         let round = of_heat.geometry == Geometry::Axisymmetric;
-        let vectors = |mesh, pattern: Pattern, flips: [bool; 2], range: &Range<usize>| match asked {
+        type Amount = (Channel, Range<usize>);
+        let vectors = |mesh, quantity: Quantity, (channel, range): &Amount| match asked {
             Asked::Value(inputs) => {
                 let place = placement(load, places, inputs);
-                still(mesh, load, (pattern, flips), &place, &inputs[range.clone()])
+                let [density, _] = load.density(*channel, place.radius);
+                let values: Vec<f64> =
+                    inputs[range.clone()].iter().map(|value| value * density).collect();
+                still(mesh, load, quantity, &place, &values)
             }
             Asked::Change { inputs, rates } => {
                 let place = placement(load, places, inputs);
-                let (values, change) = (&inputs[range.clone()], &rates[range.clone()]);
-                let grown = still(mesh, load, (pattern, flips), &place, change);
-                let motion = (&place, &placement_rate(places, rates));
-                both(grown, moving(mesh, load, (pattern, flips), motion, values))
+                let motion = placement_rate(places, rates);
+                let [density, by_radius] = load.density(*channel, place.radius);
+                let values = inputs[range.clone()].iter();
+                let rate = |(value, rate): (&f64, &f64)| {
+                    rate * density + value * by_radius * motion.radius
+                };
+                let change: Vec<f64> =
+                    values.clone().zip(&rates[range.clone()]).map(rate).collect();
+                let values: Vec<f64> = values.map(|value| value * density).collect();
+                let grown = still(mesh, load, quantity, &place, &change);
+                both(grown, moving(mesh, load, quantity, (&place, &motion), &values))
             }
         };
         let axial = if round { 1 } else { 2 };
         // Pressure acts into the body: down on the top, up on the bottom.
         let inward = if top { -1.0 } else { 1.0 };
         let mut parts = Vec::new();
-        let mut push = |range, component: Option<usize>, sign, pattern, flips| {
+        let mut push = |amount, component: Option<usize>, sign, pattern, flips| {
             let mesh = if component.is_none() { of_heat } else { of_force };
-            let vectors = vectors(mesh, pattern, flips, range);
+            let vectors = vectors(mesh, (pattern, flips), amount);
             parts.push(Part { component, sign, vectors });
         };
         let none = [false; 2];
         let across = [0, 1].map(|axis| [axis == 0, axis == 1]);
-        for (channel, range) in &places.amounts {
-            match channel.direction() {
-                Direction::Heat => push(range, None, 1.0, Pattern::Scalar, none),
-                Direction::Inward => push(range, Some(axial), inward, Pattern::Scalar, none),
+        for amount in &places.amounts {
+            match amount.0.direction() {
+                Direction::Heat => push(amount, None, 1.0, Pattern::Scalar, none),
+                Direction::Inward => push(amount, Some(axial), inward, Pattern::Scalar, none),
                 Direction::Along(axis) => {
-                    push(range, Some(axis), 1.0, Pattern::Scalar, across[axis]);
+                    push(amount, Some(axis), 1.0, Pattern::Scalar, across[axis]);
                 }
                 Direction::Outward => {
                     let axes = across.into_iter().take(if round { 1 } else { 2 });
                     for (axis, flips) in axes.enumerate() {
-                        push(range, Some(axis), 1.0, Pattern::Outward(axis), flips);
+                        push(amount, Some(axis), 1.0, Pattern::Outward(axis), flips);
                     }
                 }
             }
