@@ -92,7 +92,7 @@ pub enum CellShape {
 pub enum Carries {
     /// Heat flux into the body [W/m²].
     HeatFlux,
-    /// Heating power of the whole footprint [W], on `disc`, `gaussian` and `ring`.
+    /// Heating power of the whole footprint [W].
     Power,
     /// Pressure that acts into the body [Pa].
     Pressure,
@@ -107,9 +107,8 @@ pub struct LoadStart {
     /// Heat flux into the body [W/m²].
     #[schemars(transform = heat_flux().otherwise("0").condition(CARRIED))]
     pub heat_flux: Option<CellValues>,
-    /// Heating power of the whole footprint into the body [W]. The heat flux follows the radius: P/(πR²) on a disc,
-    /// 2P/(πR²) at the centre of a Gaussian, P/(π(R2² − R1²)) on a ring.
-    #[schemars(transform = power().otherwise("0").condition(CARRIED))]
+    /// Heating power of the whole footprint, into the body [W].
+    #[schemars(transform = power().otherwise("0").condition("on `disc`, `gaussian`, `ring`"))]
     pub power: Option<f64>,
     /// Pressure into the body [Pa].
     #[schemars(transform = traction().otherwise("0").condition(CARRIED))]
