@@ -1,7 +1,6 @@
 //! Effects that a scene's model leaves out.
 
 use impinge::model::Forecast;
-use impinge::model::tolerance::percent;
 use impinge::scene::{Carries, Droplet, Load, Scene};
 
 /// Acceleration of free fall [m/s²].
@@ -46,10 +45,10 @@ fn beam_beyond_face(scene: &Scene, load: &Load) -> Option<String> {
         let moves = load.range.x.or(load.range.y).or(load.range.radius).is_some();
         let least = if moves { "at least " } else { "" };
         format!(
-            "the part of the beam {} beside {}: {least}{} of its power act on the face",
+            "the part of the beam {} beside {}: {least}{:.1} % of its power act on the face",
             load.name,
             load.on,
-            percent(share)
+            100.0 * share
         )
     })
 }

@@ -388,3 +388,89 @@ pub fn add(target: &mut Vec<f64>, vector: &[f64], sign: f64) {
         *t += sign * v;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::solid::plan;
+    use crate::inputs::InputLayout;
+    use crate::method::fem::heat_mesh;
+    use crate::scene;
+
+    const POWER: f64 = 3.0;
+
+    fn loads(shape: &str, footprint: &str, place: &str) -> (BodyLoads, Mesh) {
+        let text = format!(
+            "name = \"Loads\"\nstop_time = 1.0\nstep = 0.1\n[body.block]\nkind = \"solid\"\nshape = {{ {shape} }}\n\
+             material = {{ model = \"thermoelastic\", density = 2.0, specific_heat = 3.0, conductivity = 5.0 }}\ninitial_temperature = 300.0\n\
+             mesh = {{ spacing = 0.1 }}\n[[load]]\nname = \"beam\"\non = \"block.top\"\n\
+             footprint = {{ {footprint} }}\ncarries = [\"power\"]\n{place}\n"
+        );
+        let scene = scene::parse(&text, "scene.toml").unwrap();
+        let solid = scene.solid("block").unwrap();
+        let plan = plan(&scene, "block", solid);
+        let layout = InputLayout::of(&scene);
+        (BodyLoads::of(&scene, &layout, ("block", solid.shape), &plan), heat_mesh(&plan))
+    }
+
+    const BOX: &str = "box = [2.0, 1.6, 0.5]";
+    const ROUND: &str = "disc = { radius = 1.0, thickness = 0.5 }";
+
+    fn cases() -> Vec<(BodyLoads, Mesh, Vec<f64>, Vec<f64>)> {
+        let mut cases = Vec::new();
+        for footprint in [
+            "disc = { radius = 0.3 }",
+            "gaussian = { radius = 0.3 }",
+            "ring = { inner = 0.1, outer = 0.3 }",
+        ] {
+            let off = "range = { x = [-0.2, 0.2] }";
+            let (of_box, mesh) = loads(BOX, footprint, off);
+            cases.push((of_box, mesh, vec![POWER, 0.1, 0.07, 0.27], vec![0.7, 0.2, -0.1, 0.3]));
+            let (round, mesh) = loads(ROUND, footprint, "");
+            cases.push((round, mesh, vec![POWER, 0.27], vec![0.7, 0.3]));
+        }
+        cases
+    }
+
+    /// Nodal heat of the top, class by class.
+    fn heat(loads: &SolidLoads) -> Vec<Vec<f64>> {
+        loads.heat.iter().map(|of_class| of_class[1].clone()).collect()
+    }
+
+    #[test]
+    fn the_change_of_a_power_and_its_place_is_the_limit_of_differences() {
+        for (loads, mesh, inputs, rates) in cases() {
+            let h = 1e-6;
+            let at = |sign: f64| {
+                let moved = inputs.iter().zip(&rates).map(|(value, rate)| value + sign * h * rate);
+                heat(&loads.assemble(&moved.collect::<Vec<f64>>(), [&mesh, &mesh]))
+            };
+            let found = heat(&loads.change(&inputs, &rates, [&mesh, &mesh]));
+            let [above, below] = [at(1.0), at(-1.0)];
+            let largest = found.iter().flatten().fold(0.0_f64, |a, b| a.max(b.abs()));
+            for (class, found) in found.iter().enumerate() {
+                for (node, found) in found.iter().enumerate() {
+                    let wanted = (above[class][node] - below[class][node]) / (2.0 * h);
+                    assert!((found - wanted).abs() < 1e-5 * largest, "{found} {wanted}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_power_adds_up_on_the_nodes_whatever_the_radius() {
+        for (loads, mesh, inputs, _) in cases() {
+            // Odd classes add up to nothing. A mirrored part has its share.
+            let total = |inputs: &[f64]| -> f64 {
+                let images: f64 =
+                    mesh.mirrored.iter().map(|&m| if m { 2.0 } else { 1.0 }).product();
+                images * heat(&loads.assemble(inputs, [&mesh, &mesh]))[0].iter().sum::<f64>()
+            };
+            let mut smaller = inputs.clone();
+            *smaller.last_mut().unwrap() = 0.2;
+            let tails = if loads.loads[0].0.footprint.reach() > 1.0 { 1e-2 } else { 1e-12 };
+            assert!((total(&inputs) / POWER - 1.0).abs() < tails, "{}", total(&inputs));
+            assert!((total(&smaller) / POWER - 1.0).abs() < tails, "{}", total(&smaller));
+        }
+    }
+}
