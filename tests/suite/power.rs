@@ -14,6 +14,8 @@ const GAUSSIAN: &str = "gaussian = { radius = 1.2e-4 }";
 const RING: &str = "ring = { inner = 6e-5, outer = 1.2e-4 }";
 const FOOTPRINTS: [&str; 3] = [DISC, GAUSSIAN, RING];
 
+const PROBES: [&str; 2] = ["p.temperature", "q.temperature"];
+
 const BOX: &str = "box = [8e-4, 6e-4, 2e-4]";
 const ROUND: &str = "disc = { radius = 4e-4, thickness = 2e-4 }";
 
@@ -37,7 +39,7 @@ fn plate(shape: &str, footprint: &str, [carried, start]: [&str; 2], rest: &str) 
          mesh = {{ spacing = 6e-5, depth_spacing = 4e-5 }}\n[body.plate.faces]\nbottom = {{ clamped = true }}\n\
          [[load]]\nname = \"beam\"\non = \"plate.top\"\nfootprint = {{ {footprint} }}\ncarries = [\"{carried}\"]\n\
          start = {{ {start}{place} }}\n{rest}\n\
-         [[probe]]\nname = \"p\"\nin = \"plate\"\nat = [5e-5, 0.0, 0.0]\ngives = [\"temperature\", \"stress\"]\n\
+         [[probe]]\nname = \"p\"\nin = \"plate\"\nat = [5e-5, 0.0, 0.0]\ngives = [\"temperature\"]\n\
          [[probe]]\nname = \"q\"\nin = \"plate\"\nat = [1e-4, 0.0, -5e-5]\ngives = [\"temperature\"]\n"
     )
 }
@@ -46,17 +48,12 @@ fn powered(shape: &str, footprint: &str, rest: &str) -> String {
     plate(shape, footprint, ["power", "power = \"2 W\""], rest)
 }
 
-/// Largest difference of temperatures over the largest rise, and of stresses over the largest of them.
+/// Largest difference of temperatures over the largest rise.
 fn difference(trials: [&mut Trial; 2]) -> f64 {
-    let names = trials[0].outputs();
-    let [found, wanted] =
-        trials.map(|trial| names.iter().map(|name| trial.get(name)).collect::<Vec<f64>>());
-    let apart = |key: &str, rest: f64| {
-        let of_kind = || (0..names.len()).filter(|&i| names[i].contains(key));
-        let largest = of_kind().map(|i| (wanted[i] - rest).abs()).fold(0.0, f64::max);
-        of_kind().map(|i| (found[i] - wanted[i]).abs() / largest).fold(0.0, f64::max)
-    };
-    apart("temperature", 300.0).max(apart("stress", 0.0))
+    let [found, wanted] = trials.map(|trial| PROBES.map(|name| trial.get(name)));
+    let largest = wanted.iter().fold(0.0, |largest: f64, t| largest.max((t - 300.0).abs()));
+    let apart = found.iter().zip(&wanted).map(|(a, b)| (a - b).abs() / largest);
+    apart.fold(0.0, f64::max)
 }
 
 #[test]
@@ -142,7 +139,7 @@ const REDUCED: &str =
 
 #[test]
 fn a_reduced_solid_follows_power_and_radius_within_its_bounds() {
-    let text = powered(ROUND, DISC, REDUCED).replace(", \"stress\"", "");
+    let text = powered(ROUND, GAUSSIAN, REDUCED);
     let mut reduced = Trial::new(&text);
     let mut full = Trial::new(&text.replace("\"reduced\"", "\"full\""));
     for n in 0..8 {
@@ -153,45 +150,86 @@ fn a_reduced_solid_follows_power_and_radius_within_its_bounds() {
             trial.step(1e-4);
         }
         let bound = reduced.get("plate.error_bound_temperature");
-        for name in ["p.temperature", "q.temperature"] {
+        for name in PROBES {
             let (wanted, found) = (full.get(name), reduced.get(name));
             assert!((wanted - found).abs() <= bound, "{name}: {wanted} {found} {bound:e}");
-            assert!(bound < 0.05 * (wanted - 300.0), "{bound:e} {wanted}");
         }
+        // As tight as that of a flux on a footprint that changes.
+        let rise = full.get("p.temperature") - 300.0;
+        assert!(bound < 0.4 * rise, "{bound:e} {rise}");
         let (wanted, found) = (full.get("plate.heat_in"), reduced.get("plate.heat_in"));
-        assert!(off(found, wanted) < 1e-9, "{found} {wanted}");
+        assert!(off(found, wanted) < 1e-6, "{found} {wanted}");
+    }
+}
+
+/// Central differences of outputs between two states of a trial.
+fn slopes(names: &[String], [above, below]: [Vec<f64>; 2], step: f64) -> Vec<f64> {
+    (0..names.len()).map(|i| (above[i] - below[i]) / (2.0 * step)).collect()
+}
+
+fn values(trial: &mut Trial, names: &[String]) -> Vec<f64> {
+    names.iter().map(|name| trial.get(name)).collect()
+}
+
+#[test]
+fn rates_in_time_are_the_limit_of_differences() {
+    let names: Vec<String> = PROBES
+        .into_iter()
+        .chain(["plate.heat_in", "plate.heat_stored"])
+        .map(String::from)
+        .collect();
+    let of_level =
+        [powered(BOX, GAUSSIAN, ""), powered(ROUND, RING, ""), powered(ROUND, DISC, REDUCED)];
+    for text in of_level {
+        let mut trial = Trial::new(&text);
+        trial.set_derivative("beam.radius", 1, 0.2);
+        trial.set_derivative("beam.power", 1, 1e4);
+        trial.step(5e-5);
+        let (start, h) = (trial.state.clone(), 1e-8);
+        trial.step(h);
+        let found = trial.rates(&names);
+        trial.restart(&start);
+        let below = values(&mut trial, &names);
+        trial.step(2.0 * h);
+        let above = values(&mut trial, &names);
+        for (i, wanted) in slopes(&names, [above, below], h).into_iter().enumerate() {
+            assert!(off(found[i], wanted) < 1e-3, "{}: {} {wanted}", names[i], found[i]);
+        }
+        // Power enters at the rate that it has.
+        let share = if text.contains("gaussian") { 0.995..1.0 } else { 1.0 - 1e-9..1.0 + 1e-9 };
+        let power = POWER + 1e4 * (5e-5 + h);
+        assert!(share.contains(&(found[2] / power)), "{} {power}", found[2]);
     }
 }
 
 #[test]
-fn directional_derivatives_of_power_and_radius_are_the_limit_of_differences() {
-    let text = powered(ROUND, GAUSSIAN, REDUCED).replace(", \"stress\"", "");
+fn directional_derivatives_are_the_limit_of_differences_beside_a_power() {
+    let text = powered(ROUND, GAUSSIAN, "")
+        .replace("[\"power\"]", "[\"power\", \"pressure\"]")
+        .replace("power = \"2 W\"", "power = \"2 W\", pressure = \"1 MPa\"")
+        .replacen("gives = [\"temperature\"]", "gives = [\"temperature\", \"stress\"]", 1);
     let mut trial = Trial::new(&text);
     trial.step(1e-4);
-    let names = ["p.temperature", "q.temperature", "plate.heat_stored"].map(String::from).to_vec();
+    let names = ["p.temperature", "p.stress_xx", "p.stress_zz"].map(String::from).to_vec();
     let start = trial.state.clone();
-    for (direction, step) in [
-        (&[("beam.power", 1.0)][..], 1e-3),
-        (&[("beam.radius", 1.0)], 1e-8),
-        (&[("beam.power", 1e4), ("beam.radius", 1.0)], 1e-8),
-    ] {
-        let found = trial.changes(&names, direction);
-        let [above, below] = [step, -step].map(|by| {
+    for (input, step) in [("beam.power", 1e-3), ("beam.radius", 1e-8), ("beam.pressure", 1.0)] {
+        let found = trial.changes(&names, &[(input, 1.0)]);
+        let differ = [step, -step].map(|by| {
             trial.restart(&start);
-            for (name, change) in direction {
-                let value = start.inputs[trial.input(name)];
-                trial.set(name, value + by * change);
-            }
-            names.iter().map(|name| trial.get(name)).collect::<Vec<f64>>()
+            let value = start.inputs[trial.input(input)];
+            trial.set(input, value + by);
+            values(&mut trial, &names)
         });
         trial.restart(&start);
+        // Temperatures, and stresses by them, follow a power with delay; stresses follow a pressure at once.
+        let wanted = slopes(&names, differ, step);
+        assert_eq!(found[0], 0.0, "{input}");
+        assert_eq!(input == "beam.power", found[1] == 0.0, "{input}");
         for i in 0..names.len() {
-            let wanted = (above[i] - below[i]) / (2.0 * step);
-            let rounding = 1e-12 * above[i].abs() / step;
-            let error = (found[i] - wanted).abs();
-            assert!(error <= 1e-5 * wanted.abs() + rounding, "{}: {} {wanted}", names[i], found[i]);
+            let error = (found[i] - wanted[i]).abs();
+            let rounding = 1e-2 * if input == "beam.radius" { 1e8 } else { 1e-4 };
+            assert!(error < 1e-4 * wanted[i].abs() + rounding, "{input} {} {wanted:?}", found[i]);
         }
-        assert!(found[0] != 0.0, "{direction:?}");
     }
 }
 
