@@ -1,12 +1,13 @@
-//! Amounts that loads carry through a face: a row for each amount that has a value in every cell of a footprint.
+//! Amounts that loads carry through a face: a row for each, with its value per area on a footprint.
 
 use crate::limits::{self, Limits};
 use crate::quantity::Quantity;
 
-/// An amount per area and time.
+/// An amount per area and time, or the power of a whole footprint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Channel {
     HeatFlux,
+    Power,
     Pressure,
     ShearX,
     ShearY,
@@ -28,13 +29,14 @@ pub enum Direction {
 
 impl Channel {
     /// All channels, in the order of a load's inputs.
-    pub const ALL: [Self; 5] =
-        [Self::HeatFlux, Self::Pressure, Self::ShearX, Self::ShearY, Self::ShearR];
+    pub const ALL: [Self; 6] =
+        [Self::HeatFlux, Self::Power, Self::Pressure, Self::ShearX, Self::ShearY, Self::ShearR];
 
     /// Last part of the names of its variables, and its key among a load's start values.
     pub const fn key(self) -> &'static str {
         match self {
             Self::HeatFlux => "heat_flux",
+            Self::Power => "power",
             Self::Pressure => "pressure",
             Self::ShearX => "shear_x",
             Self::ShearY => "shear_y",
@@ -46,6 +48,7 @@ impl Channel {
     pub const fn words(self) -> &'static str {
         match self {
             Self::HeatFlux => "heat flux into the body",
+            Self::Power => "heating power of the whole footprint, into the body",
             Self::Pressure => "pressure that acts into the body",
             Self::ShearX => "shear traction along x",
             Self::ShearY => "shear traction along y",
@@ -55,7 +58,7 @@ impl Channel {
 
     pub const fn direction(self) -> Direction {
         match self {
-            Self::HeatFlux => Direction::Heat,
+            Self::HeatFlux | Self::Power => Direction::Heat,
             Self::Pressure => Direction::Inward,
             Self::ShearX => Direction::Along(0),
             Self::ShearY => Direction::Along(1),
@@ -64,15 +67,34 @@ impl Channel {
     }
 
     pub const fn quantity(self) -> Quantity {
-        if self.is_heat() { Quantity::HeatFlux } else { Quantity::Stress }
+        match self {
+            Self::HeatFlux => Quantity::HeatFlux,
+            Self::Power => Quantity::HeatFlow,
+            Self::Pressure | Self::ShearX | Self::ShearY | Self::ShearR => Quantity::Stress,
+        }
     }
 
     pub fn limits(self) -> Limits {
-        if self.is_heat() { limits::heat_flux() } else { limits::traction() }
+        match self {
+            Self::HeatFlux => limits::heat_flux(),
+            Self::Power => limits::power(),
+            Self::Pressure | Self::ShearX | Self::ShearY | Self::ShearR => limits::traction(),
+        }
     }
 
     pub const fn is_heat(self) -> bool {
-        matches!(self, Self::HeatFlux)
+        matches!(self.direction(), Direction::Heat)
+    }
+
+    /// Returns true if the amount is that of a whole footprint rather than per area.
+    pub const fn is_of_whole(self) -> bool {
+        matches!(self, Self::Power)
+    }
+
+    /// Largest value per area that a unit of the amount makes on a footprint of an equivalent area A [m²], and its
+    /// derivative by that area: 1/A and −1/A² for amounts of the whole footprint, else 1 and 0.
+    pub fn density(self, area: f64) -> [f64; 2] {
+        if self.is_of_whole() { [1.0 / area, -1.0 / (area * area)] } else { [1.0, 0.0] }
     }
 
     pub const fn is_shear(self) -> bool {

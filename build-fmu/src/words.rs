@@ -89,6 +89,7 @@ fn load(load: &Load) -> String {
         .iter()
         .map(|what| match what {
             Carries::HeatFlux => "heat flux",
+            Carries::Power => "heating power",
             Carries::Pressure => "pressure",
             Carries::Shear => "shear",
         })

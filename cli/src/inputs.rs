@@ -165,6 +165,14 @@ impl InputTable {
         self.times.iter().filter(|time| (0.0..stop).contains(*time)).count()
     }
 
+    /// The inputs of each row.
+    pub fn rows(&self) -> impl Iterator<Item = Vec<InputValue>> + '_ {
+        self.rows.iter().map(|row| {
+            let columns = self.columns.iter().zip(row);
+            columns.flat_map(|(places, &value)| places.iter().map(move |&at| (at, value))).collect()
+        })
+    }
+
     /// The smallest and the largest value of each input.
     pub fn extremes(&self) -> Vec<InputValue> {
         let of_column = |(column, places): (usize, &Vec<usize>)| {

@@ -219,6 +219,7 @@ impl Run {
         scene::check(&scene)?;
         super::warn(&if scene == read { warnings } else { advice::warnings(&scene) });
         super::warn(&set::implausible(&scene, &inputs));
+        super::warn(&set::implausible_together(&scene, [inputs.clone()]));
         Ok((scene, inputs))
     }
 
@@ -231,6 +232,8 @@ impl Run {
         let Some(path) = &self.options.inputs else { return Ok(None) };
         let table = InputTable::read(path, self.options.between, scene)?;
         super::warn(&set::implausible(scene, &table.samples(scene)));
+        let with_set = |row: Vec<InputValue>| set.iter().copied().chain(row).collect();
+        super::warn(&set::implausible_together(scene, table.rows().map(with_set)));
         if let Some((kind, message)) = table.remark(path, scene.stop_time) {
             super::print_message(kind, &message);
         }

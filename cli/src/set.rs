@@ -3,9 +3,9 @@ use std::fmt;
 use std::str::FromStr;
 
 use impinge::limits::Bounds;
-use impinge::quantity::Quantity;
-use impinge::scene::{self, Scene};
-use impinge::variables::{Causality, Registry, Slot, Value, Variable};
+use impinge::model::initial_inputs;
+use impinge::scene::{self, Carries, Scene};
+use impinge::variables::{Causality, Quantity, Registry, Slot, Value, Variable};
 use impinge::warning::Warning;
 
 /// A value for a variable, as given on the command line.
@@ -96,6 +96,37 @@ pub fn implausible(scene: &Scene, inputs: &[InputValue]) -> Vec<Warning> {
         let Some(variable) = registry.variables.iter().find(is_meant) else { continue };
         let warning = variable.implausible(scene, value);
         warnings.extend(warning.filter(|_| warned.insert(variable.family())));
+    }
+    warnings
+}
+
+/// Warnings of powers and radii of loads that make implausible heat fluxes together, one per input; each list holds
+/// inputs that are set at one time.
+pub fn implausible_together(
+    scene: &Scene,
+    lists: impl IntoIterator<Item = Vec<InputValue>>,
+) -> Vec<Warning> {
+    if !scene.load.iter().any(|load| load.carries.contains(&Carries::Power)) {
+        return Vec::new();
+    }
+    let registry = Registry::of(scene);
+    let is_judged = |variable: &&Variable| {
+        matches!(variable.quantity, Some(Quantity::HeatFlow | Quantity::Length))
+    };
+    let judged: Vec<&Variable> = registry.variables.iter().filter(is_judged).collect();
+    let start = initial_inputs(scene);
+    let mut warned = BTreeSet::new();
+    let mut warnings = Vec::new();
+    for list in lists {
+        let mut inputs = start.clone();
+        list.iter().for_each(|&(index, value)| inputs[index] = value);
+        let is_set = |variable: &&&Variable| {
+            list.iter().any(|&(index, _)| variable.slot == Slot::Input(index))
+        };
+        for variable in judged.iter().filter(is_set) {
+            let warning = variable.implausible_among(scene, &inputs);
+            warnings.extend(warning.filter(|_| warned.insert(&variable.name)));
+        }
     }
     warnings
 }

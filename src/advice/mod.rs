@@ -7,6 +7,7 @@ mod films;
 mod moved;
 mod particles;
 mod phases;
+mod power;
 mod relations;
 mod resolution;
 mod substances;
@@ -21,6 +22,7 @@ use crate::warning::{self, Finding, Warning};
 
 pub use films::MEASURED_FILMS;
 pub use moved::implausible_place;
+pub use power::implausible_power;
 pub use resolution::{HeatError, Resolution};
 
 /// Reads and checks a scene's text, and warns of what is implausible in it.
@@ -154,6 +156,6 @@ pub fn implausible_input(
 }
 
 /// `NAME = VALUE`
-fn place_of_input(name: &str, value: f64) -> String {
+pub fn place_of_input(name: &str, value: f64) -> String {
     format!("{name} = {}", number(value))
 }

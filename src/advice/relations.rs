@@ -2,13 +2,13 @@
 
 use std::f64::consts::PI;
 
-use super::Reviewer;
+use super::{Reviewer, power};
 use crate::laws::{Constants, Fluid};
 use crate::limits::number;
 use crate::limits::plausible;
 use crate::scene::lateral_extents;
 use crate::scene::locate::Path;
-use crate::scene::{CellValues, FaceName, HeatMethod, Mesh, Solid};
+use crate::scene::{FaceName, HeatMethod, Mesh, Solid};
 use crate::warning;
 
 /// Foams and aerogels have a lower density [kg/m³] and conductivity [W/(m K)] than these.
@@ -132,12 +132,17 @@ fn fluxes(reviewer: &mut Reviewer, (path, name): (&Path, &str), solid: &Solid) {
         }
     }
     for (i, load) in reviewer.scene.load.iter().enumerate() {
-        let Some(values) = load.start.heat_flux.as_ref() else { continue };
+        let Some((channel, fluxes)) = load.start_fluxes() else { continue };
         let face = solid.face(load.body_and_face().1);
         if load.body_and_face().0 == name && face.temperature.is_none() {
-            let path = Path::default().key("load").index(i).at("start.heat_flux");
-            let size = load.start.radius.or(load.footprint.radius()).unwrap_or(f64::INFINITY);
-            flux_of(reviewer, &path, (largest(values), size), solid);
+            let path = Path::default().key("load").index(i).key("start").key(channel.key());
+            let size = load.start_radius().unwrap_or(f64::INFINITY);
+            flux_of(reviewer, &path, (largest(&fluxes), size), solid);
+            if let Some(power) = load.start.power.filter(|_| channel.is_of_whole())
+                && let Some(finding) = power::finding(load, channel, [power, size])
+            {
+                reviewer.warn(&path, finding);
+            }
         }
     }
 }
@@ -164,11 +169,6 @@ fn flux_of(reviewer: &mut Reviewer, path: &Path, (flux, radius): (f64, f64), sol
 }
 
 /// Returns the value of the largest magnitude.
-fn largest(values: &CellValues) -> f64 {
-    let larger = |a: f64, b: &f64| if b.abs() > a.abs() { *b } else { a };
-    match values {
-        CellValues::Uniform(value) => *value,
-        CellValues::Rings(list) => list.iter().fold(0.0, larger),
-        CellValues::Tiles(rows) => rows.iter().flatten().fold(0.0, larger),
-    }
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |a: f64, b| if b.abs() > a.abs() { *b } else { a })
 }

@@ -133,6 +133,11 @@ pub const fn heat_flux() -> Limits {
     signed("W/m²", "a heat flux").plausible(&plausible::HEAT_FLUX)
 }
 
+/// A heating power of a load [W]; its heat flux, not the power itself, may be implausible.
+pub const fn power() -> Limits {
+    signed("W", "a heating power")
+}
+
 /// A pressure or shear on a body [Pa].
 pub const fn traction() -> Limits {
     signed("Pa", "a pressure or shear").plausible(&plausible::TRACTION)

@@ -1,6 +1,8 @@
 //! Properties of footprints, kind by kind.
 
-use super::types::{CellShape, Footprint};
+use std::f64::consts::{PI, SQRT_2};
+
+use super::types::{CellShape, Footprint, Shape};
 
 /// Decomposition of a footprint with its values.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,6 +52,38 @@ impl Footprint {
             }
             Footprint::Rings { count, .. } => Profile::Discs(discs_of_rings(count, radius, values)),
             Footprint::Tiles { count, size } => Profile::Tiles { count, size },
+        }
+    }
+
+    /// Equivalent area [m²], for an outer radius that may differ from its own [m], and its derivative by that radius:
+    /// the amount of the whole footprint over its largest value per area. A Gaussian counts as a whole, with its tails.
+    pub fn area(&self, radius: f64) -> [f64; 2] {
+        let share = match *self {
+            Footprint::Disc { .. } | Footprint::Rings { .. } => 1.0,
+            Footprint::Gaussian { .. } => 0.5,
+            Footprint::Ring { inner, outer } => (1.0 - inner / outer) * (1.0 + inner / outer),
+            Footprint::Tiles { size, .. } => return [size[0] * size[1], 0.0],
+        };
+        [share * PI * radius * radius, 2.0 * share * PI * radius]
+    }
+
+    /// Share of the whole amount that acts on a face, for an outer radius and a centre on it [m]: less than 1 for a
+    /// Gaussian, whose tails leave the face.
+    pub fn share_on(&self, shape: &Shape, radius: f64, centre: [f64; 2]) -> f64 {
+        if !matches!(self, Footprint::Gaussian { .. }) {
+            return 1.0;
+        }
+        match shape {
+            Shape::Disc(disc) => -(-2.0 * (disc.radius / radius).powi(2)).exp_m1(),
+            Shape::Box(extents) => {
+                let within = |axis: usize| {
+                    let to = |side: f64| {
+                        libm::erf(SQRT_2 * (0.5 * extents[axis] + side * centre[axis]) / radius)
+                    };
+                    0.5 * (to(1.0) + to(-1.0))
+                };
+                within(0) * within(1)
+            }
         }
     }
 

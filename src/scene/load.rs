@@ -1,11 +1,13 @@
 //! Loads on faces: their position, their amounts and their range.
 
+use std::borrow::Cow;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::types::{IDENTIFIER, Role};
+use super::types::{IDENTIFIER, Role, Shape};
 use crate::channel::{Channel, Direction};
-use crate::limits::{count, footprint_radius, heat_flux, length, place, traction};
+use crate::limits::{count, footprint_radius, heat_flux, length, place, power, traction};
 
 /// Heat and traction on part of a face.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -90,6 +92,8 @@ pub enum CellShape {
 pub enum Carries {
     /// Heat flux into the body [W/m²].
     HeatFlux,
+    /// Heating power of the whole footprint [W].
+    Power,
     /// Pressure that acts into the body [Pa].
     Pressure,
     /// Shear traction [Pa]: along x and y; radial on rings.
@@ -103,6 +107,9 @@ pub struct LoadStart {
     /// Heat flux into the body [W/m²].
     #[schemars(transform = heat_flux().otherwise("0").condition(CARRIED))]
     pub heat_flux: Option<CellValues>,
+    /// Heating power of the whole footprint, into the body [W].
+    #[schemars(transform = power().otherwise("0").condition("on `disc`, `gaussian`, `ring`"))]
+    pub power: Option<f64>,
     /// Pressure into the body [Pa].
     #[schemars(transform = traction().otherwise("0").condition(CARRIED))]
     pub pressure: Option<CellValues>,
@@ -151,15 +158,18 @@ pub enum CellValues {
 
 impl LoadStart {
     /// Start values of an amount.
-    pub fn amounts(&self, channel: Channel) -> Option<&CellValues> {
+    pub fn amounts(&self, channel: Channel) -> Option<Cow<'_, CellValues>> {
         let values = match channel {
             Channel::HeatFlux => &self.heat_flux,
+            Channel::Power => {
+                return self.power.map(|power| Cow::Owned(CellValues::Uniform(power)));
+            }
             Channel::Pressure => &self.pressure,
             Channel::ShearX => &self.shear_x,
             Channel::ShearY => &self.shear_y,
             Channel::ShearR => &self.shear_r,
         };
-        values.as_ref()
+        values.as_ref().map(Cow::Borrowed)
     }
 }
 
@@ -175,15 +185,54 @@ impl Load {
         let carried = |channel: &Channel| self.carries.contains(&Carries::of(*channel));
         Channel::ALL.into_iter().filter(carried).filter(fits)
     }
+
+    /// Returns true if the load carries heat.
+    pub fn heats(&self) -> bool {
+        self.channels().any(Channel::is_heat)
+    }
+
+    /// Outer radius at the start [m]; `None` for tiles.
+    pub fn start_radius(&self) -> Option<f64> {
+        self.start.radius.or(self.footprint.radius())
+    }
+
+    /// Largest value per area that a unit of an amount makes on the footprint with an outer radius [m], and its
+    /// derivative by that radius.
+    pub fn density(&self, channel: Channel, radius: f64) -> [f64; 2] {
+        let [area, growth] = self.footprint.area(radius);
+        let [density, by_area] = channel.density(area);
+        [density, by_area * growth]
+    }
+
+    /// Smallest share of a power that acts on the face of a body of this shape, at the start and within the range of
+    /// position and radius; the tails of a Gaussian may leave the face.
+    pub fn least_share_on(&self, shape: &Shape) -> f64 {
+        let farthest = |start: Option<f64>, range: Option<[f64; 2]>| {
+            let range = range.into_iter().flatten().map(f64::abs);
+            range.fold(start.unwrap_or_default().abs(), f64::max)
+        };
+        let centre = [farthest(self.start.x, self.range.x), farthest(self.start.y, self.range.y)];
+        self.footprint.share_on(shape, farthest(self.start_radius(), self.range.radius), centre)
+    }
+
+    /// The amount of heat that the load carries, and the heat fluxes that its start values make [W/m²]; `None` without
+    /// start values.
+    pub fn start_fluxes(&self) -> Option<(Channel, Vec<f64>)> {
+        let channel = self.channels().find(|channel| channel.is_heat())?;
+        let values = self.start.amounts(channel)?;
+        let [density, _] = self.density(channel, self.start_radius().unwrap_or_default());
+        Some((channel, values.numbers().map(|value| value * density).collect()))
+    }
 }
 
 impl Carries {
     /// The kind of load that carries an amount.
     pub fn of(channel: Channel) -> Self {
-        match channel.direction() {
-            Direction::Heat => Self::HeatFlux,
-            Direction::Inward => Self::Pressure,
-            Direction::Along(_) | Direction::Outward => Self::Shear,
+        match channel {
+            Channel::HeatFlux => Self::HeatFlux,
+            Channel::Power => Self::Power,
+            Channel::Pressure => Self::Pressure,
+            Channel::ShearX | Channel::ShearY | Channel::ShearR => Self::Shear,
         }
     }
 }

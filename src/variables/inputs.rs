@@ -49,7 +49,11 @@ fn amounts(load: &Load, places: &LoadInputs, list: &mut Vec<Variable>) {
                 description: format!("{}{place}, {} on {}", channel.words(), load.name, load.on),
                 slot: Slot::Input(at),
                 quantity: Some(channel.quantity()),
-                start: Some(Value::Real(cell_start(start, load.footprint.cells(), cell))),
+                start: Some(Value::Real(cell_start(
+                    start.as_deref(),
+                    load.footprint.cells(),
+                    cell,
+                ))),
                 bounds: channel.limits().bounds(),
                 is_tunable: false,
             });

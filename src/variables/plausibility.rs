@@ -1,7 +1,9 @@
 //! Plausibility of the values of inputs.
 
 use super::{Quantity, Slot, Variable};
-use crate::advice::{Measure, implausible_input, implausible_place};
+use crate::advice::{
+    Measure, implausible_input, implausible_place, implausible_power, place_of_input,
+};
 use crate::scene::Scene;
 use crate::warning::Warning;
 
@@ -19,6 +21,17 @@ impl Variable {
             _ => return None,
         };
         implausible_input(scene, &self.name, measure, value)
+    }
+
+    /// Returns a warning about a power or radius that makes an implausible heat flux together with other inputs, the
+    /// values of all of which are given.
+    pub fn implausible_among(&self, scene: &Scene, inputs: &[f64]) -> Option<Warning> {
+        let Slot::Input(index) = self.slot else { return None };
+        if !matches!(self.quantity?, Quantity::HeatFlow | Quantity::Length) {
+            return None;
+        }
+        let finding = implausible_power(scene, inputs, index)?;
+        Some(finding.at(place_of_input(&self.name, inputs[index])))
     }
 
     /// Returns the name without the indices of an element, in either naming.

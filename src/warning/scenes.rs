@@ -43,6 +43,10 @@ rules! {
      bending, some of which remain up to a ratio of {most}";
     "shorten the body, or put a `roller` on the bottom, which keeps it from bending"
 
+    Check power_makes_implausible_flux(power, flux, radius, most)
+    "a power of {power} W makes a heat flux of {flux} W/m² on a footprint of radius {radius} m, and a heat flux is \
+     plausible up to {most} W/m²"; "check the units of the power and of the radius"
+
     Check flux_overheats_surface(rise)
     "this flux would heat the surface by {rise} K by the stop time"; "check the flux and the stop time"
 

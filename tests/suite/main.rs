@@ -41,6 +41,7 @@ mod particles;
 mod peaks;
 mod plausibility;
 mod phases;
+mod power;
 mod recovered_stress;
 mod reduced;
 mod replay;

@@ -1,7 +1,7 @@
 //! Effects that a scene's model leaves out.
 
 use impinge::model::Forecast;
-use impinge::scene::{Droplet, Scene};
+use impinge::scene::{Carries, Droplet, Load, Scene};
 
 /// Acceleration of free fall [m/s²].
 const FREE_FALL: f64 = 9.81;
@@ -10,6 +10,9 @@ const FELT: f64 = 0.1;
 /// `√We Re^¼` from which on drops splash on dry walls (C. Mundo, M. Sommerfeld & C. Tropea 1995, Int. J. Multiphase Flow
 /// 21, 151–173, doi 10.1016/0301-9322(94)00069-V).
 const SPLASHES: f64 = 57.7;
+
+/// Share of a beam on its face below which the remainder is reported.
+const WHOLE_BEAM: f64 = 0.99;
 
 /// Lists effects that the model leaves out and that somebody may expect of such a scene.
 pub fn omissions(scene: &Scene, forecast: &Forecast) -> Vec<String> {
@@ -38,6 +41,7 @@ pub fn omissions(scene: &Scene, forecast: &Forecast) -> Vec<String> {
             .then(|| format!("splashing of {name}: We^½ Re^¼ is {splash:.0}, and drops splash above some {SPLASHES}"))
     };
     list.extend(droplets.iter().filter_map(violent));
+    list.extend(scene.load.iter().filter_map(|load| beam_beyond_face(scene, load)));
     list
 }
 
@@ -47,6 +51,23 @@ fn splash(droplet: &Droplet) -> f64 {
     let weber = fluid.density * speed.powi(2) * droplet.diameter / fluid.surface_tension;
     let reynolds = fluid.density * speed * droplet.diameter / fluid.viscosity;
     weber.sqrt() * reynolds.powf(0.25)
+}
+
+/// The power of a beam whose tails leave the face.
+fn beam_beyond_face(scene: &Scene, load: &Load) -> Option<String> {
+    let shape = &scene.solid_under(load)?.shape;
+    let share = load.least_share_on(shape);
+    let leaves = load.carries.contains(&Carries::Power) && share < WHOLE_BEAM;
+    leaves.then(|| {
+        let moves = load.range.x.or(load.range.y).or(load.range.radius).is_some();
+        let least = if moves { "at least " } else { "" };
+        format!(
+            "the part of the beam {} beside {}: {least}{:.1} % of its power act on the face",
+            load.name,
+            load.on,
+            100.0 * share
+        )
+    })
 }
 
 fn bond(droplet: &Droplet) -> f64 {

@@ -50,6 +50,28 @@ fn check_and_run_warn_of_implausible_values() {
 }
 
 #[test]
+fn check_reports_the_part_of_a_beam_beside_its_face() {
+    let place = Workplace::new();
+    let beam = |radius: &str| {
+        let scene = SCENE
+            .replacen(
+                "disc = { radius = 60e-6 }",
+                &format!("gaussian = {{ radius = {radius} }}"),
+                1,
+            )
+            .replacen("carries = [\"heat_flux\", \"pressure\"]", "carries = [\"power\"]", 1);
+        let start = scene.lines().find(|line| line.starts_with("start = { heat_flux")).unwrap();
+        fs::write(place.path("scene.toml"), scene.replace(start, "start.power = 0.5")).unwrap();
+        place.call(&["check", "scene.toml"]).succeeds().stdout()
+    };
+    let wide = beam("150e-6");
+    // Along each axis erf(√2 · 200/150) = 0.9923 of it.
+    let told = "the part of the beam spot beside plate.top: 98.5 % of its power act on the face";
+    assert!(wide.contains(told), "{wide}");
+    assert!(!beam("60e-6").contains("the beam"));
+}
+
+#[test]
 fn check_describes_particle_conduction() {
     let place = Workplace::new();
     let scene = SCENE.replace("mesh = { spacing", "heat = \"sph\"\nmesh = { spacing");

@@ -5,6 +5,7 @@
 
 use std::f64::consts::PI;
 
+use crate::channel::{Channel, Direction};
 use crate::inputs::{FaceInputKind, InputLayout, LoadInputs};
 use crate::scene::{Load, Scene};
 
@@ -22,10 +23,22 @@ pub struct Drives {
 pub enum DriveKind {
     /// [W/m²]
     Flux,
+    /// [W]
+    Power,
     /// [Pa]
     Traction,
     /// [K]
     Temperature,
+}
+
+impl DriveKind {
+    fn of(channel: Channel) -> Self {
+        match channel.direction() {
+            Direction::Heat if channel.is_of_whole() => Self::Power,
+            Direction::Heat => Self::Flux,
+            Direction::Inward | Direction::Along(_) | Direction::Outward => Self::Traction,
+        }
+    }
 }
 
 /// A scalar drive of the model.
@@ -175,7 +188,7 @@ impl Drives {
         });
         let members = family.map_or(1, |family| self.families[family].len());
         for (channel, range) in &places.amounts {
-            let kind = if channel.is_heat() { DriveKind::Flux } else { DriveKind::Traction };
+            let kind = DriveKind::of(*channel);
             for index in range.clone() {
                 for member in 0..members {
                     let member = family.map(|family| (family, member));

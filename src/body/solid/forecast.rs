@@ -1,5 +1,7 @@
 //! Cost of a solid.
 
+use std::borrow::Cow;
+
 use super::front::may_melt;
 use super::rows::Choice;
 use super::{is_large, plan};
@@ -186,8 +188,8 @@ fn is_odd_at_start(scene: &Scene, name: &str, axis: usize) -> bool {
         let place = [start.x, start.y][axis].unwrap_or(0.0);
         let mut started =
             load.channels().filter_map(|channel| Some((channel, start.amounts(channel)?)));
-        let is_odd = |(channel, values): (Channel, &CellValues)| {
-            channel.direction() == Direction::Along(axis) || matches!(values, CellValues::Tiles(_))
+        let is_odd = |(channel, values): (Channel, Cow<CellValues>)| {
+            channel.direction() == Direction::Along(axis) || matches!(*values, CellValues::Tiles(_))
         };
         place != 0.0 || started.any(is_odd)
     })

@@ -1,7 +1,7 @@
 //! Predicts whether a solid may melt, which determines the cost of its heat.
 
 use crate::laws::{Conduction, Melting};
-use crate::scene::{Carries, Face, Load, Scene, Solid};
+use crate::scene::{Face, Load, Scene, Solid};
 
 /// Returns true unless all initial loads are known to keep the solid below every solidus.
 ///
@@ -32,8 +32,7 @@ impl Heat {
             .chain(droplets.map(|droplet| droplet.initial_temperature))
             .fold(solid.initial_temperature, f64::max);
         let of_faces = faces.iter().filter_map(|face| Some((face.flux?, f64::INFINITY)));
-        let heating = |load: &&Load| load.carries.contains(&Carries::HeatFlux);
-        let of_loads = scene.loads_on(name).filter(heating).map(flux_of);
+        let of_loads = scene.loads_on(name).filter(|load| load.heats()).map(flux_of);
         Self { hottest, fluxes: of_faces.chain(of_loads).collect() }
     }
 
@@ -58,8 +57,8 @@ fn temperature_of(face: &Face) -> Option<f64> {
 
 /// Heat flux of a load [W/m²] and its radius [m]; the flux is infinite if the scene does not set it.
 fn flux_of(load: &Load) -> (f64, f64) {
-    let values = load.start.heat_flux.iter().flat_map(|values| values.numbers());
-    let most = values.fold(0.0, f64::max);
+    let values = load.start_fluxes().map_or(Vec::new(), |(_, values)| values);
+    let most = values.into_iter().fold(0.0, f64::max);
     let [x, y] = load.footprint.half_extents(load.start.radius);
     (if most > 0.0 { most } else { f64::INFINITY }, load.footprint.reach() * x.max(y))
 }

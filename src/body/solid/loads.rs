@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::body::BodyError;
-use crate::channel::Direction;
+use crate::channel::{Channel, Direction};
 use crate::coupling::{Pattern, Placement, split_load};
 use crate::inputs::{FaceInputKind, InputLayout, LoadInputs};
 use crate::method::fem::{Geometry, Mesh, Parity, Plan, SolidLoads};
@@ -178,41 +178,52 @@ impl BodyLoads {
     ) -> Vec<Part> {
         let top = load.body_and_face().1 == FaceName::Top;
         let round = of_heat.geometry == Geometry::Axisymmetric;
-        let vectors = |mesh, pattern: Pattern, flips: [bool; 2], range: &Range<usize>| match asked {
+        type Amount = (Channel, Range<usize>);
+        let vectors = |mesh, quantity: Quantity, (channel, range): &Amount| match asked {
             Asked::Value(inputs) => {
                 let place = placement(load, places, inputs);
-                still(mesh, load, (pattern, flips), &place, &inputs[range.clone()])
+                let [density, _] = load.density(*channel, place.radius);
+                let values: Vec<f64> =
+                    inputs[range.clone()].iter().map(|value| value * density).collect();
+                still(mesh, load, quantity, &place, &values)
             }
             Asked::Change { inputs, rates } => {
                 let place = placement(load, places, inputs);
-                let (values, change) = (&inputs[range.clone()], &rates[range.clone()]);
-                let grown = still(mesh, load, (pattern, flips), &place, change);
-                let motion = (&place, &placement_rate(places, rates));
-                both(grown, moving(mesh, load, (pattern, flips), motion, values))
+                let motion = placement_rate(places, rates);
+                let [density, by_radius] = load.density(*channel, place.radius);
+                let values = inputs[range.clone()].iter();
+                let rate = |(value, rate): (&f64, &f64)| {
+                    rate * density + value * by_radius * motion.radius
+                };
+                let change: Vec<f64> =
+                    values.clone().zip(&rates[range.clone()]).map(rate).collect();
+                let values: Vec<f64> = values.map(|value| value * density).collect();
+                let grown = still(mesh, load, quantity, &place, &change);
+                both(grown, moving(mesh, load, quantity, (&place, &motion), &values))
             }
         };
         let axial = if round { 1 } else { 2 };
         // Pressure acts into the body: down on the top, up on the bottom.
         let inward = if top { -1.0 } else { 1.0 };
         let mut parts = Vec::new();
-        let mut push = |range, component: Option<usize>, sign, pattern, flips| {
+        let mut push = |amount, component: Option<usize>, sign, pattern, flips| {
             let mesh = if component.is_none() { of_heat } else { of_force };
-            let vectors = vectors(mesh, pattern, flips, range);
+            let vectors = vectors(mesh, (pattern, flips), amount);
             parts.push(Part { component, sign, vectors });
         };
         let none = [false; 2];
         let across = [0, 1].map(|axis| [axis == 0, axis == 1]);
-        for (channel, range) in &places.amounts {
-            match channel.direction() {
-                Direction::Heat => push(range, None, 1.0, Pattern::Scalar, none),
-                Direction::Inward => push(range, Some(axial), inward, Pattern::Scalar, none),
+        for amount in &places.amounts {
+            match amount.0.direction() {
+                Direction::Heat => push(amount, None, 1.0, Pattern::Scalar, none),
+                Direction::Inward => push(amount, Some(axial), inward, Pattern::Scalar, none),
                 Direction::Along(axis) => {
-                    push(range, Some(axis), 1.0, Pattern::Scalar, across[axis]);
+                    push(amount, Some(axis), 1.0, Pattern::Scalar, across[axis]);
                 }
                 Direction::Outward => {
                     let axes = across.into_iter().take(if round { 1 } else { 2 });
                     for (axis, flips) in axes.enumerate() {
-                        push(range, Some(axis), 1.0, Pattern::Outward(axis), flips);
+                        push(amount, Some(axis), 1.0, Pattern::Outward(axis), flips);
                     }
                 }
             }
@@ -375,5 +386,91 @@ pub fn add(target: &mut Vec<f64>, vector: &[f64], sign: f64) {
     }
     for (t, v) in target.iter_mut().zip(vector) {
         *t += sign * v;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::solid::plan;
+    use crate::inputs::InputLayout;
+    use crate::method::fem::heat_mesh;
+    use crate::scene;
+
+    const POWER: f64 = 3.0;
+
+    fn loads(shape: &str, footprint: &str, place: &str) -> (BodyLoads, Mesh) {
+        let text = format!(
+            "name = \"Loads\"\nstop_time = 1.0\nstep = 0.1\n[body.block]\nkind = \"solid\"\nshape = {{ {shape} }}\n\
+             material = {{ model = \"thermoelastic\", density = 2.0, specific_heat = 3.0, conductivity = 5.0 }}\ninitial_temperature = 300.0\n\
+             mesh = {{ spacing = 0.1 }}\n[[load]]\nname = \"beam\"\non = \"block.top\"\n\
+             footprint = {{ {footprint} }}\ncarries = [\"power\"]\n{place}\n"
+        );
+        let scene = scene::parse(&text, "scene.toml").unwrap();
+        let solid = scene.solid("block").unwrap();
+        let plan = plan(&scene, "block", solid);
+        let layout = InputLayout::of(&scene);
+        (BodyLoads::of(&scene, &layout, ("block", solid.shape), &plan), heat_mesh(&plan))
+    }
+
+    const BOX: &str = "box = [2.0, 1.6, 0.5]";
+    const ROUND: &str = "disc = { radius = 1.0, thickness = 0.5 }";
+
+    fn cases() -> Vec<(BodyLoads, Mesh, Vec<f64>, Vec<f64>)> {
+        let mut cases = Vec::new();
+        for footprint in [
+            "disc = { radius = 0.3 }",
+            "gaussian = { radius = 0.3 }",
+            "ring = { inner = 0.1, outer = 0.3 }",
+        ] {
+            let off = "range = { x = [-0.2, 0.2] }";
+            let (of_box, mesh) = loads(BOX, footprint, off);
+            cases.push((of_box, mesh, vec![POWER, 0.1, 0.07, 0.27], vec![0.7, 0.2, -0.1, 0.3]));
+            let (round, mesh) = loads(ROUND, footprint, "");
+            cases.push((round, mesh, vec![POWER, 0.27], vec![0.7, 0.3]));
+        }
+        cases
+    }
+
+    /// Nodal heat of the top, class by class.
+    fn heat(loads: &SolidLoads) -> Vec<Vec<f64>> {
+        loads.heat.iter().map(|of_class| of_class[1].clone()).collect()
+    }
+
+    #[test]
+    fn the_change_of_a_power_and_its_place_is_the_limit_of_differences() {
+        for (loads, mesh, inputs, rates) in cases() {
+            let h = 1e-6;
+            let at = |sign: f64| {
+                let moved = inputs.iter().zip(&rates).map(|(value, rate)| value + sign * h * rate);
+                heat(&loads.assemble(&moved.collect::<Vec<f64>>(), [&mesh, &mesh]))
+            };
+            let found = heat(&loads.change(&inputs, &rates, [&mesh, &mesh]));
+            let [above, below] = [at(1.0), at(-1.0)];
+            let largest = found.iter().flatten().fold(0.0_f64, |a, b| a.max(b.abs()));
+            for (class, found) in found.iter().enumerate() {
+                for (node, found) in found.iter().enumerate() {
+                    let wanted = (above[class][node] - below[class][node]) / (2.0 * h);
+                    assert!((found - wanted).abs() < 1e-5 * largest, "{found} {wanted}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_power_adds_up_on_the_nodes_whatever_the_radius() {
+        for (loads, mesh, inputs, _) in cases() {
+            // Odd classes add up to nothing. A mirrored part has its share.
+            let total = |inputs: &[f64]| -> f64 {
+                let images: f64 =
+                    mesh.mirrored.iter().map(|&m| if m { 2.0 } else { 1.0 }).product();
+                images * heat(&loads.assemble(inputs, [&mesh, &mesh]))[0].iter().sum::<f64>()
+            };
+            let mut smaller = inputs.clone();
+            *smaller.last_mut().unwrap() = 0.2;
+            let tails = if loads.loads[0].0.footprint.reach() > 1.0 { 1e-2 } else { 1e-12 };
+            assert!((total(&inputs) / POWER - 1.0).abs() < tails, "{}", total(&inputs));
+            assert!((total(&smaller) / POWER - 1.0).abs() < tails, "{}", total(&smaller));
+        }
     }
 }

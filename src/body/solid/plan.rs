@@ -4,7 +4,7 @@ use super::rows::Choice;
 use crate::body::droplet;
 use crate::method::fem::{Mechanics, Plan, PlanRequest, Refinement};
 use crate::scene::{
-    Carries, Coupling, FaceName, Load, MeshFactors, Scene, Solid, lateral_extents, takes_newton,
+    Coupling, FaceName, Load, MeshFactors, Scene, Solid, lateral_extents, takes_newton,
 };
 
 pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
@@ -107,7 +107,7 @@ fn refinement(load: &Load) -> Refinement {
         [low - half[a], high + half[a]]
     };
     let top = load.body_and_face().1 == FaceName::Top;
-    let heats = load.carries.contains(&Carries::HeatFlux);
+    let heats = load.heats();
     let moves = range.iter().any(Option::is_some) || load.range.radius.is_some();
     let edges = if moves { [None; 2] } else { load.footprint.edges(load.start.radius) };
     Refinement { x: stretch(0), y: stretch(1), top, feature, heats, edges }

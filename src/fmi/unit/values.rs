@@ -137,7 +137,8 @@ impl Unit {
     /// Warns once of each input with an implausible value, and of one element per array.
     fn warn_of_implausible(&mut self, variables: &[&Variable], values: &[f64]) {
         for (variable, &value) in variables.iter().zip(values) {
-            let warning = variable.implausible(&self.scene, value);
+            let together = || variable.implausible_among(&self.scene, &self.state.inputs);
+            let warning = variable.implausible(&self.scene, value).or_else(together);
             let subject = format!("input {}", variable.family());
             self.warn_once(warning.map(|warning| warning.of_subject(subject)));
         }

@@ -17,7 +17,7 @@ pub fn experiments(scene: &Scene) -> Vec<Vec<f64>> {
     let layout = InputLayout::of(scene);
     let start = initial_inputs(scene);
     let initial = scene.body.values().next().map_or(0.0, |body| body.initial_temperature());
-    let groups = groups(&layout);
+    let groups = groups(scene, &layout);
     let rest = |group: &Group| if group.is_temperature { initial } else { 0.0 };
     let is_at_rest =
         |group: &&Group| start[group.range.clone()].iter().all(|&value| value == rest(group));
@@ -34,12 +34,12 @@ pub fn experiments(scene: &Scene) -> Vec<Vec<f64>> {
     let is_asked = |group: &&Group| !group.is_temperature || resting.len() == groups.len();
     for group in resting.iter().copied().filter(is_asked) {
         let mut inputs = at_rest.clone();
-        inputs[group.range.clone()].fill(rest(group) + 1.0);
+        inputs[group.range.clone()].fill(rest(group) + group.unit);
         all.push(inputs);
         // Among many cells, a single one has the finest shape.
         if group.range.len() > 1 {
             let mut inputs = at_rest.clone();
-            inputs[group.range.start + group.range.len() / 2] = rest(group) + 1.0;
+            inputs[group.range.start + group.range.len() / 2] = rest(group) + group.unit;
             all.push(inputs);
         }
     }
@@ -76,14 +76,22 @@ fn shrunk(inputs: &[f64], radii: &[(usize, f64)]) -> Vec<f64> {
 struct Group {
     range: Range<usize>,
     is_temperature: bool,
+    /// Value of a small experiment: 1 K, 1 Pa, 1 W/m², or the power of a load that makes this heat flux.
+    unit: f64,
 }
 
-fn groups(layout: &InputLayout) -> Vec<Group> {
-    let amounts = layout.loads.iter().flat_map(|load| load.amounts.iter());
-    let loads = amounts.map(|(_, range)| Group { range: range.clone(), is_temperature: false });
+fn groups(scene: &Scene, layout: &InputLayout) -> Vec<Group> {
+    let loads = scene.load.iter().zip(&layout.loads).flat_map(|(load, places)| {
+        let radius = load.start_radius().unwrap_or_default();
+        places.amounts.iter().map(move |(channel, range)| {
+            let [density, _] = load.density(*channel, radius);
+            Group { range: range.clone(), is_temperature: false, unit: 1.0 / density }
+        })
+    });
     let faces = layout.faces.iter().map(|face| Group {
         range: face.index..face.index + 1,
         is_temperature: face.kind != FaceInputKind::Flux,
+        unit: 1.0,
     });
     loads.chain(faces).collect()
 }

@@ -153,7 +153,7 @@ impl Twin {
 /// Returns the part of a load that brings heat, or all of it; `None` if that is empty.
 fn part_of_load(load: &Load, is_mechanical: bool) -> Option<Load> {
     let mut load = load.clone();
-    load.carries.retain(|what| is_mechanical || *what == Carries::HeatFlux);
+    load.carries.retain(|what| is_mechanical || !what.is_mechanical());
     Some(load).filter(|load| !load.carries.is_empty())
 }
 

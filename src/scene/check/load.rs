@@ -9,6 +9,7 @@ pub fn check(checker: &mut Checker) {
     for (i, load) in checker.scene.load.iter().enumerate() {
         let path = Path::default().key("load").index(i);
         checker.distinct(&path.at("carries"), &load.carries);
+        check_power(checker, &path.at("carries"), load);
         check_ring(checker, &path.at("footprint.ring"), &load.footprint);
         start::check(checker, &path, load);
         let lengths_are_fine =
@@ -46,21 +47,39 @@ pub fn check_ring(checker: &mut Checker, path: &Path, footprint: &Footprint) {
     }
 }
 
+/// Refuses a power on footprints of many values, and beside a heat flux of the same load.
+fn check_power(checker: &mut Checker, path: &Path, load: &Load) {
+    let Some(i) = load.carries.iter().position(|carries| *carries == Carries::Power) else {
+        return;
+    };
+    let name = load.footprint.name();
+    if load.footprint.cells().is_some() {
+        let message =
+            format!("a power is one value of the whole footprint, and `{name}` have many");
+        let allowed = format!("disc, gaussian, ring; or `heat_flux` on `{name}`");
+        checker.refuse(&path.index(i), message, allowed);
+    } else if load.carries.contains(&Carries::HeatFlux) {
+        let message = "a load carries its heat as a power or as a heat flux, not as both";
+        checker.refuse(&path.index(i), message, "power or heat_flux; or two loads");
+    }
+}
+
 /// Refuses a load on a prescribed quantity of its face, which would remove the load at once.
 fn held_face(checker: &mut Checker, path: &Path, load: &Load, name: FaceName, solid: &Solid) {
     let face = solid.face(name);
     let name = name.as_str();
     for (i, carries) in load.carries.iter().enumerate() {
         let (reason, allowed) = match carries {
-            Carries::HeatFlux if face.temperature.is_some() => (
+            Carries::HeatFlux | Carries::Power if face.temperature.is_some() => (
                 "the face has a prescribed temperature: the heat would leave at once",
                 "pressure, shear",
             ),
             Carries::Pressure | Carries::Shear if face.clamped => {
-                ("the face is clamped: the traction would move nothing", "heat_flux")
+                ("the face is clamped: the traction would move nothing", "heat_flux, power")
             }
             Carries::Pressure if face.roller => {
-                ("the face is on rollers: the pressure would move nothing", "heat_flux, shear")
+                let message = "the face is on rollers: the pressure would move nothing";
+                (message, "heat_flux, power, shear")
             }
             _ => continue,
         };

@@ -19,7 +19,7 @@ fn amounts(checker: &mut Checker, path: &Path, load: &Load) {
             let message = "a start value of an amount that the load does not carry";
             checker.refuse(&path, message, keys(load.channels()));
         } else if load.channels().any(|own| own == channel) {
-            cells(checker, &path, values, load.footprint.cells());
+            cells(checker, &path, &values, load.footprint.cells());
         } else {
             let message = match channel.direction() {
                 Direction::Outward => "only shear on rings is radial",

@@ -12,7 +12,7 @@ pub fn check(checker: &mut Checker) {
     let list = |key: &str, i: usize| Path::default().key(key).index(i);
     let loads = scene.load.iter().enumerate().map(|(i, load)| {
         let carried = load.carries.iter().map(|carries| match carries {
-            Carries::HeatFlux | Carries::Pressure => 1,
+            Carries::HeatFlux | Carries::Power | Carries::Pressure => 1,
             Carries::Shear => 2,
         });
         (list("load", i).at("footprint"), cells(&load.footprint) * carried.sum::<usize>())
