@@ -1,14 +1,13 @@
 //! Constants that are plausible alone, but not together; and effects of loads.
 
-use std::f64::consts::PI;
-
 use super::{Reviewer, power};
+use crate::closed_form::{Conductor, DiscFlux, GaussianFlux, UniformFlux};
 use crate::laws::{Constants, Fluid};
 use crate::limits::number;
 use crate::limits::plausible;
 use crate::scene::lateral_extents;
 use crate::scene::locate::Path;
-use crate::scene::{FaceName, HeatMethod, Mesh, Solid};
+use crate::scene::{FaceName, Footprint, HeatMethod, Mesh, Solid};
 use crate::warning;
 
 /// Foams and aerogels have a lower density [kg/m³] and conductivity [W/(m K)] than these.
@@ -128,7 +127,7 @@ fn fluxes(reviewer: &mut Reviewer, (path, name): (&Path, &str), solid: &Solid) {
     for (face, condition) in &solid.faces {
         if let Some(flux) = condition.flux {
             let path = path.key("faces").key(face.as_str()).key("flux");
-            flux_of(reviewer, &path, (flux, f64::INFINITY), solid);
+            flux_of(reviewer, &path, Spot::whole(flux), solid);
         }
     }
     for (i, load) in reviewer.scene.load.iter().enumerate() {
@@ -137,7 +136,9 @@ fn fluxes(reviewer: &mut Reviewer, (path, name): (&Path, &str), solid: &Solid) {
         if load.body_and_face().0 == name && face.temperature.is_none() {
             let path = Path::default().key("load").index(i).key("start").key(channel.key());
             let size = load.start_radius().unwrap_or(f64::INFINITY);
-            flux_of(reviewer, &path, (largest(&fluxes), size), solid);
+            let is_gaussian = matches!(load.footprint, Footprint::Gaussian { .. });
+            let spot = Spot { flux: largest(&fluxes), radius: size, is_gaussian };
+            flux_of(reviewer, &path, spot, solid);
             if let Some(power) = load.start.power.filter(|_| channel.is_of_whole())
                 && let Some(finding) = power::finding(load, channel, [power, size])
             {
@@ -147,15 +148,40 @@ fn fluxes(reviewer: &mut Reviewer, (path, name): (&Path, &str), solid: &Solid) {
     }
 }
 
-/// Warns of the rise of a half space's surface under a constant flux, `2q√(at/π)/k`, limited by the steady state on the
-/// axis of a disc, `qR/k`.
-fn flux_of(reviewer: &mut Reviewer, path: &Path, (flux, radius): (f64, f64), solid: &Solid) {
-    let half_space = |law: &Constants| {
-        let depth = 2.0 * (law.diffusivity() * reviewer.scene.stop_time / PI).sqrt();
-        flux * depth.min(radius) / law.conductivity
-    };
+/// A flux, at most [W/m²], on a round part of a face [m].
+#[derive(Clone, Copy)]
+struct Spot {
+    flux: f64,
+    radius: f64,
+    is_gaussian: bool,
+}
+
+impl Spot {
+    fn whole(flux: f64) -> Self {
+        Self { flux, radius: f64::INFINITY, is_gaussian: false }
+    }
+
+    /// Rise in the middle of a half space's surface after a time [s], if the spot rests [K].
+    fn rise(&self, law: &Constants, time: f64) -> f64 {
+        let body = Conductor { conductivity: law.conductivity, heat_capacity: law.heat_capacity() };
+        let Self { flux, radius, .. } = *self;
+        if radius.is_infinite() {
+            UniformFlux { body, flux }.rise(0.0, time)
+        } else if self.is_gaussian {
+            let source = GaussianFlux { body, peak: flux, radius, velocity: 0.0 };
+            source.rise_at_centre_at_rest(time)
+        } else {
+            DiscFlux { body, flux, radius }.rise_on_axis(0.0, time)
+        }
+    }
+}
+
+/// Warns of the rise of a half space's surface under a constant flux.
+fn flux_of(reviewer: &mut Reviewer, path: &Path, spot: Spot, solid: &Solid) {
+    let flux = spot.flux;
     // For layers, the smallest rise of any of them.
-    let rises = solid.strata().into_iter().map(|layer| half_space(&layer.constants));
+    let time = reviewer.scene.stop_time;
+    let rises = solid.strata().into_iter().map(|layer| spot.rise(&layer.constants, time));
     let rise = rises.reduce(|a, b| if b.abs() < a.abs() { b } else { a }).unwrap_or(0.0);
     if !plausible::HEAT_FLUX.holds(flux) {
         return;

@@ -48,7 +48,8 @@ rules! {
      plausible up to {most} W/m²"; "check the units of the power and of the radius"
 
     Check flux_overheats_surface(rise)
-    "this flux would heat the surface by {rise} K by the stop time"; "check the flux and the stop time"
+    "this flux, held where it is, would heat the surface by {rise} K by the stop time, more than any solid bears";
+    "check the flux and the stop time"
 
     Check flux_undercools_surface(drop)
     "this flux would cool the surface by {drop} K by the stop time, below absolute zero";
