@@ -102,7 +102,7 @@ fn bimetals_bend_as_timoshenko_and_thin_films_as_stoney_say() {
             .enumerate()
             .map(|(i, &x)| probe(&format!("p{i}"), at(x), "", "\"displacement\""))
             .collect();
-        let probes = probes + "[refinement.plate]\nalong = 0.4\nthrough = 1.0\n";
+        let probes = probes + "[refinement.plate]\nalong = 0.5\nthrough = 1.0\n";
         let supports = "bottom = { temperature = 310.0 }\nleft = { clamped = true }\nfront = { roller = true }\nback = { roller = true }";
         let shape = format!("box = [2.0, 0.4, {:?}]", 0.1 + thickness);
         let mesh = "mesh = { spacing = 0.1, depth_spacing = 0.02 }";
