@@ -94,10 +94,11 @@ impl Trial {
         self.follow(tangent, names)
     }
 
-    /// Names of all outputs.
+    /// Names of all outputs but estimates of errors: constants, each of which costs a study of meshes.
     pub fn outputs(&self) -> Vec<String> {
         let outputs = self.registry.of_causality(Causality::Output);
-        outputs.map(|i| self.registry.variables[i].name.clone()).collect()
+        let names = outputs.map(|i| self.registry.variables[i].name.clone());
+        names.filter(|name| !name.ends_with(".estimated_error")).collect()
     }
 
     /// The output of a name.

@@ -71,10 +71,8 @@ fn drops_on_demand_are_those_of_arrivals_to_the_bit() {
         }
         // The mesh of a plate lies about the arrivals, and its nodes differ by rounding.
         let exact = !below.contains("plate");
-        // Of what is zero there is rounding alone, and estimates know where arrivals land.
-        let is_compared = |name: &&String| {
-            exact || !["heat_drift", "estimated_error"].iter().any(|end| name.ends_with(end))
-        };
+        // Of what is zero there is rounding alone.
+        let is_compared = |name: &&String| exact || !name.ends_with("heat_drift");
         for name in timed.outputs().iter().filter(is_compared) {
             let [one, other] = [&mut timed, &mut asked].map(|trial| trial.get(name));
             let same = one.to_bits() == other.to_bits();

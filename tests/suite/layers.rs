@@ -202,13 +202,17 @@ fn temperatures_in_layers_converge_at_the_order_of_the_elements() {
     }
 }
 
-/// Loads of heat off all planes of symmetry, on faces that have no temperature.
+/// Loads of heat off all planes of symmetry, on faces that have no temperature, and elements twice as wide as usual
+/// about them: balances and rates hold on any mesh.
 fn loads(faces: &str) -> String {
     let held = |face: &str| faces.contains(&format!("{face} = {{ temperature"));
     let spot = if held("top") { "bottom" } else { "top" };
     let patch = if held("bottom") { "top" } else { "bottom" };
     format!(
         r#"
+[refinement.plate]
+along = 0.5
+through = 1.0
 [[load]]
 name = "spot"
 on = "plate.{spot}"

@@ -195,7 +195,10 @@ fn positions_between_rows_are_sampled() {
     let place = Workplace::new();
     let scene = SCENE
         .replace("box = [4e-4, 4e-4, 1e-4]", "box = [8e-3, 4e-3, 1e-4]")
-        .replace("mesh = { spacing = 2e-5 }", "mesh = { spacing = 2e-5, growth = 1.5 }")
+        .replace(
+            "mesh = { spacing = 4e-5, order = 1 }",
+            "mesh = { spacing = 4e-5, order = 1, growth = 1.5 }",
+        )
         .replace("start = { heat_flux = 5e7 }", "start = { heat_flux = 5e7, x = -3e-3 }")
         .replace(", \"stress\"", "");
     fs::write(place.path("scene.toml"), scene).unwrap();

@@ -20,7 +20,7 @@ fn run_of_months_is_refused_with_a_proposal() {
 #[test]
 fn a_scene_beyond_the_memory_of_the_machine_is_refused_with_numbers() {
     let place = Workplace::new();
-    let huge = SCENE.replace("spacing = 2e-5", "spacing = 1e-8");
+    let huge = SCENE.replace("spacing = 4e-5", "spacing = 1e-8");
     fs::write(place.path("scene.toml"), huge).unwrap();
     let words = ["MB of memory", "plate", "unknowns", "larger `mesh.spacing`"];
     place.call(&["check", "scene.toml"]).fails(1, &words);
@@ -56,7 +56,7 @@ fn a_scene_may_say_how_much_memory_it_takes() {
 #[test]
 fn limited_address_space_counts_as_missing_memory() {
     let place = Workplace::new();
-    let large = SCENE.replace("spacing = 2e-5", "spacing = 5e-7");
+    let large = SCENE.replace("spacing = 4e-5, order = 1", "spacing = 5e-7");
     fs::write(place.path("scene.toml"), large).unwrap();
     let program = env!("CARGO_BIN_EXE_impinge");
     let limited = format!("ulimit -v 500000; exec {program} check scene.toml");
@@ -70,7 +70,7 @@ fn limited_address_space_counts_as_missing_memory() {
 #[test]
 fn too_little_address_space_is_refused() {
     let place = Workplace::new();
-    let coarse = SCENE.replace("spacing = 2e-5", "spacing = 5e-5, order = 1");
+    let coarse = SCENE.replace("spacing = 4e-5", "spacing = 5e-5");
     fs::write(place.path("scene.toml"), coarse).unwrap();
     let program = env!("CARGO_BIN_EXE_impinge");
     let mut done = 0;

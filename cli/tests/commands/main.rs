@@ -28,7 +28,7 @@ kind = "solid"
 shape = { box = [4e-4, 4e-4, 1e-4] }
 material = { model = "thermoelastic", density = 3950.0, specific_heat = 900.0, conductivity = 10.0, young = 300e9, poisson = 0.21, expansion = 8.1e-6 }
 initial_temperature = 293.15
-mesh = { spacing = 2e-5 }
+mesh = { spacing = 4e-5, order = 1 }
 [body.plate.faces]
 bottom = { temperature = 293.15 }
 sides = { clamped = true }

@@ -18,7 +18,7 @@ impl Workplace {
     fn coarse() -> Self {
         let place = Self::new();
         let text =
-            SCENE.replace("spacing = 2e-5", "spacing = 1e-4").replace("1e-6\nstep", "3e-7\nstep");
+            SCENE.replace("spacing = 4e-5", "spacing = 1e-4").replace("1e-6\nstep", "3e-7\nstep");
         fs::write(place.path("scene.toml"), text).unwrap();
         place
     }
@@ -89,7 +89,7 @@ fn folders_and_runs_give_the_same_page() {
 fn warnings_of_a_run_are_reported_with_their_remedies() {
     let place = Workplace::new();
     let text =
-        SCENE.replace("spacing = 2e-5", "spacing = 1e-4").replace("1e-6\nstep", "2e-7\nstep");
+        SCENE.replace("spacing = 4e-5", "spacing = 1e-4").replace("1e-6\nstep", "2e-7\nstep");
     fs::write(place.path("scene.toml"), text).unwrap();
     let told = place.call(&["report", "scene.toml", "--out", "run"]).succeeds().stderr();
     let warned = told.lines().filter(|line| line.starts_with("warning: ")).count();
