@@ -241,3 +241,25 @@ fn substances_raise_no_warning_within_their_range() {
         }
     }
 }
+
+/// A mean coefficient at one temperature is that from the temperature without stress on, whatever the reference of the
+/// table.
+#[test]
+fn expansion_at_one_temperature_is_the_mean_from_the_temperature_without_stress() {
+    let silicon = |free: f64, at: f64| {
+        let material = format!("material = {{ substance = \"silicon\", at = {at:?} }}\n");
+        let scene = format!(
+            "name = \"Die\"\nstop_time = 1.0\nstep = 0.1\n[body.die]\nkind = \"solid\"\nshape.box = [1e-3, 1e-3, \
+             1e-4]\n{material}initial_temperature = 900.0\nstress_free_temperature = {free:?}\n"
+        );
+        let scene = read(&scene);
+        let (_, die) = scene.solids().next().unwrap();
+        die.material.as_ref().unwrap().material().at(at).expansion.unwrap()
+    };
+    let [at_800, at_1000] = [3.59e-6 * (800.0 - 293.15), 3.76e-6 * (1000.0 - 293.15)];
+    let mean = (at_1000 - at_800) / 200.0;
+    assert!((silicon(800.0, 1000.0) / mean - 1.0).abs() < 1e-12);
+    assert!((silicon(293.15, 1000.0) / 3.76e-6 - 1.0).abs() < 1e-12);
+    // Where both are one, it is the slope there, above the mean from room temperature.
+    assert!((4.1e-6..4.5e-6).contains(&silicon(900.0, 900.0)));
+}

@@ -244,3 +244,19 @@ fn file_size_limit_is_reported() {
         Command::new("sh").args(["-c", &command]).current_dir(place.0.path()).output().unwrap();
     Called(output).fails(1, &["cannot write", "too large"]);
 }
+
+/// Neither is written through, nor waited for.
+#[cfg(unix)]
+#[test]
+fn hard_links_and_pipes_among_the_files_of_a_run_are_replaced() {
+    let place = Workplace::new();
+    fs::create_dir_all(place.path("out/HotSpot")).unwrap();
+    fs::write(place.path("notes"), "kept").unwrap();
+    fs::hard_link(place.path("notes"), place.path("out/HotSpot/run.json")).unwrap();
+    let pipe = place.path("out/HotSpot/outputs.csv");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    place.run(&["--overwrite", "--until", "1e-7"]).succeeds();
+    assert_eq!(fs::read_to_string(place.path("notes")).unwrap(), "kept");
+    assert!(place.table("out/HotSpot").1.len() > 1);
+    assert!(fs::read_to_string(place.path("out/HotSpot/run.json")).unwrap().contains("\"steps\""));
+}

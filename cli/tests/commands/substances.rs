@@ -49,3 +49,56 @@ start = { heat_flux = "3 W/mm²" }
     let called = place.call(&["check", "units.toml"]).succeeds();
     assert_eq!(called.stderr(), "");
 }
+
+/// Constants are those of the temperature in the scene; 20 °C warmer water is a third thinner.
+#[test]
+fn drops_of_another_temperature_than_their_constants_are_warned_of() {
+    let place = Workplace::new();
+    let drop = crate::DROP
+        .replace("initial_temperature = 350.0", "initial_temperature = 293.15")
+        .replace(
+            "fluid = { density = 1000.0, viscosity = 1e-3, specific_heat = 4180.0, conductivity = 0.6 }",
+            "fluid = \"water\"",
+        );
+    fs::write(place.path("scene.toml"), drop).unwrap();
+    let set = |options: &[&str]| {
+        let options = [&["--overwrite", "--until", "1e-7"], options].concat();
+        place.run(&options).succeeds().stderr()
+    };
+    assert!(!set(&[]).contains("were taken at"));
+    let said = set(&["--set", "drop.initial_temperature=40 °C"]);
+    for words in ["constants of `water` were taken at 293.15 K", "viscosity = 0.000653 instead of"]
+    {
+        assert!(said.contains(words), "`{words}` is missing in: {said}");
+    }
+    let viscosity = ["--set", "drop.initial_temperature=40 °C", "--set", "drop.viscosity=6.5e-4"];
+    assert!(!set(&viscosity).contains("viscosity = "));
+}
+
+#[test]
+fn solids_hotter_than_their_substance_is_known_are_warned_of() {
+    let place = Workplace::new();
+    let scene = r#"
+name = "Sheet"
+stop_time = "1 ms"
+step = "100 µs"
+[body.sheet]
+kind = "solid"
+shape.disc = { radius = "8 mm", thickness = "2 mm" }
+material = { substance = "steel-304", at = "300 K" }
+initial_temperature = "300 K"
+mesh = { spacing = "0.5 mm", depth_spacing = "20 µm" }
+[[load]]
+name = "spot"
+on = "sheet.top"
+footprint.disc.radius = "1 mm"
+carries = ["heat_flux"]
+start.heat_flux = "1 GW/m²"
+"#;
+    fs::write(place.path("scene.toml"), scene).unwrap();
+    let said = place.run(&[]).succeeds().stderr();
+    let words = "constants of `steel-304` hold, and above the";
+    assert!(said.contains(words) && said.contains("the model keeps it solid"), "{said}");
+    let gentle = ["--overwrite", "--set", "spot.heat_flux=1 MW/m2"];
+    assert!(!place.run(&gentle).succeeds().stderr().contains("steel-304"));
+}

@@ -351,3 +351,22 @@ fn constants_out_of_range_are_refused() {
         );
     }
 }
+
+/// A body without stress at 800 K under a mean coefficient that is measured from 300 K.
+#[test]
+fn mean_coefficients_of_expansion_count_from_their_reference() {
+    let mean = |t: f64| 2.5e-6 + 2e-9 * (t - 300.0);
+    let law = Elastoplastic {
+        expansion: Arc::new(mean),
+        expansion_reference: 300.0,
+        ..Elastoplastic::elastic(
+            &Thermoelastic { young: 1e11, poisson: 0.2, expansion: 0.0 },
+            800.0,
+        )
+    };
+    let length = |t: f64| mean(t) * (t - 300.0);
+    for temperature in [300.0, 500.0, 800.0, 1000.0] {
+        let strain = law.at(temperature).unwrap().thermal_strain;
+        assert!((strain - (length(temperature) - length(800.0))).abs() < 1e-18, "{temperature}");
+    }
+}
