@@ -140,7 +140,7 @@ fn fluxes(reviewer: &mut Reviewer, (path, name): (&Path, &str), solid: &Solid) {
             let spot = Spot { flux: largest(&fluxes), radius: size, is_gaussian };
             flux_of(reviewer, &path, spot, solid);
             if let Some(power) = load.start.power.filter(|_| channel.is_of_whole())
-                && let Some(finding) = power::finding(load, channel, [power, size])
+                && let Some(finding) = power::implausible_power(load, channel, [power, size])
             {
                 reviewer.warn(&path, finding);
             }

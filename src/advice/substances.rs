@@ -64,7 +64,10 @@ fn drops(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet, named: &NamedS
         constant(&droplet.fluid, key) == Some(*old) && (new / old - 1.0).abs() > ALIKE
     });
     let changed: Vec<_> = changed
-        .map(|((key, old), (_, new))| format!("{key} = {} instead of {old}", number(digits(*new))))
+        .map(|((key, old), (_, new))| {
+            let [new, old] = [*new, *old].map(|value| number(digits(value)));
+            format!("{key} = {new} instead of {old}")
+        })
         .collect();
     if !changed.is_empty() {
         let (name, taken) = (named.substance.name, number(taken));

@@ -76,17 +76,14 @@ impl Model {
     /// Warns of a temperature in a body that is above the range of the substances that it consists of [K].
     pub fn warning_on_temperature(&self, body: usize, value: f64) -> Option<Warning> {
         let name = self.bodies[body].name();
-        let solid = self.scene.solid(name)?;
-        let beyond = self.scene.substances_of(name).filter(|named| value > named.valid[1]);
-        let named = beyond.min_by(|a, b| a.valid[1].total_cmp(&b.valid[1]))?;
-        let melts = named.melts.filter(|&point| value > point && !solid.melts());
-        let melting = melts.map_or(String::new(), |point| {
+        let beyond = self.scene.beyond_substance(name, value)?;
+        let melting = beyond.unmelted.map_or(String::new(), |point| {
             format!(", and above the {point} K at which it melts: the model keeps it solid")
         });
-        let (temperature, high) = (format!("{value:.0}"), named.valid[1]);
-        let name_of = named.substance.name;
-        let finding = warning::solid_beyond_substance(temperature, name_of, high, melting);
-        Some(finding.at(name).of_subject(format!("{name} beyond {name_of}")))
+        let (temperature, substance) = (format!("{value:.0}"), beyond.substance);
+        let high = beyond.highest;
+        let finding = warning::solid_beyond_substance(temperature, substance, high, melting);
+        Some(finding.at(name).of_subject(format!("{name} beyond {substance}")))
     }
 
     /// Warns of all values of whole bodies in a state.

@@ -25,7 +25,30 @@ pub struct MaterialChoice {
     material: Option<Material>,
 }
 
+/// A substance whose constants are not known at a temperature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BeyondSubstance {
+    /// Its name in scenes.
+    pub substance: &'static str,
+    /// Highest temperature at which constants hold [K].
+    pub highest: f64,
+    /// Melting point below the temperature, if the model keeps the body solid [K].
+    pub unmelted: Option<f64>,
+}
+
 impl Scene {
+    /// The substance of a solid whose range a temperature [K] exceeds first.
+    pub fn beyond_substance(&self, body: &str, temperature: f64) -> Option<BeyondSubstance> {
+        let solid = self.solid(body)?;
+        let beyond = self.substances_of(body).filter(|named| temperature > named.valid[1]);
+        let named = beyond.min_by(|a, b| a.valid[1].total_cmp(&b.valid[1]))?;
+        Some(BeyondSubstance {
+            substance: named.substance.name,
+            highest: named.valid[1],
+            unmelted: named.melts.filter(|&point| temperature > point && !solid.melts()),
+        })
+    }
+
     /// The substances of the library that a body consists of.
     pub fn substances_of<'s>(
         &'s self,

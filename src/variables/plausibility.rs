@@ -4,7 +4,8 @@ use super::{Quantity, Slot, Variable};
 use crate::advice::{
     Measure, implausible_input, implausible_place, implausible_power, place_of_input,
 };
-use crate::scene::Scene;
+use crate::inputs::{InputLayout, LoadInputs};
+use crate::scene::{Load, Scene};
 use crate::warning::Warning;
 
 impl Variable {
@@ -30,7 +31,16 @@ impl Variable {
         if !matches!(self.quantity?, Quantity::HeatFlow | Quantity::Length) {
             return None;
         }
-        let finding = implausible_power(scene, inputs, index)?;
+        let layout = InputLayout::of(scene);
+        let of_load = |(load, places): (&Load, &LoadInputs)| {
+            let mut amounts = places.amounts.iter();
+            let (channel, range) = amounts.find(|(channel, _)| channel.is_of_whole())?;
+            let radius = places.radius?;
+            let is_either = index == range.start || index == radius;
+            let found = || implausible_power(load, *channel, [inputs[range.start], inputs[radius]]);
+            is_either.then(found)?
+        };
+        let finding = scene.load.iter().zip(&layout.loads).find_map(of_load)?;
         Some(finding.at(place_of_input(&self.name, inputs[index])))
     }
 

@@ -19,6 +19,11 @@ fn with(text: &str, from: &str, to: &str) -> String {
     text.replace(from, to)
 }
 
+/// The scene without the names of its substances.
+fn anonymous(text: &str) -> Scene {
+    Scene { substances: Vec::new(), ..read(text) }
+}
+
 fn refusal(text: &str) -> String {
     parse(text, "scene.toml").unwrap_err().to_string()
 }
@@ -140,13 +145,13 @@ fn substances_stand_for_their_tables() {
     let written = toml::to_string(&root).unwrap();
     let named = format!("{}\n{written}", with(PLATE, own, "material = \"copper\""));
     let short = with(PLATE, own, "material = \"copper\"");
-    assert_eq!(read(&short), read(&named));
+    assert_eq!(anonymous(&short), read(&named));
 
     // Keys replace constants, and `at` takes them at a temperature, where nothing melts.
     let at = "material = { substance = \"copper\", at = \"350 K\", young = \"100 GPa\" }";
     let wanted = "material = { model = \"thermoelastic\", density = 8933.0, specific_heat = 391.0, conductivity = 397.0, \
                   young = 100e9, poisson = 0.343, expansion = 1.65e-5 }";
-    assert_eq!(read(&with(PLATE, own, at)), read(&with(PLATE, own, wanted)));
+    assert_eq!(anonymous(&with(PLATE, own, at)), read(&with(PLATE, own, wanted)));
 
     // Alone, a table of the scene goes before the library.
     let tin = "material = \"tin\"";

@@ -9,7 +9,7 @@ fn check_describes_the_model() {
     let place = Workplace::new();
     let brief = place.call(&["check", "scene.toml"]).succeeds().stdout();
     assert!(brief.lines().count() <= 12, "{brief}");
-    for words in ["14 files, about 2.6 MB in out/HotSpot", "✗ plate.max_temperature", "1, above"]
+    for words in ["14 files, about 2.7 MB in out/HotSpot", "✗ plate.max_temperature", "1, above"]
     {
         assert!(brief.contains(words), "`{words}` is missing in: {brief}");
     }

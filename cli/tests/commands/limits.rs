@@ -42,13 +42,16 @@ fn a_scene_may_say_how_much_memory_it_takes() {
     for (memory, words) in [
         ("1234567.5", ["scene.toml:1: solver.memory = 1234567.5", "whole number"]),
         ("2e15", ["scene.toml:1: solver.memory = 2e15", "1e6 to 1e15"]),
-        ("\"1e6\"", ["scene.toml:1: solver.memory", "whole number"]),
+        ("\"1e6\"", ["scene.toml:1: solver.memory", "this text has no unit"]),
+        ("\"2 m\"", ["scene.toml:1: solver.memory", "cannot be converted to B"]),
     ] {
         fs::write(place.path("scene.toml"), limited(memory)).unwrap();
         place.call(&["check", "scene.toml"]).fails(1, &words);
     }
-    fs::write(place.path("scene.toml"), limited("1_000_000_000")).unwrap();
-    place.call(&["check", "scene.toml"]).succeeds();
+    for memory in ["1_000_000_000", "\"1 GB\""] {
+        fs::write(place.path("scene.toml"), limited(memory)).unwrap();
+        place.call(&["check", "scene.toml"]).succeeds();
+    }
 }
 
 /// If the address space is limited, the scene's own memory limit applies as well.

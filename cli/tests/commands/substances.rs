@@ -67,8 +67,7 @@ fn drops_of_another_temperature_than_their_constants_are_warned_of() {
     };
     assert!(!set(&[]).contains("were taken at"));
     let said = set(&["--set", "drop.initial_temperature=40 °C"]);
-    for words in ["constants of `water` were taken at 293.15 K", "viscosity = 0.000653 instead of"]
-    {
+    for words in ["constants of `water` were taken at 293.15 K", "viscosity = 6.53e-4 instead of"] {
         assert!(said.contains(words), "`{words}` is missing in: {said}");
     }
     let viscosity = ["--set", "drop.initial_temperature=40 °C", "--set", "drop.viscosity=6.5e-4"];
