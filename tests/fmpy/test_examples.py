@@ -1,6 +1,6 @@
 """Every example runs to its end as a user would run it, those that take long in coarser units.
 
-The units as they are run a few steps in test_standard.py; `make examples` runs them to their end.
+The units as they are run a step in `make verify`; `make examples` runs them to their end.
 """
 
 import subprocess
