@@ -87,7 +87,7 @@ verify: build $(VENV)/ready-verify $(MASTERS)/ready ## slow: closed forms, and a
 	$(BIN)/python tests/verification/tension.py target/tmp out/verification
 	$(BIN)/python tests/verification/spread.py target/tmp out/verification
 	$(BIN)/python tests/verification/independent_code.py
-	IMPINGE_BIN=$(CURDIR)/$(RELEASE) $(BIN)/python -m pytest tests/verification/test_paraview.py
+	IMPINGE_BIN=$(CURDIR)/$(RELEASE) $(BIN)/python -m pytest tests/verification/test_paraview.py tests/verification/test_units.py
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python tests/verification/plasticity.py
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python tests/verification/calculix.py
 	$(BIN)/python tests/verification/nonlinear_heat.py

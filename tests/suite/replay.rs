@@ -121,10 +121,12 @@ fn steps_far_longer_than_drops_take_to_cool_leave_plates_as_warm() {
              [\"temperature\"]\n",
             drop(method, keys)
         );
+        let mut trial = Trial::new(&text);
+        let start = trial.state.clone();
         // 50 and 1600 D/U.
         for time in [2.5e-4, 8e-3] {
-            let risen = |count: usize| {
-                let mut trial = Trial::new(&text);
+            let mut risen = |count: usize| {
+                trial.restart(&start);
                 (0..count).for_each(|_| trial.step(time / count as f64));
                 trial.get("centre.temperature") - 300.0
             };
@@ -186,8 +188,10 @@ fn heat_is_in_proportion_to_the_difference_of_temperatures() {
 fn at_last_all_heat_has_been_given() {
     for method in ["record", "film"] {
         let mut heats = Vec::new();
+        let mut trial = Trial::new(&(drop(method, "") + TILES));
+        let start = trial.state.clone();
         for step in [1e-6, 3.3e-5, 1e-2] {
-            let mut trial = Trial::new(&(drop(method, "") + TILES));
+            trial.restart(&start);
             let mut steps = 0;
             while steps == 0 || trial.get("drop.active") > 0.0 {
                 trial.step(step);
@@ -355,38 +359,49 @@ fn refusal(trial: &mut Trial) -> String {
 
 #[test]
 fn what_is_not_known_is_refused() {
-    let refused = |text: &str, input: (&str, f64), words: &str| {
+    let refused = |text: &str, all: &[((&str, f64), &str)]| {
         let mut trial = Trial::new(text);
         trial.set("drop.release", 1.0);
         trial.step(STEP);
-        trial.set(input.0, input.1);
-        let said = refusal(&mut trial);
-        assert!(said.contains(words), "{input:?}: {said}");
+        let falling = trial.state.clone();
+        for &(input, words) in all {
+            trial.restart(&falling);
+            trial.set(input.0, input.1);
+            let said = refusal(&mut trial);
+            assert!(said.contains(words), "{input:?}: {said}");
+        }
     };
-    let one = drop("record", ON_DEMAND) + TILES;
-    refused(&one, ("drop.speed", 20.1), "touches the wall at 20 to 20 m/s");
-    refused(&one, ("drop.angle", 0.1), "(allowed: 0)");
-    refused(&one, ("drop.release", 0.0), "does not fall");
-    refused(&one, ("drop.temperature", 0.0), "absolute zero");
-    let film = drop("film", ON_DEMAND) + TILES;
-    refused(&film, ("drop.speed", 81.0), "touches the wall at 5 to 80 m/s");
-    let beside = drop("film", ON_DEMAND) + &plate(300.0, "");
-    refused(&beside, ("drop.x", 4.6e-4), "that is beside `plate`");
+    let one = [
+        (("drop.speed", 20.1), "touches the wall at 20 to 20 m/s"),
+        (("drop.angle", 0.1), "(allowed: 0)"),
+        (("drop.release", 0.0), "does not fall"),
+        (("drop.temperature", 0.0), "absolute zero"),
+    ];
+    refused(&(drop("record", ON_DEMAND) + TILES), &one);
+    let film = (("drop.speed", 81.0), "touches the wall at 5 to 80 m/s");
+    refused(&(drop("film", ON_DEMAND) + TILES), &[film]);
+    let beside = (("drop.x", 4.6e-4), "that is beside `plate`");
+    refused(&(drop("film", ON_DEMAND) + &plate(300.0, "")), &[beside]);
 }
 
 /// Between two speeds that are recorded a drop gives what its own particles give.
 #[test]
 fn speeds_between_those_recorded_are_interpolated() {
-    let given = |keys: &str, speed: f64| {
+    let given = |keys: &str, speeds: &[f64]| -> Vec<[f64; 2]> {
         let mut trial = Trial::new(&(drop("record", &format!("{ON_DEMAND}{keys}")) + TILES));
-        trial.set("drop.release", 1.0);
-        trial.set("drop.speed", speed);
-        steps(&mut trial, 24);
-        let [heat, impulse] = get(&mut trial, ["heat", "impulse_z"]);
-        [heat / content(), impulse / (mass() * speed)]
+        let start = trial.state.clone();
+        let mut at = |&speed: &f64| {
+            trial.restart(&start);
+            trial.set("drop.release", 1.0);
+            trial.set("drop.speed", speed);
+            steps(&mut trial, 24);
+            let [heat, impulse] = get(&mut trial, ["heat", "impulse_z"]);
+            [heat / content(), impulse / (mass() * speed)]
+        };
+        speeds.iter().map(&mut at).collect()
     };
-    let table = "record = { speeds = [16.0, 20.0] }\n";
-    let between = given(table, 18.0);
+    let recorded = given("record = { speeds = [16.0, 20.0] }\n", &[18.0, 20.0]);
+    let [between, end] = [recorded[0], recorded[1]];
     let own = drop("record", ON_DEMAND).replace("impact_velocity = 20.0", "impact_velocity = 18.0");
     let mut trial = Trial::new(&(own + TILES));
     trial.set("drop.release", 1.0);
@@ -395,8 +410,7 @@ fn speeds_between_those_recorded_are_interpolated() {
     assert!(off(between[0], exact) < 0.05, "{between:?} {exact}");
     assert!((between[1] + 1.0).abs() < 0.05, "{between:?}");
     // At the ends it is what is recorded there.
-    let end = given(table, 20.0);
-    assert!(off(end[0], given("", 20.0)[0]) < 0.02, "{end:?}");
+    assert!(off(end[0], given("", &[20.0])[0][0]) < 0.02, "{end:?}");
 }
 
 /// The same for liquids from metal to wax: a film gives all its momentum, and of its heat a part that grows.

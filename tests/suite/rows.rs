@@ -8,12 +8,16 @@ use impinge::closed_form::{DiscPressure, Elastic};
 const MANY: f64 = 1000.0;
 const FEW: f64 = 1.0;
 
+/// Elements along the surface twice as wide as the other keys say: rows are solutions on any mesh.
+const COARSE: &str = "[refinement.b]\nalong = 0.5\nthrough = 1.0";
+
 /// Loads of every footprint, off all planes of symmetry, and readings at points and over cells. Lengths in units of
 /// `unit`; `heat` and `force` scale fluxes and tractions.
 fn loads_and_readings([unit, heat, force]: [f64; 3]) -> String {
     let l = |value: f64| value * unit;
     format!(
         r#"
+{COARSE}
 [[load]]
 name = "spot"
 on = "b.top"
@@ -208,7 +212,9 @@ fn rows_of_conjugate_gradients_are_solutions() {
             "stress_free_temperature = 350.0\n{}",
             mesh(if order == 1 { 0.05 } else { 0.1 }, order)
         );
-        assert_rows_are_solutions(&block(&keys, &faces(false)), 1e-10);
+        // On a coarser mesh the stiffness would be factored.
+        let text = block(&keys, &faces(false)).replace(COARSE, "");
+        assert_rows_are_solutions(&text, 1e-10);
     }
 }
 

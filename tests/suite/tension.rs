@@ -78,39 +78,32 @@ fluid = {{ {fluid}, specific_heat = 4000.0, conductivity = 0.0 }}
     )
 }
 
-/// Periods of a drop of water on defaults.
-fn keeps_its_mass(across: f64, keys: &str, periods: u32) {
+/// Seven periods of a drop of water on defaults, 14 particles over its diameter.
+fn keeps_its_mass(keys: &str) {
     let fluid = "density = 998.0, viscosity = 1e-3, surface_tension = 0.072";
     let period = 2.0 * PI * (998e-9_f64 / (8.0 * 0.072)).sqrt();
-    let mut trial = Trial::new(&scene(fluid, across, keys));
+    let mut trial = Trial::new(&scene(fluid, 14.0, keys));
     let start = trial.get("drop.height");
     let speed = -trial.get("drop.momentum_z") / trial.get("drop.mass");
-    for step in 1..=periods {
+    for step in 1..=7 {
         trial.step(period);
-        assert_eq!(trial.get("drop.stray_particles"), 0.0, "{across} {keys} {step}");
+        assert_eq!(trial.get("drop.stray_particles"), 0.0, "{keys} {step}");
         let height = trial.get("drop.height") + speed * period * f64::from(step);
-        assert!((height - start).abs() < 0.17e-3, "{across} {keys} {step}: {height} {start}");
+        assert!((height - start).abs() < 0.17e-3, "{keys} {step}: {height} {start}");
     }
     assert_eq!(trial.get("drop.stray_mass"), 0.0);
     assert_eq!(trial.model.closing_warnings(&trial.state), []);
 }
 
-const AT_REST: &str = "impact_velocity = 0.0";
-
 #[test]
 fn a_drop_at_rest_keeps_its_mass_for_seven_periods() {
-    keeps_its_mass(14.0, AT_REST, 7);
-}
-
-#[test]
-fn a_drop_of_more_particles_keeps_its_mass_for_four_periods() {
-    keeps_its_mass(20.0, AT_REST, 4);
+    keeps_its_mass("impact_velocity = 0.0");
 }
 
 /// At We 2.
 #[test]
 fn a_drop_in_flight_keeps_its_mass_for_seven_periods() {
-    keeps_its_mass(14.0, "impact_velocity = 0.26859\nheight = 1.0", 7);
+    keeps_its_mass("impact_velocity = 0.26859\nheight = 1.0");
 }
 
 #[test]
@@ -134,16 +127,17 @@ fn fluid_that_comes_off_is_spoken_of() {
 /// A hemisphere becomes the cap that Young's angle asks for and comes to rest.
 fn comes_to_rest_as_a_cap(degrees: f64) {
     let cap = SphericalCap::of(PI * degrees / 180.0);
-    let (drop, mut state) = cap.drop(16.0, 0.03);
-    drop.advance(&mut state, &[300.0], 7.0 * period()).unwrap();
+    // It rests in the same form however viscous it is, and sooner the more it is.
+    let (drop, mut state) = cap.drop(16.0, 0.1);
+    drop.advance(&mut state, &[300.0], 3.0 * period()).unwrap();
     let totals = drop.totals(&state);
     let surface = 4.0 * PI * RADIUS * RADIUS * TENSION;
     assert!(totals.kinetic_energy < 1e-4 * surface, "{degrees}: {:e}", totals.kinetic_energy);
     assert_eq!(totals.stray_mass, 0.0, "{degrees}");
     let [height, radius] = cap.found(&drop.particles(&state));
     println!("{degrees}°: height of the centre {height:.4}, root mean square radius {radius:.4}");
-    assert!((height - 1.0).abs() < 0.04, "{degrees}: {height}");
-    assert!((radius - 1.0).abs() < 0.02, "{degrees}: {radius}");
+    assert!((height - 1.0).abs() < 0.02, "{degrees}: {height}");
+    assert!((radius - 1.0).abs() < 0.01, "{degrees}: {radius}");
 }
 
 #[test]

@@ -6,6 +6,7 @@ use crate::capillary::{
     RADIUS, TENSION, core_pressure, elongation, elongations, fitted, found_half_width, half_width,
     normal_mode, on_wall, period, plan, stretched, viscosity,
 };
+use crate::common::Trial;
 use crate::study::keep;
 use impinge::method::sph::{DropletPlan, Placement};
 
@@ -120,4 +121,35 @@ fn tension_of_a_drop_on_a_wall() {
         let error = if degrees < 60.0 { 0.15 } else { 0.1 };
         assert!((found[1] - asked).abs() < error, "{degrees}");
     }
+}
+
+/// The suite has the same at 14 particles over the diameter.
+#[test]
+fn mass_of_a_finer_drop_at_rest() {
+    println!(
+        "\nDrop of water at rest, 20 particles over the diameter: height over its first, a row a period"
+    );
+    let text = r#"
+name = "Drop"
+stop_time = 1.0
+step = 1e-3
+[body.drop]
+kind = "droplet"
+diameter = 2e-3
+impact_velocity = 0.0
+initial_temperature = 300.0
+spacing = 1e-4
+fluid = { density = 998.0, viscosity = 1e-3, surface_tension = 0.072, specific_heat = 4000.0, conductivity = 0.0 }
+"#;
+    let mut trial = Trial::new(text);
+    let start = trial.get("drop.height");
+    for _ in 0..4 {
+        trial.step(2.0 * PI * (998e-9_f64 / (8.0 * 0.072)).sqrt());
+        let height = trial.get("drop.height");
+        println!("{:.4}", height / start);
+        assert_eq!(trial.get("drop.stray_particles"), 0.0);
+        assert!((height - start).abs() < 0.17e-3, "{height} {start}");
+    }
+    assert_eq!(trial.get("drop.stray_mass"), 0.0);
+    assert_eq!(trial.model.closing_warnings(&trial.state), []);
 }
