@@ -63,7 +63,7 @@ class StudyError(ImpingeError, RuntimeError):
 
 
 class StudyWarning(UserWarning):
-    """What rows of a study warn of or fail of, or what its outputs should not be relied on for.
+    """Rows of a study warn or fail, or its outputs are no good for what they may be meant for.
 
     `id` is that of a unit's warning, empty if it has none; `rows` are the numbers of the rows that
     it concerns, from 0 in the order of the table.

@@ -156,6 +156,6 @@ pub fn implausible_input(
 }
 
 /// `NAME = VALUE`
-pub fn place_of_input(name: &str, value: f64) -> String {
+pub(crate) fn place_of_input(name: &str, value: f64) -> String {
     format!("{name} = {}", number(value))
 }

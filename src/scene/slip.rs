@@ -1,4 +1,4 @@
-//! What people write that is no TOML, and what they mean.
+//! Common slips in TOML, with explanations of what is meant.
 
 /// Explains an invalid line of a scene; `None` for what is no known slip.
 pub fn explanation(line: &str) -> Option<(&'static str, &'static str)> {

@@ -47,7 +47,7 @@ fn area(cells: &str, label: &str) -> f64 {
     }
 }
 
-/// What a unit of one input on each cell changes on all of them, times the area of the other: `[heat, force]`.
+/// Changes on all cells that follow from a unit of one input on each, times the area of the other: `[heat, force]`.
 fn transfers(scene: &str, cells: &str, labels: &[&str]) -> Vec<Vec<[f64; 2]>> {
     let mut trial = Trial::new(scene);
     let start = trial.state.clone();

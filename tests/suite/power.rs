@@ -126,7 +126,7 @@ fn a_beam_that_defocuses_keeps_its_power() {
             by_flux.set_derivative("beam.radius", 1, rate);
             by_flux.step(h);
         }
-        // The end of the step is as exact as quadratics in time are of one that moves by its eighths.
+        // Both steps have a fourth-order error while the footprint grows by an eighth of itself.
         let apart = difference([&mut by_power, &mut by_flux]);
         assert!(apart < 2e-4, "{shape} {footprint}: {apart:e}");
         let heat = by_power.get("plate.heat_in");

@@ -141,7 +141,7 @@ def _numbered(status: int, message: str) -> Iterator[tuple[bool, int, str]]:
 
 
 def _place(table: xr.Dataset, row: int) -> str:
-    """What varies in a row, with its values."""
+    """Names and values of what varies in a row."""
     status = table["status"]
     at: Mapping = dict(zip(status.dims, np.unravel_index(row, status.shape), strict=True))
     told = []

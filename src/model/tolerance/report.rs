@@ -86,7 +86,7 @@ pub fn estimate(scene: &Scene, name: &str) -> BodyEstimate {
 }
 
 /// Raises the error of the highest temperature where the mesh does not resolve edges of footprints: a jump of the flux
-/// overshoots there on every mesh alike, so that finer ones do not tell it.
+/// overshoots there on every mesh alike, so that comparison with finer ones does not show it.
 fn overshoot(scene: &Scene, name: &str, found: &mut BodyEstimate) {
     let Some(solid) = scene.meshed(name) else { return };
     let has_edge = |load: &Load| {
