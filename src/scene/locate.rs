@@ -236,6 +236,16 @@ impl<'a> Source<'a> {
     /// First line of a value as written; empty for tables under a header.
     fn text_of(&self, node: &Spanned<DeValue<'a>>) -> String {
         let text = self.text.get(node.span()).unwrap_or_default();
+        let is_number = text.starts_with(|c: char| c.is_ascii_digit() || "+-in".contains(c));
+        let own = match node.get_ref() {
+            DeValue::Float(float) => Some(float.as_str()),
+            DeValue::Integer(integer) => Some(integer.as_str()),
+            _ => None,
+        };
+        // Constants of a substance stand where its name does.
+        if let Some(constant) = own.filter(|_| !is_number) {
+            return constant.to_owned();
+        }
         let has_header = match node.get_ref() {
             DeValue::Table(_) => !text.starts_with('{'),
             DeValue::Array(array) => {
