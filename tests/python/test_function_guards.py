@@ -321,7 +321,15 @@ def test_an_exception_that_no_other_input_would_spare_ends_the_run(folder):
         coupled(folder, law)
 
 
-def test_ctrl_c_ends_a_run_after_a_step_and_another_goes_on(folder):
+@pytest.fixture
+def default_interrupt():
+    """The handler of programs in the foreground; those in the background ignore the signal."""
+    handler = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, handler)
+
+
+def test_ctrl_c_ends_a_run_after_a_step_and_another_goes_on(folder, default_interrupt):
     pressed = []
 
     def law(T, time):
