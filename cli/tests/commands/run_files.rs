@@ -196,7 +196,7 @@ fn files_that_vanish_while_a_run_goes_on_are_noticed() {
     let place = Workplace::new();
     let table = place.path("out/HotSpot/outputs.csv");
     let running = Command::new(env!("CARGO_BIN_EXE_impinge"))
-        .args(["run", "scene.toml", "--until", "1", "--step", "1e-6", "--fields-every", "0"])
+        .args(["run", "scene.toml", "--until", "1e-4", "--step", "1e-7", "--fields-every", "0"])
         .current_dir(place.0.path())
         .stderr(std::process::Stdio::piped())
         .stdout(std::process::Stdio::piped())
