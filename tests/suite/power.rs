@@ -57,7 +57,7 @@ fn difference(trials: [&mut Trial; 2]) -> f64 {
 }
 
 #[test]
-fn a_power_heats_as_the_flux_that_it_makes() {
+fn power_and_equivalent_flux_heat_alike() {
     for shape in [BOX, ROUND] {
         for footprint in FOOTPRINTS {
             let flux = format!("heat_flux = {:?}", flux(footprint, POWER, RADIUS));
@@ -91,7 +91,7 @@ fn heat_that_enters_is_the_power_times_the_time_while_the_radius_changes() {
 
 /// The share of the beam on its face is that of its integral over the face.
 #[test]
-fn what_a_gaussian_brings_in_is_its_share_on_the_face() {
+fn heat_of_a_gaussian_is_its_share_on_the_face() {
     for shape in [BOX, ROUND] {
         let wide = "gaussian = { radius = 2.2e-4 }";
         let text = powered(shape, wide, "");
@@ -106,7 +106,7 @@ fn what_a_gaussian_brings_in_is_its_share_on_the_face() {
 
 /// Against a flux that is given anew as a quadratic in time over each of many short steps.
 #[test]
-fn a_beam_that_defocuses_keeps_its_power() {
+fn defocused_beams_keep_their_power() {
     let (rate, step, count) = (0.4, 1e-4, 16);
     for (shape, footprint) in [(BOX, GAUSSIAN), (BOX, DISC), (ROUND, RING), (ROUND, GAUSSIAN)] {
         let range = "range = { radius = [6e-5, 1.7e-4] }";
@@ -138,7 +138,7 @@ const REDUCED: &str =
     "range = { radius = [8e-5, 1.6e-4] }\n[fidelity]\nlevel = \"reduced\"\ntolerance = 1e-4\n";
 
 #[test]
-fn a_reduced_solid_follows_power_and_radius_within_its_bounds() {
+fn reduced_solids_follow_power_and_radius_within_bounds() {
     let text = powered(ROUND, GAUSSIAN, REDUCED);
     let mut reduced = Trial::new(&text);
     let mut full = Trial::new(&text.replace("\"reduced\"", "\"full\""));
@@ -234,7 +234,7 @@ fn directional_derivatives_are_the_limit_of_differences_beside_a_power() {
 }
 
 #[test]
-fn a_power_is_judged_by_the_flux_that_it_makes() {
+fn implausible_powers_are_warned_of_by_flux() {
     let warned = |power: &str, radius: &str| {
         let text = powered(ROUND, GAUSSIAN, "").replace("\"2 W\"", power);
         let text = text.replace("radius = 1.2e-4", &format!("radius = {radius}"));
@@ -251,7 +251,7 @@ fn a_power_is_judged_by_the_flux_that_it_makes() {
 
 /// A radius that an input makes small focuses the beam.
 #[test]
-fn a_set_power_is_judged_with_the_radius_that_is_set() {
+fn powers_are_judged_with_the_current_radius() {
     let parsed = scene::parse(&powered(ROUND, DISC, ""), "scene.toml").unwrap();
     let registry = Registry::of(&parsed);
     let told = |name: &str, [power, radius]: [f64; 2]| {

@@ -416,3 +416,39 @@ fn a_wide_load_beside_a_small_one_keeps_its_own_fineness() {
     let (alone, both) = (of(""), of(pad));
     assert!(both < 4.0 * alone, "{both} nodes beside {alone}");
 }
+
+/// By the end of a short pulse the highest temperature overshoots at the edge of a footprint, on every mesh alike, and
+/// nowhere if the footprint covers its face.
+#[test]
+fn overshoot_at_edges_is_part_of_the_estimate() {
+    let error_of_highest = |footprint: &str| {
+        let scene = format!(
+            r#"
+name = "Pulse"
+stop_time = 1e-8
+step = 1e-9
+[body.disc]
+kind = "solid"
+shape.disc = {{ radius = 1e-2, thickness = 2e-3 }}
+material = {{ model = "thermoelastic", density = 7850.0, specific_heat = 470.0, conductivity = 45.0 }}
+initial_temperature = 300.0
+[[load]]
+name = "flash"
+on = "disc.top"
+footprint = {{ {footprint} }}
+carries = ["heat_flux"]
+start.heat_flux = 1e10
+"#
+        );
+        let scene = parse(&scene, "scene.toml").unwrap();
+        let (_, found) = tolerance::estimates(&scene);
+        let highest = found[0].outputs.iter().find(|one| one.name == "disc.max_temperature");
+        highest.unwrap().total()
+    };
+    assert!(error_of_highest("disc = { radius = 1e-3 }") > 0.08);
+    assert!(error_of_highest("ring = { inner = 5e-3, outer = 1e-2 }") > 0.08);
+    for whole in ["disc = { radius = 1e-2 }", "rings = { count = 1, radius = 1e-2 }"] {
+        assert!(error_of_highest(whole) < 0.02, "{whole}");
+    }
+    assert!(error_of_highest("gaussian = { radius = 1e-3 }") < 0.02);
+}

@@ -18,7 +18,7 @@ fn run_of_months_is_refused_with_a_proposal() {
 
 #[cfg(unix)]
 #[test]
-fn a_scene_beyond_the_memory_of_the_machine_is_refused_with_numbers() {
+fn scenes_beyond_the_memory_of_the_machine_are_refused_with_numbers() {
     let place = Workplace::new();
     let huge = SCENE.replace("spacing = 4e-5", "spacing = 1e-8");
     fs::write(place.path("scene.toml"), huge).unwrap();
@@ -29,7 +29,7 @@ fn a_scene_beyond_the_memory_of_the_machine_is_refused_with_numbers() {
 }
 
 #[test]
-fn a_scene_may_say_how_much_memory_it_takes() {
+fn memory_limit_of_a_scene_is_kept() {
     let place = Workplace::new();
     let limited = |memory: &str| format!("solver = {{ memory = {memory} }}\n{SCENE}");
     let words = ["MB of memory", "have 1.000e0 MB", "larger `mesh.spacing`"];

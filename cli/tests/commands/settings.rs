@@ -77,7 +77,7 @@ fn steps_and_times_beyond_those_of_scenes_are_refused() {
 }
 
 #[test]
-fn an_array_is_set_by_its_name_or_an_element_by_its_index() {
+fn arrays_are_set_by_name_and_elements_by_index() {
     let place = Workplace::new();
     let rings = SCENE.replace("disc = { radius", "rings = { count = 3, radius");
     fs::write(place.path("scene.toml"), rings).unwrap();
@@ -107,14 +107,14 @@ fn unsettable_names_are_refused_with_the_reason() {
 }
 
 #[test]
-fn all_refused_settings_are_named_at_once() {
+fn refused_settings_are_reported_together() {
     let place = Workplace::new();
     let options = ["--set", "plate.density=-1", "--set", "nothing=1"];
     place.run(&options).fails(1, &["error: cannot set plate.density", "error: cannot set nothing"]);
 }
 
 #[test]
-fn a_footprint_wider_than_its_face_names_the_radius() {
+fn footprints_wider_than_their_face_are_refused_by_radius() {
     let place = Workplace::new();
     place.run(&["--set", "spot.radius=1"]).fails(1, &["spot.radius", "half width 1 m"]);
     place.run(&["--set", "spot.x=1.9e-4"]).fails(1, &["spot.x"]);

@@ -438,7 +438,7 @@ mod tests {
     }
 
     #[test]
-    fn the_change_of_a_power_and_its_place_is_the_limit_of_differences() {
+    fn rates_of_power_and_radius_match_finite_differences() {
         for (loads, mesh, inputs, rates) in cases() {
             let h = 1e-6;
             let at = |sign: f64| {
@@ -458,7 +458,7 @@ mod tests {
     }
 
     #[test]
-    fn a_power_adds_up_on_the_nodes_whatever_the_radius() {
+    fn nodal_heat_sums_to_the_power_at_any_radius() {
         for (loads, mesh, inputs, _) in cases() {
             // Odd classes add up to nothing. A mirrored part has its share.
             let total = |inputs: &[f64]| -> f64 {

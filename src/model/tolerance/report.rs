@@ -8,7 +8,9 @@ use super::resolve;
 use super::twin::{Physics, Twin};
 use crate::body::{forecast, warnings_on_landing};
 use crate::quantity::{Quantity, percent};
-use crate::scene::{Load, MeshFactors, Scene, Shape, Solid, SolidLevel, Stratum};
+use crate::scene::{
+    Footprint, Load, MeshFactors, Scene, Shape, Solid, SolidLevel, Stratum, lateral_extents,
+};
 use crate::variables::Registry;
 use crate::warning::{self, Warning};
 
@@ -89,10 +91,7 @@ pub fn estimate(scene: &Scene, name: &str) -> BodyEstimate {
 /// overshoots there on every mesh alike, so that comparison with finer ones does not show it.
 fn overshoot(scene: &Scene, name: &str, found: &mut BodyEstimate) {
     let Some(solid) = scene.meshed(name) else { return };
-    let has_edge = |load: &Load| {
-        load.carries.iter().any(|own| !own.is_mechanical())
-            && load.footprint.edges(None)[0].is_some()
-    };
+    let has_edge = |load: &Load| load.heats() && has_edge_on(&solid.shape, load);
     if !scene.loads_on(name).any(has_edge) {
         return;
     }
@@ -119,6 +118,22 @@ fn overshoot(scene: &Scene, name: &str, found: &mut BodyEstimate) {
     }
 }
 
+/// Returns true if the flux of a load jumps on its face; a footprint that covers the face has no edge on it.
+fn has_edge_on(shape: &Shape, load: &Load) -> bool {
+    let ends = lateral_extents(shape).map(|extent| 0.5 * extent);
+    let reaches = |edge: f64, axis: usize| edge >= (1.0 - ROUNDING) * ends[axis];
+    match (load.footprint.edges(load.start.radius), shape) {
+        ([None, _], _) => false,
+        ([Some(x), Some(y)], Shape::Box(_))
+            if matches!(load.footprint, Footprint::Tiles { .. }) =>
+        {
+            !(reaches(x, 0) && reaches(y, 1))
+        }
+        ([Some(outer), None], Shape::Disc(_)) => !reaches(outer, 0),
+        _ => true,
+    }
+}
+
 /// Remedy for the overshoot at edges.
 const OF_EDGES: &str = "finer meshes overshoot as much at the edge of a footprint: a probe off the edge or a mean over \
                         the footprint does not";
@@ -127,6 +142,8 @@ const OF_EDGES: &str = "finer meshes overshoot as much at the edge of a footprin
 /// distance over which heat spreads, in spacings of nodes, from which on it does not.
 const OVERSHOOT: f64 = 0.09;
 const RESOLVED: f64 = 0.5;
+/// Share of a length below which two count as equal.
+const ROUNDING: f64 = 1e-9;
 
 fn of_physics(twin: &Twin, physics: Physics, found: &mut BodyEstimate) {
     let what = match physics {
