@@ -11,6 +11,7 @@
 //! | [`cooling_film`] | film whose lower face is brought to another temperature |
 //! | [`drop_impact`] | drop that hits a wall: spread, wetted radius, force |
 //! | [`swinging_drop`] | viscous drop that swings under surface tension |
+//! | [`gravity_current`] | viscous fluid that spreads under its weight, plane or axisymmetric |
 //! | [`slab`] | slab under flux, its back insulated, held or convective |
 //! | [`composite_slab`] | slab of layers with contacts that resist, under flux or sudden temperature |
 //! | [`convective_slab`] | slab that meets a fluid, its back insulated |
@@ -45,6 +46,7 @@ pub mod drop_impact;
 pub mod fitted_range;
 pub mod free_plate;
 pub mod gaussian_flux;
+pub mod gravity_current;
 pub mod half_space_flux;
 pub mod half_space_surface;
 pub mod heated_disc;
@@ -77,6 +79,7 @@ pub use drop_impact::DropImpact;
 pub use fitted_range::FittedRange;
 pub use free_plate::FreePlate;
 pub use gaussian_flux::GaussianFlux;
+pub use gravity_current::{GravityCurrent, Spreading};
 pub use half_space_flux::{DecayingFlux, DiscFlux, UniformFlux};
 pub use half_space_surface::{ConvectiveSurface, SuddenSurface};
 pub use heated_disc::{LongCylinder, ThinDisc};
