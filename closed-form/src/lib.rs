@@ -12,6 +12,9 @@
 //! | [`drop_impact`] | drop that hits a wall: spread, wetted radius, force |
 //! | [`swinging_drop`] | viscous drop that swings under surface tension |
 //! | [`gravity_current`] | viscous fluid that spreads under its weight, plane or axisymmetric |
+//! | [`viscous_decay`] | shear wave and vortices that viscosity brings to rest |
+//! | [`viscous_filament`] | filament, sheet and disc of viscous fluid: drawn, retracting, squeezed |
+//! | [`heated_couette`] | shear flow whose viscosity varies with the temperature |
 //! | [`slab`] | slab under flux, its back insulated, held or convective |
 //! | [`composite_slab`] | slab of layers with contacts that resist, under flux or sudden temperature |
 //! | [`convective_slab`] | slab that meets a fluid, its back insulated |
@@ -49,6 +52,7 @@ pub mod gaussian_flux;
 pub mod gravity_current;
 pub mod half_space_flux;
 pub mod half_space_surface;
+pub mod heated_couette;
 pub mod heated_disc;
 pub mod kirchhoff;
 pub mod medium;
@@ -62,6 +66,8 @@ pub mod spreading_film;
 pub mod square_plate;
 pub mod swinging_drop;
 pub mod thick_cylinder;
+pub mod viscous_decay;
+pub mod viscous_filament;
 pub mod yielding_cylinder;
 
 #[cfg(test)]
@@ -82,6 +88,7 @@ pub use gaussian_flux::GaussianFlux;
 pub use gravity_current::{GravityCurrent, Spreading};
 pub use half_space_flux::{DecayingFlux, DiscFlux, UniformFlux};
 pub use half_space_surface::{ConvectiveSurface, SuddenSurface};
+pub use heated_couette::HeatedCouette;
 pub use heated_disc::{LongCylinder, ThinDisc};
 pub use kirchhoff::LinearConductivity;
 pub use medium::{Conductor, Elastic};
@@ -93,4 +100,6 @@ pub use spreading_film::flux_over_rest;
 pub use square_plate::SquarePlate;
 pub use swinging_drop::SwingingDrop;
 pub use thick_cylinder::ThickCylinder;
+pub use viscous_decay::{ShearWave, TaylorGreen};
+pub use viscous_filament::{SqueezedDisc, ViscousFilament, ViscousSheet};
 pub use yielding_cylinder::YieldingCylinder;
