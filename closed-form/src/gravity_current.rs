@@ -24,7 +24,7 @@ fn plane_shape() -> f64 {
 /// Integral of the shape over a disc, `2π ∫₀¹ s (1 − s²)^{1/3} ds`.
 const DISC_SHAPE: f64 = 0.75 * PI;
 
-/// How a current spreads.
+/// Geometry and volume of a current.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Spreading {
     /// From a point, with the volume V [m³].

@@ -15,6 +15,9 @@
 //! | [`viscous_decay`] | shear wave and vortices that viscosity brings to rest |
 //! | [`viscous_filament`] | filament, sheet and disc of viscous fluid: drawn, retracting, squeezed |
 //! | [`heated_couette`] | shear flow whose viscosity varies with the temperature |
+//! | [`herschel_bulkley`] | law of fluids with a yield stress |
+//! | [`yielding_channel`] | such a fluid between plates, and as a film on an incline |
+//! | [`yielding_pipe`] | such a fluid in a pipe |
 //! | [`slab`] | slab under flux, its back insulated, held or convective |
 //! | [`composite_slab`] | slab of layers with contacts that resist, under flux or sudden temperature |
 //! | [`convective_slab`] | slab that meets a fluid, its back insulated |
@@ -54,6 +57,7 @@ pub mod half_space_flux;
 pub mod half_space_surface;
 pub mod heated_couette;
 pub mod heated_disc;
+pub mod herschel_bulkley;
 pub mod kirchhoff;
 pub mod medium;
 pub mod melting_front;
@@ -68,7 +72,9 @@ pub mod swinging_drop;
 pub mod thick_cylinder;
 pub mod viscous_decay;
 pub mod viscous_filament;
+pub mod yielding_channel;
 pub mod yielding_cylinder;
+pub mod yielding_pipe;
 
 #[cfg(test)]
 mod checks;
@@ -90,6 +96,7 @@ pub use half_space_flux::{DecayingFlux, DiscFlux, UniformFlux};
 pub use half_space_surface::{ConvectiveSurface, SuddenSurface};
 pub use heated_couette::HeatedCouette;
 pub use heated_disc::{LongCylinder, ThinDisc};
+pub use herschel_bulkley::HerschelBulkley;
 pub use kirchhoff::LinearConductivity;
 pub use medium::{Conductor, Elastic};
 pub use melting_front::MeltingFront;
@@ -102,4 +109,6 @@ pub use swinging_drop::SwingingDrop;
 pub use thick_cylinder::ThickCylinder;
 pub use viscous_decay::{ShearWave, TaylorGreen};
 pub use viscous_filament::{SqueezedDisc, ViscousFilament, ViscousSheet};
+pub use yielding_channel::{YieldingChannel, YieldingFilm};
 pub use yielding_cylinder::YieldingCylinder;
+pub use yielding_pipe::YieldingPipe;
