@@ -18,6 +18,7 @@
 //! | [`herschel_bulkley`] | law of fluids with a yield stress |
 //! | [`yielding_channel`] | such a fluid between plates, and as a film on an incline |
 //! | [`yielding_pipe`] | such a fluid in a pipe |
+//! | [`ceasing_flow`] | Bingham fluid between plates that comes to rest in finite time (numerical) |
 //! | [`slab`] | slab under flux, its back insulated, held or convective |
 //! | [`composite_slab`] | slab of layers with contacts that resist, under flux or sudden temperature |
 //! | [`convective_slab`] | slab that meets a fluid, its back insulated |
@@ -36,11 +37,13 @@
 //! | [`cantilever`] | beam under an end load, with shear |
 //!
 //! [`medium`] holds the constants they share, [`fitted_range`] the ranges that fitted laws state, [`special`] the
-//! special functions and [`quadrature`] the integrals that no closed form is known for.
+//! special functions, [`quadrature`] the integrals that no closed form is known for, and [`tridiagonal`] the equations of
+//! numerical oracles.
 
 pub mod bilinear;
 pub mod bonded_plate;
 pub mod cantilever;
+pub mod ceasing_flow;
 pub mod circular_plate;
 pub mod composite_slab;
 pub mod constrained_layer;
@@ -70,6 +73,7 @@ pub mod spreading_film;
 pub mod square_plate;
 pub mod swinging_drop;
 pub mod thick_cylinder;
+pub mod tridiagonal;
 pub mod viscous_decay;
 pub mod viscous_filament;
 pub mod yielding_channel;
@@ -82,6 +86,7 @@ mod checks;
 pub use bilinear::Bilinear;
 pub use bonded_plate::{BondedLayer, BondedPlate};
 pub use cantilever::Cantilever;
+pub use ceasing_flow::{Bingham, CeasingFlow};
 pub use circular_plate::CircularPlate;
 pub use composite_slab::{Back, CompositeSlab, SlabLayer};
 pub use contact::Contact;
