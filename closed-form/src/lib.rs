@@ -19,6 +19,8 @@
 //! | [`yielding_channel`] | such a fluid between plates, and as a film on an incline |
 //! | [`yielding_pipe`] | such a fluid in a pipe |
 //! | [`ceasing_flow`] | Bingham fluid between plates that comes to rest in finite time (numerical) |
+//! | [`slump`] | slump of a cylinder of a fluid with a yield stress |
+//! | [`resting_paste`] | thin layers of such a fluid at rest: drop and line |
 //! | [`slab`] | slab under flux, its back insulated, held or convective |
 //! | [`composite_slab`] | slab of layers with contacts that resist, under flux or sudden temperature |
 //! | [`convective_slab`] | slab that meets a fluid, its back insulated |
@@ -67,7 +69,9 @@ pub mod melting_front;
 pub mod quadrature;
 pub mod radiating_lump;
 pub mod resistive_contact;
+pub mod resting_paste;
 pub mod slab;
+pub mod slump;
 pub mod special;
 pub mod spreading_film;
 pub mod square_plate;
@@ -107,7 +111,9 @@ pub use medium::{Conductor, Elastic};
 pub use melting_front::MeltingFront;
 pub use radiating_lump::RadiatingLump;
 pub use resistive_contact::ResistiveContact;
+pub use resting_paste::RestingPaste;
 pub use slab::HeatedSlab;
+pub use slump::Slump;
 pub use spreading_film::flux_over_rest;
 pub use square_plate::SquarePlate;
 pub use swinging_drop::SwingingDrop;
