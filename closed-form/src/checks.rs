@@ -1,6 +1,6 @@
 //! Shared parts of the tests of closed forms: alumina, comparison, finite differences.
 
-use super::{Conductor, Elastic};
+use super::{Conductor, Elastic, FreezingContact};
 
 /// Alumina of Park §2.4.6.3 as a conductor.
 pub const ALUMINA: Conductor = Conductor { conductivity: 10.0, heat_capacity: 3950.0 * 900.0 };
@@ -10,6 +10,17 @@ pub const WATER: Conductor = Conductor { conductivity: 0.6, heat_capacity: 1000.
 pub const ALUMINA_ELASTIC: Elastic = Elastic { young: 300e9, poisson: 0.21 };
 /// Expansion coefficient of alumina [1/K].
 pub const ALUMINA_EXPANSION: f64 = 8.1e-6;
+
+/// Molten tin at its melting point on stainless steel at room temperature.
+pub const TIN_ON_STEEL: FreezingContact = FreezingContact {
+    wall: Conductor { conductivity: 14.9, heat_capacity: 7900.0 * 477.0 },
+    frozen: Conductor { conductivity: 62.0, heat_capacity: 6970.0 * 244.0 },
+    molten: Conductor { conductivity: 33.0, heat_capacity: 6970.0 * 244.0 },
+    latent: 6970.0 * 59e3,
+    melts_at: 505.0,
+    wall_temperature: 298.15,
+    fluid_temperature: 505.0,
+};
 
 /// Asserts that two numbers agree to a relative tolerance.
 #[track_caller]

@@ -26,6 +26,7 @@
 //! | [`convective_slab`] | slab that meets a fluid, its back insulated |
 //! | [`kirchhoff`] | half space and slab with a conductivity linear in the temperature |
 //! | [`melting_front`] | half space that melts or freezes from its surface |
+//! | [`freezing_contact`] | two half spaces brought together, one of which freezes |
 //! | [`radiating_lump`] | body of one temperature that radiates |
 //! | [`constrained_layer`] | step heating of a laterally constrained surface |
 //! | [`bonded_plate`] | bonded layers that expand differently: bimetals, films |
@@ -56,6 +57,7 @@ pub mod disc_pressure;
 pub mod drop_impact;
 pub mod fitted_range;
 pub mod free_plate;
+pub mod freezing_contact;
 pub mod gaussian_flux;
 pub mod gravity_current;
 pub mod half_space_flux;
@@ -99,6 +101,7 @@ pub use disc_pressure::DiscPressure;
 pub use drop_impact::DropImpact;
 pub use fitted_range::FittedRange;
 pub use free_plate::FreePlate;
+pub use freezing_contact::FreezingContact;
 pub use gaussian_flux::GaussianFlux;
 pub use gravity_current::{GravityCurrent, Spreading};
 pub use half_space_flux::{DecayingFlux, DiscFlux, UniformFlux};

@@ -113,6 +113,16 @@ mod tests {
     }
 
     #[test]
+    fn one_phase_front_at_a_stefan_number_of_one() {
+        let surface = FREEZING.latent / FREEZING.new.heat_capacity;
+        let growth = MeltingFront { surface, initial: 0.0, ..FREEZING }.growth();
+        assert_close(growth, 0.620063, 1e-6);
+        // √π λ e^{λ²} erf λ = Ste
+        let number = PI.sqrt() * growth * (growth * growth).exp() * libm::erf(growth);
+        assert_close(number, 1.0, 1e-13);
+    }
+
+    #[test]
     fn small_stefan_numbers_are_quasi_steady() {
         // 2λ² = Ste where the sensible heat is small.
         let front = MeltingFront { surface: 0.01, initial: 0.0, ..FREEZING };
