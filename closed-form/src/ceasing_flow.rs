@@ -1,14 +1,15 @@
-//! Plane flow of a Bingham fluid between plates in time, such as its cessation: a numerical oracle without regularisation.
+//! Plane flow of a Bingham fluid between plates in time, such as its cessation: a numerical oracle without
+//! regularisation.
 //!
 //! With the half-width h [m], y from the middle, the density ρ, the viscosity µ and the yield stress τ₀,
-//! `ρ ∂u/∂t = G + ∂τ/∂y`, `τ = µ ∂u/∂y + τ₀ sign(∂u/∂y)` where the fluid yields, `|τ| ≤ τ₀` where it does not. The flow
-//! that a pressure gradient G drove comes to rest at a finite time after G has fallen below τ₀/h, while every
+//! `ρ ∂u/∂t = G + ∂τ/∂y`, `τ = µ ∂u/∂y + τ₀ sign(∂u/∂y)` where the fluid yields, `|τ| ≤ τ₀` where it does not. The
+//! flow that a pressure gradient G drove comes to rest at a finite time after G has fallen below τ₀/h, while every
 //! regularised law lets it decay for ever.
 //!
-//! Each implicit Euler step minimises a convex function whose kinks are the unyielded faces between cells. Its dual, in
-//! the stresses of the faces, is piecewise linear and monotone: Newton's method with the set of yielded faces finds the
-//! solution to rounding after a few tridiagonal systems. It is of first order in the step and second in the cells. A
-//! fluid at rest has the velocity 0 to rounding.
+//! Each implicit Euler step minimises a convex function whose kinks are the unyielded faces between cells. Its dual,
+//! in the stresses of the faces, is piecewise linear and monotone: Newton's method with the set of yielded faces
+//! finds the solution to rounding after a few tridiagonal systems. It is of first order in the step and second in the
+//! cells. A fluid at rest has the velocity 0 to rounding.
 //!
 //! Sources: R. Glowinski, *Numerical Methods for Nonlinear Variational Problems*, Springer 1984,
 //! doi 10.1007/978-3-662-12613-4 (variational form, finite stopping time); M. Chatzimina, G. C. Georgiou,
@@ -64,8 +65,8 @@ impl CeasingFlow {
         &self.velocity
     }
 
-    /// Stresses of the faces between cells and of the plate, after the last step [Pa]. They are negative where the flow
-    /// is positive.
+    /// Stresses of the faces between cells and of the plate, after the last step [Pa]. They are negative where the
+    /// flow is positive.
     pub fn stress(&self) -> &[f64] {
         &self.stress
     }
@@ -106,8 +107,8 @@ impl CeasingFlow {
         panic!("no set of yielded faces found at {} s", self.time);
     }
 
-    /// Time at which the flow comes to rest without a pressure gradient [s], with steps of a given length: too late by up
-    /// to a step.
+    /// Time at which the flow comes to rest without a pressure gradient [s], with steps of a given length: too late
+    /// by up to a step.
     pub fn stopping_time(mut self, step: f64) -> f64 {
         loop {
             self.step(step, 0.0);

@@ -1,14 +1,14 @@
-//! Two half spaces brought into perfect contact at time 0, one of which freezes: a drop that lands on a cold wall, before
-//! heat reaches its top.
+//! Two half spaces brought into perfect contact at time 0, one of which freezes: a drop that lands on a cold wall,
+//! before heat reaches its top.
 //!
 //! Indices w, s and l denote wall, frozen and molten fluid; `e = √(k ρc)` is the effusivity, a the diffusivity. All
 //! depends on `x/√t`: the temperature T_i of contact is constant, the front lies at `δ = 2λ√(a_s t)`. With
 //! `b = λ√(a_s/a_l)`, `T_i = (e_w T_w + e_s T_m/erf λ)/(e_w + e_s/erf λ)` and λ is the root of
 //! `e_s (T_m − T_i) e^{−λ²}/erf λ − e_l (T_l − T_m) e^{−b²}/erfc b = √π ρL λ √a_s`.
 //!
-//! Valid for a fluid at rest whose phases have one density, a sharp melting point without undercooling, contact without
-//! resistance, and as long as both bodies are thicker than some `3√(at)`. The fluid freezes only if the temperature of
-//! contact without freezing lies below the melting point.
+//! Valid for a fluid at rest whose phases have one density, a sharp melting point without undercooling, contact
+//! without resistance, and as long as both bodies are thicker than some `3√(at)`. The fluid freezes only if the
+//! temperature of contact without freezing lies below the melting point.
 //!
 //! Source: Neumann's solution (H. S. Carslaw and J. C. Jaeger, *Conduction of Heat in Solids*, 2nd ed., Oxford 1959,
 //! §11.2, case of two media) for the fluid, joined to the wall's solution for a constant surface temperature (§2.4).

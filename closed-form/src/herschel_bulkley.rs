@@ -1,5 +1,5 @@
-//! Law of Herschel and Bulkley for fluids with a yield stress: `τ = τ₀ + k γ̇ⁿ` where the fluid flows, `|τ| ≤ τ₀` where it
-//! does not. n = 1 is Bingham's law, τ₀ = 0 a power law, both a Newtonian fluid.
+//! Law of Herschel and Bulkley for fluids with a yield stress: `τ = τ₀ + k γ̇ⁿ` where the fluid flows, `|τ| ≤ τ₀`
+//! where it does not. n = 1 is Bingham's law, τ₀ = 0 a power law, both a Newtonian fluid.
 //!
 //! Computations often regularise it by two viscosities (R. I. Tanner and J. F. Milthorpe 1983): below a rate γ̇₀ the
 //! apparent viscosity `τ/γ̇` keeps its value at γ̇₀.

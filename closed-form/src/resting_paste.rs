@@ -1,20 +1,20 @@
 //! Shapes in which a thin layer of a yield-stress fluid comes to rest on a horizontal plate.
 //!
-//! Where a spreading layer stops, the pressure gradient bears the yield stress at the plate, `ρg h |dh/dr| = τ₀`. At the
-//! distance d from the edge the thickness is `h = √(2τ₀d/(ρg))`, whence, from their volumes,
+//! Where a spreading layer stops, the pressure gradient bears the yield stress at the plate, `ρg h |dh/dr| = τ₀`. At
+//! the distance d from the edge the thickness is `h = √(2τ₀d/(ρg))`, whence, from their volumes,
 //!
 //! - drop of the volume V [m³]: `R = (225 ρg V²/(128 π² τ₀))^{1/5}`;
 //! - line of the section A [m²]: half-width `w = (9 A² ρg/(32 τ₀))^{1/3}`;
-//! - line that surface tension σ [N/m] spreads on a plate that it wets, instead of gravity: `σ h h''' = τ₀`, with h' = 0
-//!   in the middle and h = h' = 0 at the edge: half-width `w = 1.210937 (σA²/τ₀)^{1/5}`.
+//! - line that surface tension σ [N/m] spreads on a plate that it wets, instead of gravity: `σ h h''' = τ₀`, with h'
+//!   = 0 in the middle and h = h' = 0 at the edge: half-width `w = 1.210937 (σA²/τ₀)^{1/5}`.
 //!
-//! Valid for `h ≪ R`, layers that spread to rest from a thicker state without inertia, and the first two for negligible
-//! surface tension (`ρg h² ≫ σ`), the last for negligible gravity (`ρg w² ≪ σ`). Tresca's and von Mises' criteria agree
-//! in thin layers, whose stress is pure shear.
+//! Valid for `h ≪ R`, layers that spread to rest from a thicker state without inertia, and the first two for
+//! negligible surface tension (`ρg h² ≫ σ`), the last for negligible gravity (`ρg w² ≪ σ`). Tresca's and von Mises'
+//! criteria agree in thin layers, whose stress is pure shear.
 //!
-//! Sources: N. Roussel and P. Coussot (2005), J. Rheol. 49, 705–718, doi 10.1122/1.1879041 (drop); the lines follow from
-//! the same balance. The scaling with surface tension is that of J. van der Kolk, D. Tieman and M. Jalaal (2023), J. Fluid
-//! Mech. 958, A34.
+//! Sources: N. Roussel and P. Coussot (2005), J. Rheol. 49, 705–718, doi 10.1122/1.1879041 (drop); the lines follow
+//! from the same balance. The scaling with surface tension is that of J. van der Kolk, D. Tieman and M. Jalaal
+//! (2023), J. Fluid Mech. 958, A34.
 
 use std::f64::consts::PI;
 
@@ -46,7 +46,8 @@ impl RestingPaste {
         (9.0 / 32.0 * section.powi(2) * self.weight / self.yield_stress).cbrt()
     }
 
-    /// Half of the width w [m] of a line of the section A [m²] that a surface tension σ [N/m] spreads instead of gravity.
+    /// Half of the width w [m] of a line of the section A [m²] that a surface tension σ [N/m] spreads instead of
+    /// gravity.
     pub fn tension_half_width(&self, section: f64, tension: f64) -> f64 {
         TENSION_SPREADS * (tension * section.powi(2) / self.yield_stress).powf(0.2)
     }

@@ -1,12 +1,12 @@
 //! Slump of a cylinder of a yield-stress fluid once its mould is lifted.
 //!
-//! Each layer bears the weight above it over its own section; half of that stress is the largest shear. Layers below the
-//! depth 2τ'H yield and widen until the shear is τ₀ again, plane layers remain plane. With `τ' = τ₀/(ρgH)` the height
-//! falls by `s/H = 1 − 2τ'(1 − ln 2τ')`, and not at all for τ' ≥ 1/2.
+//! Each layer bears the weight above it over its own section; half of that stress is the largest shear. Layers below
+//! the depth 2τ'H yield and widen until the shear is τ₀ again, plane layers remain plane. With `τ' = τ₀/(ρgH)` the
+//! height falls by `s/H = 1 − 2τ'(1 − ln 2τ')`, and not at all for τ' ≥ 1/2.
 //!
-//! It is a model, not exact: friction of the floor, the bulging of layers and inertia are left out, and the criterion is
-//! Tresca's. Measured slumps of mineral suspensions in cylinders about as high as wide follow it to some 10 %.
-//! By the criterion of von Mises the uniaxial yield stress is √3 τ₀ for 2 τ₀.
+//! It is a model, not exact: friction of the floor, the bulging of layers and inertia are left out, and the criterion
+//! is Tresca's. Measured slumps of mineral suspensions in cylinders about as high as wide follow it to some 10 %. By
+//! the criterion of von Mises the uniaxial yield stress is √3 τ₀ for 2 τ₀.
 //!
 //! Source: N. Pashias, D. V. Boger, J. Summers and D. J. Glenister (1996), J. Rheol. 40, 1179–1189,
 //! doi 10.1122/1.550780.

@@ -1,8 +1,8 @@
 //! Tridiagonal systems of equations, for oracles in one dimension.
 
 /// Solves `lower[i] x[i−1] + diagonal[i] x[i] + upper[i] x[i+1] = right[i]` by elimination without pivoting, which is
-/// stable for diagonally dominant and for symmetric positive definite systems. The ends of `lower` and `upper` that lie
-/// outside do not matter.
+/// stable for diagonally dominant and for symmetric positive definite systems. The ends of `lower` and `upper` that
+/// lie outside do not matter.
 pub fn solve(lower: &[f64], diagonal: &[f64], upper: &[f64], right: &[f64]) -> Vec<f64> {
     let count = right.len();
     let (mut ratio, mut x) = (vec![0.0; count], vec![0.0; count]);

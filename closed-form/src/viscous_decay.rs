@@ -1,14 +1,14 @@
 //! Flows that viscosity alone brings to rest: a shear wave and the vortices of Taylor and Green.
 //!
-//! Both solve the Navier–Stokes equations of an incompressible fluid exactly, at any Reynolds number: the inertia of the
-//! shear wave vanishes, that of the vortices is balanced by the pressure. They decay with the kinematic viscosity ν
-//! [m²/s] and their wavenumber, and need periodic or unbounded fluid.
+//! Both solve the Navier–Stokes equations of an incompressible fluid exactly, at any Reynolds number: the inertia of
+//! the shear wave vanishes, that of the vortices is balanced by the pressure. They decay with the kinematic viscosity
+//! ν [m²/s] and their wavenumber, and need periodic or unbounded fluid.
 //!
 //! Implicit Euler steps Δt of `dA/dt = −cA` leave `A (1 + c Δt)^{−n}` after n steps, which separates the error in time
 //! from that in space.
 //!
-//! Source: G. I. Taylor and A. E. Green (1937), Proc. R. Soc. A 158, 499–521, doi 10.1098/rspa.1937.0036; the shear wave
-//! follows from `∂u/∂t = ν ∂²u/∂y²`.
+//! Source: G. I. Taylor and A. E. Green (1937), Proc. R. Soc. A 158, 499–521, doi 10.1098/rspa.1937.0036; the shear
+//! wave follows from `∂u/∂t = ν ∂²u/∂y²`.
 
 use std::f64::consts::PI;
 
@@ -145,8 +145,8 @@ mod tests {
         assert_close(VORTICES.energy(t) / VORTICES.energy(0.0), exponent.exp(), 1e-13);
     }
 
-    /// Finite differences of `∂u/∂t = ν ∂²u/∂y²` on N points have the rate `ν (2/Δ sin(kΔ/2))²`. Implicit steps of them
-    /// decay by the factor of that rate, and converge to the exponential in first order.
+    /// Finite differences of `∂u/∂t = ν ∂²u/∂y²` on N points have the rate `ν (2/Δ sin(kΔ/2))²`. Implicit steps of
+    /// them decay by the factor of that rate, and converge to the exponential in first order.
     #[test]
     fn implicit_euler_leaves_its_power() {
         const POINTS: usize = 12;

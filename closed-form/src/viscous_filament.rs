@@ -1,5 +1,5 @@
-//! Slender viscous filament and sheet that are drawn or that surface tension draws together, and a disc of fluid that is
-//! squeezed between plates.
+//! Slender viscous filament and sheet that are drawn or that surface tension draws together, and a disc of fluid that
+//! is squeezed between plates.
 //!
 //! The sides bear no stress but surface tension, so the state is uniform and the axial stress is Trouton's viscosity
 //! times the strain rate: `3µ ε̇` in a filament, `4µ ε̇` in a wide sheet. With the radius a or the thickness h, the
@@ -7,8 +7,8 @@
 //!
 //! - force of a filament `F = 3µ ε̇ πa² + πσa`, of a sheet per width `F = 4µ ε̇ h + 2σ`;
 //! - free ends: `a = a₀ + σt/(6µ)` and `h = h₀ + σt/(2µ)`; the lengths shrink as the volume is conserved;
-//! - disc of radius R between no-slip plates h apart that approach with V: `F = 3πµR⁴V/(2h³)`, so that a constant force
-//!   closes the gap as `h^{−2} = h₀^{−2} + 4Ft/(3πµR⁴)`, the radius constant; between plates that slip
+//! - disc of radius R between no-slip plates h apart that approach with V: `F = 3πµR⁴V/(2h³)`, so that a constant
+//!   force closes the gap as `h^{−2} = h₀^{−2} + 4Ft/(3πµR⁴)`, the radius constant; between plates that slip
 //!   `F = 3πµR²V/h`.
 //!
 //! Valid for negligible inertia and gravity, for a filament or sheet much longer than thick (the ends round off over

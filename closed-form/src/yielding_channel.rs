@@ -1,13 +1,13 @@
 //! Steady laminar flow of a Herschel–Bulkley fluid between plates, and of a film of it down an incline.
 //!
-//! The shear stress grows linearly from 0 at the middle of the channel, or at the surface of the film. With the force per
-//! volume G [Pa/m] (pressure gradient, or ρg sin θ) the fluid within `y_p = τ₀/G` of there moves as a plug. Beyond, with
-//! the half-width or thickness h [m] and `a = h − y_p`, at the distance s from the middle or the surface,
-//! `u = n/(n+1) (G/k)^{1/n} [a^{(n+1)/n} − (s − y_p)^{(n+1)/n}]`.
-//! For `h ≤ y_p` all of it is at rest. Exact for fully developed flow; the film needs negligible drag of the air.
+//! The shear stress grows linearly from 0 at the middle of the channel, or at the surface of the film. With the force
+//! per volume G [Pa/m] (pressure gradient, or ρg sin θ) the fluid within `y_p = τ₀/G` of there moves as a plug.
+//! Beyond, with the half-width or thickness h [m] and `a = h − y_p`, at the distance s from the middle or the
+//! surface, `u = n/(n+1) (G/k)^{1/n} [a^{(n+1)/n} − (s − y_p)^{(n+1)/n}]`. For `h ≤ y_p` all of it is at rest. Exact
+//! for fully developed flow; the film needs negligible drag of the air.
 //!
-//! Source: R. B. Bird, W. E. Stewart and E. N. Lightfoot, *Transport Phenomena*, 2nd ed., Wiley 2007, §8.3, for generalised
-//! Newtonian fluids; from `τ = Gs` and the law by integration.
+//! Source: R. B. Bird, W. E. Stewart and E. N. Lightfoot, *Transport Phenomena*, 2nd ed., Wiley 2007, §8.3, for
+//! generalised Newtonian fluids; from `τ = Gs` and the law by integration.
 
 use super::herschel_bulkley::HerschelBulkley;
 use super::quadrature::integrate;

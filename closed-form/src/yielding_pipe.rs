@@ -1,9 +1,9 @@
 //! Steady laminar flow of a Herschel–Bulkley fluid through a round pipe.
 //!
-//! With the pressure gradient G [Pa/m] and the radius R [m] the wall bears `τ_w = GR/2`; within `r_p = 2τ₀/G` the fluid
-//! moves as a plug. With `φ = τ₀/τ_w` the flow is
-//! `Q = πR³ n (τ_w/k)^{1/n} (1−φ)^{(n+1)/n} [(1−φ)²/(3n+1) + 2φ(1−φ)/(2n+1) + φ²/(n+1)]`,
-//! for n = 1 that of Buckingham and Reiner, `πR³τ_w/(4k) (1 − 4φ/3 + φ⁴/3)`. Exact for fully developed flow.
+//! With the pressure gradient G [Pa/m] and the radius R [m] the wall bears `τ_w = GR/2`; within `r_p = 2τ₀/G` the
+//! fluid moves as a plug. With `φ = τ₀/τ_w` the flow is
+//! `Q = πR³ n (τ_w/k)^{1/n} (1−φ)^{(n+1)/n} [(1−φ)²/(3n+1) + 2φ(1−φ)/(2n+1) + φ²/(n+1)]`, for n = 1 that of
+//! Buckingham and Reiner, `πR³τ_w/(4k) (1 − 4φ/3 + φ⁴/3)`. Exact for fully developed flow.
 //!
 //! Sources: E. Buckingham (1921), Proc. ASTM 21, 1154–1156, for n = 1; otherwise from `τ = Gr/2` and the law by
 //! integration.
@@ -33,7 +33,8 @@ impl YieldingPipe {
         0.5 * self.gradient * self.radius
     }
 
-    /// Velocity [m/s] at the radius r: `n/(n+1) (G/2k)^{1/n} [(R−r_p)^{(n+1)/n} − (r−r_p)^{(n+1)/n}]`, uniform in the plug.
+    /// Velocity [m/s] at the radius r: `n/(n+1) (G/2k)^{1/n} [(R−r_p)^{(n+1)/n} − (r−r_p)^{(n+1)/n}]`, uniform in the
+    /// plug.
     pub fn velocity(&self, r: f64) -> f64 {
         let HerschelBulkley { consistency, exponent, .. } = self.fluid;
         let sheared = (self.radius - self.plug()).max(0.0);
