@@ -27,6 +27,7 @@
 //! | [`kirchhoff`] | half space and slab with a conductivity linear in the temperature |
 //! | [`melting_front`] | half space that melts or freezes from its surface |
 //! | [`freezing_contact`] | two half spaces brought together, one of which freezes |
+//! | [`freezing_column`] | the same across a contact that resists (numerical) |
 //! | [`radiating_lump`] | body of one temperature that radiates |
 //! | [`constrained_layer`] | step heating of a laterally constrained surface |
 //! | [`bonded_plate`] | bonded layers that expand differently: bimetals, films |
@@ -40,8 +41,8 @@
 //! | [`cantilever`] | beam under an end load, with shear |
 //!
 //! [`medium`] holds the constants they share, [`fitted_range`] the ranges that fitted laws state, [`special`] the
-//! special functions, [`quadrature`] the integrals that no closed form is known for, and [`tridiagonal`] the equations of
-//! numerical oracles.
+//! special functions, [`quadrature`] the integrals that no closed form is known for, and [`tridiagonal`] the
+//! equations of numerical oracles.
 
 pub mod bilinear;
 pub mod bonded_plate;
@@ -57,6 +58,7 @@ pub mod disc_pressure;
 pub mod drop_impact;
 pub mod fitted_range;
 pub mod free_plate;
+pub mod freezing_column;
 pub mod freezing_contact;
 pub mod gaussian_flux;
 pub mod gravity_current;
@@ -101,6 +103,7 @@ pub use disc_pressure::DiscPressure;
 pub use drop_impact::DropImpact;
 pub use fitted_range::FittedRange;
 pub use free_plate::FreePlate;
+pub use freezing_column::{FreezingColumn, Frozen};
 pub use freezing_contact::FreezingContact;
 pub use gaussian_flux::GaussianFlux;
 pub use gravity_current::{GravityCurrent, Spreading};
