@@ -10,6 +10,7 @@
 //! | [`spreading_film`] | film of fluid that spreads over a wall |
 //! | [`cooling_film`] | film whose lower face is brought to another temperature |
 //! | [`drop_impact`] | drop that hits a wall: spread, wetted radius, force |
+//! | [`freezing_impact`] | largest spread of a drop that freezes while it spreads (fitted) |
 //! | [`swinging_drop`] | viscous drop that swings under surface tension |
 //! | [`gravity_current`] | viscous fluid that spreads under its weight, plane or axisymmetric |
 //! | [`viscous_decay`] | shear wave and vortices that viscosity brings to rest |
@@ -60,6 +61,7 @@ pub mod fitted_range;
 pub mod free_plate;
 pub mod freezing_column;
 pub mod freezing_contact;
+pub mod freezing_impact;
 pub mod gaussian_flux;
 pub mod gravity_current;
 pub mod half_space_flux;
@@ -105,6 +107,7 @@ pub use fitted_range::FittedRange;
 pub use free_plate::FreePlate;
 pub use freezing_column::{FreezingColumn, Frozen};
 pub use freezing_contact::FreezingContact;
+pub use freezing_impact::FreezingImpact;
 pub use gaussian_flux::GaussianFlux;
 pub use gravity_current::{GravityCurrent, Spreading};
 pub use half_space_flux::{DecayingFlux, DiscFlux, UniformFlux};
