@@ -65,7 +65,7 @@ impl Watch {
 
 /// Returns notes on the phases that the model leaves out, and on the contact temperature predicted below a drop.
 pub fn note(scene: &Scene, (name, fluid): (&str, &Fluid)) -> String {
-    let Fluid { freezes_at, boils_at, .. } = *fluid;
+    let &Fluid { freezes_at, boils_at, .. } = fluid;
     let general = "liquids neither freeze nor boil in this model, and their constants do not change with temperature";
     if freezes_at.or(boils_at).is_none() {
         return format!(
