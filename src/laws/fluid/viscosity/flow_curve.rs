@@ -87,7 +87,8 @@ impl FlowCurve {
             let excess = (resistance * (rate / beyond)).ln();
             let step = -excess / ((tangent + penalty) / resistance);
             let next = rate * step.exp();
-            if step.abs() <= CLOSE || beyond.is_nan() {
+            // At the ends of the range of numbers the slope may overflow before the stress does.
+            if (step.abs() <= CLOSE && tangent.is_finite()) || beyond.is_nan() {
                 return next;
             }
             let is_above = excess > 0.0;

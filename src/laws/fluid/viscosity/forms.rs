@@ -49,9 +49,6 @@ impl Rheology {
 
 impl Viscosity {
     /// Returns the flow curve at a temperature [K].
-    ///
-    /// # Panics
-    /// If a table lacks values, which the check of a scene excludes.
     #[inline]
     pub fn at(&self, temperature: f64) -> FlowCurve {
         match self {

@@ -7,10 +7,12 @@ use crate::laws::Table;
 /// The logarithm of a liquid's viscosity is nearly linear over intervals in which the viscosity itself changes several
 /// times.
 ///
-/// # Panics
-/// If the table has no value or fewer values than temperatures, which the check of a scene excludes.
+/// NaN for a table that [`Table::check`] refuses because of its lengths.
 pub fn interpolated(table: &Table, temperature: f64) -> f64 {
     let Table { temperature: knots, value } = table;
+    if value.is_empty() || value.len() != knots.len() {
+        return f64::NAN;
+    }
     let above = knots.partition_point(|&knot| knot <= temperature);
     if above == 0 || above == knots.len() {
         return value[above.saturating_sub(1)];

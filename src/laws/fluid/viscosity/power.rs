@@ -29,7 +29,7 @@ pub const fn consistency() -> Limits {
 /// Limits of an exponent of the shear rate.
 pub const fn exponent() -> Limits {
     let limits = within(0.0, 3.0, "1", "the exponent of a shear rate").low_open();
-    limits.plausible(&plausible::SHEAR_EXPONENT)
+    limits.plausible(&plausible::SHEAR_EXPONENT).condition("up to 1 of `carreau_yasuda`")
 }
 
 /// Row of the parameter `consistency`. Its unit depends on the exponent, but as the stress at a rate of 1/s it is a
