@@ -91,7 +91,7 @@ fn main() {
     let capacity = conductivity / DIFFUSIVITY;
     let fluid = Fluid {
         density: DENSITY,
-        viscosity: prandtl * DIFFUSIVITY * DENSITY,
+        viscosity: (prandtl * DIFFUSIVITY * DENSITY).into(),
         specific_heat: capacity / DENSITY,
         conductivity,
         surface_tension: 0.0,

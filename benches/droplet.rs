@@ -17,7 +17,7 @@ const SOUND: f64 = 100.0;
 fn plan(lean: bool, surface_tension: f64) -> DropletPlan {
     let fluid = Fluid {
         density: 1000.0,
-        viscosity: 1e-3,
+        viscosity: 1e-3.into(),
         specific_heat: 4000.0,
         conductivity: if lean { 0.0 } else { 0.6 },
         surface_tension,

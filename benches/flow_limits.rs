@@ -186,7 +186,7 @@ impl Run {
             kernel: self.kernel,
             fluid: Fluid {
                 density: DENSITY,
-                viscosity,
+                viscosity: viscosity.into(),
                 specific_heat: 1.0,
                 conductivity: 0.0,
                 surface_tension: 0.0,

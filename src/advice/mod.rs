@@ -12,6 +12,7 @@ mod relations;
 mod resolution;
 mod substances;
 mod values;
+mod viscosity;
 
 use crate::limits::number;
 use crate::limits::plausible::{self, BESIDE_WARM, CRYOGENIC, Cold, Range};
@@ -47,6 +48,7 @@ fn found(scene: &Scene, (source, names_lines): (&Source, bool), schema: &Schema)
     let cold = scene.cold();
     values::review(&mut reviewer, schema, cold);
     phases::review(&mut reviewer, cold);
+    viscosity::review(&mut reviewer);
     substances::review(&mut reviewer, schema);
     relations::review(&mut reviewer);
     arrangement::review(&mut reviewer);

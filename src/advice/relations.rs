@@ -7,7 +7,7 @@ use crate::limits::number;
 use crate::limits::plausible;
 use crate::scene::lateral_extents;
 use crate::scene::locate::Path;
-use crate::scene::{FaceName, Footprint, HeatMethod, Mesh, Solid};
+use crate::scene::{Droplet, FaceName, Footprint, HeatMethod, Mesh, Solid};
 use crate::warning;
 
 /// Foams and aerogels have a lower density [kg/m³] and conductivity [W/(m K)] than these.
@@ -49,7 +49,7 @@ pub fn review(reviewer: &mut Reviewer) {
         slender(reviewer, &path, (name, body));
     }
     for (name, body) in reviewer.scene.droplets() {
-        fluid(reviewer, &root.key("body").key(name).key("fluid"), &body.fluid);
+        fluid(reviewer, &root.key("body").key(name).key("fluid"), body);
     }
 }
 
@@ -72,8 +72,9 @@ fn solid(reviewer: &mut Reviewer, path: &Path, law: &Constants) {
     }
 }
 
-fn fluid(reviewer: &mut Reviewer, path: &Path, fluid: &Fluid) {
-    let Fluid { density, viscosity, specific_heat, conductivity, .. } = *fluid;
+fn fluid(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
+    let Fluid { density, specific_heat, conductivity, .. } = droplet.fluid;
+    let Some(viscosity) = droplet.fluid.viscosity.constant() else { return };
     let kind = if conductivity >= METALLIC {
         "conducts like a metal"
     } else if specific_heat >= WATERY && (900.0..=1200.0).contains(&density) {

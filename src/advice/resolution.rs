@@ -150,7 +150,7 @@ impl Resolution {
         let peclet = speed * droplet.diameter * capacity / fluid.conductivity;
         Some(Self {
             across: droplet.diameter / droplet.spacing,
-            reynolds: fluid.density * speed * droplet.diameter / fluid.viscosity,
+            reynolds: fluid.density * speed * droplet.diameter / droplet.reference_viscosity(),
             weber: fluid.density * speed.powi(2) * droplet.diameter / fluid.surface_tension,
             peclet: Some(peclet).filter(|peclet| peclet.is_finite()),
             time,

@@ -79,7 +79,7 @@ fn drops(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet, named: &NamedS
 fn constant(fluid: &Fluid, key: &str) -> Option<f64> {
     match key {
         "density" => Some(fluid.density),
-        "viscosity" => Some(fluid.viscosity),
+        "viscosity" => fluid.viscosity.constant(),
         "specific_heat" => Some(fluid.specific_heat),
         "conductivity" => Some(fluid.conductivity),
         "surface_tension" => Some(fluid.surface_tension),

@@ -10,13 +10,20 @@ pub trait Part {
     /// Rows of the constants that units offer as parameters.
     fn parameters() -> &'static [MaterialConstant]
     where
-        Self: Sized;
+        Self: Sized,
+    {
+        &[]
+    }
 
     /// The given constants that may be tables over the temperature, each with its key.
-    fn properties(&self) -> Vec<(&'static str, &Property)>;
+    fn properties(&self) -> Vec<(&'static str, &Property)> {
+        Vec::new()
+    }
 
     /// The number that the scene gives for a key; `None` if the part has no such key, or a table stands there.
-    fn number(&mut self, key: &str) -> Option<&mut f64>;
+    fn number(&mut self, _key: &str) -> Option<&mut f64> {
+        None
+    }
 }
 
 /// Operation on every part of a material, by type.

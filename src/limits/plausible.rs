@@ -235,6 +235,49 @@ pub static VISCOSITY: Range<'static> = Range {
     highest: 100.0, // honey 10, glass at its working point 1000
     mistakes: Cow::Borrowed(&[scaled("mPa s", 1e-3)]),
 };
+/// Viscosity of a fluid at rest, which thins when a drop moves.
+pub static ZERO_SHEAR_VISCOSITY: Range<'static> = Range {
+    what: "the viscosity of a fluid at low shear rates",
+    unit: "Pa s",
+    lowest: 1e-6,
+    highest: 1e7, // polymer melts 1e6
+    mistakes: Cow::Borrowed(&[scaled("mPa s", 1e-3)]),
+};
+pub static FLUID_YIELD_STRESS: Range<'static> = Range {
+    what: "the yield stress of a fluid",
+    unit: "Pa",
+    lowest: 1e-4, // blood 4e-3
+    highest: 1e5, // clay and dough 1e4
+    mistakes: Cow::Borrowed(&[scaled("mPa", 1e-3)]),
+};
+pub static CONSISTENCY: Range<'static> = Range {
+    what: "the consistency of a fluid",
+    unit: "Pa sⁿ",
+    lowest: 1e-6,
+    highest: 1e6, // polymer melts 1e5
+    mistakes: Cow::Borrowed(&[scaled("mPa sⁿ", 1e-3)]),
+};
+pub static SHEAR_EXPONENT: Range<'static> = Range {
+    what: "the exponent of a shear rate",
+    unit: "1",
+    lowest: 0.05, // carbopol gels 0.3
+    highest: 2.5, // suspensions of starch 2
+    mistakes: Cow::Borrowed(&[]),
+};
+pub static SHEAR_TIME: Range<'static> = Range {
+    what: "the time of a law of viscosity",
+    unit: "s",
+    lowest: 1e-10, // of molecules of a thin liquid
+    highest: 1e5,  // polymer solutions 1e3
+    mistakes: TIMES,
+};
+pub static ACTIVATION_ENERGY: Range<'static> = Range {
+    what: "the activation energy of flow",
+    unit: "J/mol",
+    lowest: 500.0, // liquefied gases 2e3
+    highest: 1e6,  // glasses near their transition 6e5
+    mistakes: Cow::Borrowed(&[scaled("kJ/mol", 1e3)]),
+};
 pub static SURFACE_TENSION: Range<'static> = Range {
     what: "the surface tension",
     unit: "N/m",

@@ -104,19 +104,19 @@ impl Model {
         Ok(found)
     }
 
-    /// Warns of fluids in a state beyond their freezing and boiling points, except on subjects that were already
-    /// reported.
+    /// Warns of fluids in a state beyond the temperatures at which their constants hold, except on subjects that were
+    /// already reported.
     pub fn phase_warnings(&self, state: &State, is_said: impl Fn(&str) -> bool) -> Vec<Warning> {
         let mut found = Vec::new();
         for (body, unknowns) in self.bodies.iter().zip(&state.bodies) {
             let Some(watch) = body.watch() else { continue };
-            let is_open = |change: &_| !is_said(&watch.subject(*change));
-            let wanted: Vec<_> = watch.changes().filter(is_open).collect();
+            let is_open = |passage: &_| !is_said(&watch.subject(*passage));
+            let wanted: Vec<_> = watch.passages().filter(is_open).collect();
             if wanted.is_empty() {
                 continue;
             }
             let Some(places) = body.warm_places(unknowns) else { continue };
-            let warning = |change| watch.warning(change, places, state.time);
+            let warning = |passage| watch.warning(passage, places, state.time);
             found.extend(wanted.into_iter().filter_map(warning));
         }
         found
@@ -124,6 +124,8 @@ impl Model {
 
     /// Returns true if a fluid has points to watch.
     pub fn watches_phases(&self) -> bool {
-        self.bodies.iter().any(|body| body.watch().is_some_and(|watch| watch.changes().count() > 0))
+        self.bodies
+            .iter()
+            .any(|body| body.watch().is_some_and(|watch| watch.passages().count() > 0))
     }
 }

@@ -377,6 +377,13 @@ impl Droplet {
         (self.impact_velocity.powi(2) + fall).max(capillary).sqrt()
     }
 
+    /// The viscosity that stands for the fluid in dimensionless numbers and estimates [Pa s]: at the initial temperature
+    /// and, of a law of the shear rate, at the rate U/D of the [fastest flow](Self::fastest_flow) over the diameter.
+    pub fn reference_viscosity(&self) -> f64 {
+        let rate = self.fastest_flow() / self.diameter;
+        self.fluid.reference_viscosity(self.initial_temperature, rate)
+    }
+
     /// Increase of the squared speed during the fall of a drop through its gap and its own height [m²/s²].
     fn gain_by_fall(&self) -> f64 {
         2.0 * self.gravity * (self.gap() + self.diameter)
@@ -385,7 +392,11 @@ impl Droplet {
     /// Governing speed [m/s], which the speed of sound must exceed by far, and its cause.
     pub fn governing_speed(&self) -> (Governing, f64) {
         let surface = self.fluid.laplace_speed(self.spacing);
-        let viscous = self.fluid.viscous_speed(self.impact_velocity, self.diameter);
+        let viscous = self.fluid.viscous_speed(
+            self.reference_viscosity(),
+            self.impact_velocity,
+            self.diameter,
+        );
         [(Governing::Surface, surface), (Governing::Viscosity, viscous)].into_iter().fold(
             (Governing::Flow, self.fastest_flow()),
             |largest, other| {
@@ -525,12 +536,12 @@ impl Droplet {
 
     /// The impact of a drop in terms of the closed forms.
     pub fn impact(&self) -> DropImpact {
-        let Fluid { density, viscosity, surface_tension, contact_angle, .. } = self.fluid;
+        let Fluid { density, surface_tension, contact_angle, .. } = self.fluid;
         DropImpact {
             diameter: self.diameter,
             speed: self.normal_speed(),
             density,
-            viscosity,
+            viscosity: self.reference_viscosity(),
             surface_tension,
             contact_angle,
         }

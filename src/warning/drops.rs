@@ -24,6 +24,11 @@ rules! {
      liquid";
     "do not rely on heat and forces from first contact on"
 
+    Check viscosity_beyond_table(what, temperature, low, high)
+    "{what} is at {temperature} K, and the table of viscosity spans {low} K to {high} K: beyond it the viscosity is that \
+     of the nearer end";
+    "extend the table to the temperatures of the fluid"
+
     Check kernel_forms_pairs(spline, widest, support)
     "under pressure, particles of the {spline} spline form pairs beyond a support of {widest} distances ({support} \
      here), and resolve as little as half as many";

@@ -40,6 +40,11 @@ rules! {
      boils (`boils_at`): the model keeps it liquid";
     "do not rely on spread, heat and forces of what boils from here on"
 
+    Step fluid_beyond_viscosity(time, temperature, x, y, z, end)
+    "at {time} s the fluid is at {temperature} K at x = {x}, y = {y}, z = {z} m, beyond the {end} K at which the table of \
+     its viscosity ends: it keeps the viscosity of this end";
+    "extend the table to the temperatures of the fluid"
+
     Step solid_beyond_substance(temperature, name, high, melting)
     "{temperature} K is above the {high} K up to which the library's constants of `{name}` hold{melting}";
     "do not rely on temperatures and stresses from here on; a material with constants that hold there, and with \

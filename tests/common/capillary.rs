@@ -30,7 +30,7 @@ pub fn plan(dimension: usize, across: f64, viscosity: f64) -> DropletPlan {
         kernel: Kernel::WendlandC2,
         fluid: Fluid {
             density: DENSITY,
-            viscosity,
+            viscosity: viscosity.into(),
             specific_heat: 4000.0,
             conductivity: 0.0,
             surface_tension: TENSION,
@@ -79,7 +79,7 @@ pub fn normal_mode(plan: &DropletPlan) -> SwingingDrop {
     SwingingDrop {
         radius: RADIUS,
         density: DENSITY,
-        viscosity: plan.fluid.viscosity,
+        viscosity: plan.fluid.viscosity.constant().expect("a number"),
         surface_tension: TENSION,
     }
 }

@@ -90,7 +90,7 @@ impl Setup {
     fn plan(self) -> DropletPlan {
         let fluid = Fluid {
             density: self.density,
-            viscosity: self.viscosity,
+            viscosity: self.viscosity.into(),
             specific_heat: 1.0,
             conductivity: 1e-12 * self.viscosity,
             surface_tension: 0.0,

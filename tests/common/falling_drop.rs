@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use impinge::kernel::Kernel;
+use impinge::laws::Viscosity;
 use impinge::method::sph::{
     DropletPlan, DropletSph, Extent, Fluid, Placement, Precision, Release, Wall,
 };
@@ -17,7 +18,7 @@ pub const RINGS: usize = 30;
 /// Hot water, without surface tension.
 pub const WATER: Fluid = Fluid {
     density: 1000.0,
-    viscosity: 3e-4,
+    viscosity: Viscosity::Constant(3e-4),
     specific_heat: 4000.0,
     conductivity: 0.6,
     surface_tension: 0.0,

@@ -55,6 +55,7 @@ mod solid;
 mod substance_reference;
 mod tension;
 mod tolerance;
+mod viscosity;
 mod walls;
 mod warning_reference;
 mod yield_estimates;

@@ -260,6 +260,13 @@ fn sizes_loads_and_forgotten_parts_are_warned_of() {
         ),
         ("surface_tension = 0.059", "surface_tension = 59.0", "surface_tension = 59.0", "59 mN/m"),
         ("viscosity = 0.00028", "viscosity = 0.28", "viscosity = 0.28", "2.8e-4 (0.28 mPa s)"),
+        (
+            "viscosity = 0.00028",
+            "viscosity = { law = \"carreau_yasuda\", zero_shear = 2.8e-4, infinite_shear = 2.8e-4, time = 1e6, \
+             exponent = 0.5 }",
+            "viscosity.time = 1e6",
+            "1e6 µs",
+        ),
         ("{ temperature = 373.0 }", "{ temperature = 20.0 }", "start.temperature = 20.0", "293.15"),
         ("spacing = 5e-5\n", "spacing = 5e-5\ngravity = 9810.0\n", "gravity = 9810.0", "9.81"),
     ];

@@ -6,6 +6,7 @@ mod tables;
 use std::collections::BTreeSet;
 use std::{env, fs};
 
+use impinge::laws::fluid::viscosity::FluidLaw;
 use impinge::scene::{SCHEMA, derived_schema, parse};
 use serde::Serialize;
 use serde_json::Value;
@@ -19,7 +20,7 @@ const IMPACT: &str = include_str!("../scenes/impact.toml");
 /// stands there with a key that there is not, and keys that choose the section's type.
 type Section = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
-const SECTIONS: [Section; 30] = [
+const SECTIONS: [Section; 31] = [
     ("The whole", PLATE, "stop_time =", "zz = 1\nstop_time =", &[]),
     ("`fidelity`", PLATE, "level =", "zz = 1\nlevel =", &[]),
     ("`solver`", PLATE, "stop_time =", "solver = { zz = 1 }\nstop_time =", &[]),
@@ -87,6 +88,13 @@ const SECTIONS: [Section; 30] = [
     ),
     ("`[body.NAME]` of a droplet", DROP, "diameter =", "zz = 1\ndiameter =", &["kind"]),
     ("`fluid` of a droplet", DROP, "fluid = {", "fluid = { zz = 1,", &[]),
+    (
+        "`arrhenius` of a viscosity",
+        DROP,
+        "viscosity = 1e-3",
+        "viscosity = { law = \"newtonian\", value = 1e-3, arrhenius = { zz = 1 } }",
+        &[],
+    ),
     ("`arrivals` of a droplet", DROP, "arrivals = [{", "arrivals = [{ zz = 1,", &[]),
     ("`record` of a droplet", DROP, "gravity = 9.81", "record = { zz = 1 }", &[]),
     (
@@ -231,7 +239,14 @@ fn the_reference_has_every_key_and_no_other() {
         keys.extend(tags.iter().map(|tag| tag.to_string()));
         assert_eq!(documented(section(&text, heading)), keys, "{heading}");
     }
-    assert_eq!(text.matches("\n## ").count(), SECTIONS.len() + 1, "a section is not compared");
+    let of_laws = "`viscosity` of a fluid";
+    let keys = FluidLaw::NAMES.iter().flat_map(|law| {
+        let table = format!("viscosity = {{ law = \"{law}\", zz = 1 }}");
+        known(DROP, "viscosity = 1e-3", &table)
+    });
+    let keys: BTreeSet<String> = keys.chain(["law".to_owned()]).collect();
+    assert_eq!(documented(section(&text, of_laws)), keys);
+    assert_eq!(text.matches("\n## ").count(), SECTIONS.len() + 2, "a section is not compared");
 }
 
 #[test]

@@ -32,7 +32,7 @@ fn film_plan(cells: WallCells, effusivity: Option<f64>, mirrors: [bool; 2]) -> D
         kernel: Kernel::WendlandC2,
         fluid: Fluid {
             density: 1000.0,
-            viscosity: 1e-2,
+            viscosity: 1e-2.into(),
             specific_heat: 4000.0,
             conductivity: 0.6,
             surface_tension: 0.0,

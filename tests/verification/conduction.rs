@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 
 use crate::falling_drop::open_space;
 use crate::study::Study;
+use impinge::laws::Viscosity;
 use impinge::method::sph::{
     DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Release,
 };
@@ -14,7 +15,7 @@ use impinge::method::sph::{
 const MEAN: f64 = 300.0;
 const FLUID: Fluid = Fluid {
     density: 1000.0,
-    viscosity: 3e-4,
+    viscosity: Viscosity::Constant(3e-4),
     specific_heat: 4000.0,
     conductivity: 0.6,
     surface_tension: 0.0,

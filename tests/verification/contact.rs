@@ -7,6 +7,7 @@ use crate::common::Trial;
 use crate::falling_drop::open_space;
 use crate::study::{Study, alumina, keep, probe, relative_norm};
 use impinge::closed_form::{Conductor, Contact, SuddenSurface};
+use impinge::laws::Viscosity;
 use impinge::method::sph::{DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Release, Wall};
 use impinge::port::WallCells;
 
@@ -16,7 +17,7 @@ const COLD: f64 = 293.15;
 const TIME: f64 = 3.5e-6;
 const WATER: Fluid = Fluid {
     density: 1000.0,
-    viscosity: 3e-4,
+    viscosity: Viscosity::Constant(3e-4),
     specific_heat: 4000.0,
     conductivity: 0.6,
     surface_tension: 0.0,

@@ -74,7 +74,7 @@ fn sound_speed(weber: f64, resolution: usize) -> f64 {
 pub fn drop_of(weber: f64, reynolds: f64, resolution: usize) -> DropletSph {
     let fluid = Fluid {
         density: DENSITY,
-        viscosity: DENSITY * SPEED * DIAMETER / reynolds,
+        viscosity: (DENSITY * SPEED * DIAMETER / reynolds).into(),
         specific_heat: 4000.0,
         conductivity: 0.0,
         surface_tension: DENSITY * SPEED * SPEED * DIAMETER / weber,

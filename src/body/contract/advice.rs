@@ -43,7 +43,7 @@ pub trait Advice {
         0.0
     }
 
-    /// Returns the points at which a fluid of the body would freeze or boil.
+    /// Returns the points at which a fluid of the body would freeze or boil, or leaves the table of its viscosity.
     fn watch(&self) -> Option<&Watch> {
         None
     }

@@ -22,7 +22,7 @@ pub fn plan_of(
         kernel: droplet.kernel,
         fluid: sph::Fluid {
             density: fluid.density,
-            viscosity: fluid.viscosity,
+            viscosity: fluid.viscosity.clone(),
             specific_heat: fluid.specific_heat,
             conductivity: fluid.conductivity,
             surface_tension: fluid.surface_tension,

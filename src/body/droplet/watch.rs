@@ -1,15 +1,20 @@
-//! Temperatures at which a fluid would freeze or boil; the model has no phase change of droplets.
+//! Temperatures beyond which the constants of a fluid do not hold: it would freeze or boil, as the model has no phase
+//! change of droplets, or the table of its viscosity ends.
 
-use crate::laws::Fluid;
+use crate::laws::{Fluid, Viscosity};
 use crate::method::sph::WarmPlace;
 use crate::scene::{FirstContact, Scene};
 use crate::warning::{self, Warning};
 
-/// A phase change that the model omits.
+/// The way in which a fluid gets beyond its constants.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PhaseChange {
+pub enum Passage {
     Freezing,
     Boiling,
+    /// Colder than the table of viscosity.
+    ColdEnd,
+    /// Hotter than the table of viscosity.
+    HotEnd,
 }
 
 /// The points that a scene sets for the fluid of a droplet.
@@ -17,56 +22,74 @@ pub enum PhaseChange {
 pub struct Watch {
     name: String,
     /// [K]
-    points: Vec<(PhaseChange, f64)>,
+    points: Vec<(Passage, f64)>,
 }
 
 impl Watch {
     pub fn of(name: &str, fluid: &Fluid) -> Self {
-        let points =
-            [(PhaseChange::Freezing, fluid.freezes_at), (PhaseChange::Boiling, fluid.boils_at)];
-        let set = points.into_iter().filter_map(|(change, point)| Some((change, point?)));
+        let knots = match &fluid.viscosity {
+            Viscosity::Table(table) => &table.temperature[..],
+            Viscosity::Constant(_) | Viscosity::Law(_) => &[],
+        };
+        let points = [
+            (Passage::Freezing, fluid.freezes_at),
+            (Passage::Boiling, fluid.boils_at),
+            (Passage::ColdEnd, knots.first().copied()),
+            (Passage::HotEnd, knots.last().copied()),
+        ];
+        let set = points.into_iter().filter_map(|(passage, point)| Some((passage, point?)));
         Self { name: name.to_owned(), points: set.collect() }
     }
 
-    /// The phase changes for which the scene sets a temperature.
-    pub fn changes(&self) -> impl Iterator<Item = PhaseChange> + '_ {
-        self.points.iter().map(|(change, _)| *change)
+    /// The passages for which the scene sets a temperature.
+    pub fn passages(&self) -> impl Iterator<Item = Passage> + '_ {
+        self.points.iter().map(|(passage, _)| *passage)
     }
 
-    /// The subject of warnings about a phase change.
-    pub fn subject(&self, change: PhaseChange) -> String {
-        format!("{} {change:?}", self.name)
+    /// The subject of warnings about a passage.
+    pub fn subject(&self, passage: Passage) -> String {
+        format!("{} {passage:?}", self.name)
     }
 
-    /// Warns if the coldest or the hottest fluid is beyond the point of a change at a time [s].
+    /// Warns if the coldest or the hottest fluid is beyond the point of a passage at a time [s].
     pub fn warning(
         &self,
-        change: PhaseChange,
+        passage: Passage,
         [coldest, hottest]: [WarmPlace; 2],
         time: f64,
     ) -> Option<Warning> {
-        let (_, point) = self.points.iter().find(|(other, _)| *other == change)?;
-        let (is_beyond, extreme) = match change {
-            PhaseChange::Freezing => (coldest.temperature < *point, coldest),
-            PhaseChange::Boiling => (hottest.temperature > *point, hottest),
+        let (_, point) = self.points.iter().find(|(other, _)| *other == passage)?;
+        let (is_beyond, extreme) = match passage {
+            Passage::Freezing | Passage::ColdEnd => (coldest.temperature < *point, coldest),
+            Passage::Boiling | Passage::HotEnd => (hottest.temperature > *point, hottest),
         };
         let WarmPlace { temperature, place } = extreme;
         let [x, y, z] = place.map(|along| format!("{along:.2e}"));
         let (time, temperature) = (format!("{time:.3e}"), format!("{temperature:.1}"));
         is_beyond.then(|| {
-            let finding = match change {
-                PhaseChange::Freezing => warning::fluid_freezes(time, temperature, x, y, z, point),
-                PhaseChange::Boiling => warning::fluid_boils(time, temperature, x, y, z, point),
+            let finding = match passage {
+                Passage::Freezing => warning::fluid_freezes(time, temperature, x, y, z, point),
+                Passage::Boiling => warning::fluid_boils(time, temperature, x, y, z, point),
+                Passage::ColdEnd | Passage::HotEnd => {
+                    warning::fluid_beyond_viscosity(time, temperature, x, y, z, point)
+                }
             };
-            finding.at(&self.name).of_subject(self.subject(change))
+            finding.at(&self.name).of_subject(self.subject(passage))
         })
     }
 }
 
 /// Returns notes on the phases that the model leaves out, and on the contact temperature predicted below a drop.
 pub fn note(scene: &Scene, (name, fluid): (&str, &Fluid)) -> String {
-    let Fluid { freezes_at, boils_at, .. } = *fluid;
-    let general = "liquids neither freeze nor boil in this model, and their constants do not change with temperature";
+    let &Fluid { freezes_at, boils_at, .. } = fluid;
+    let general = match fluid.viscosity.depends_on_temperature() {
+        true => {
+            "liquids neither freeze nor boil in this model, and only their viscosity changes with temperature"
+        }
+        false => {
+            "liquids neither freeze nor boil in this model, and their constants do not change with temperature"
+        }
+    };
     if freezes_at.or(boils_at).is_none() {
         return format!(
             "{general}: `freezes_at` and `boils_at` of the fluid (K) make it warn where that would matter"

@@ -1,4 +1,8 @@
-//! Laws of fluids: the constants of a droplet's liquid, and the speeds that follow from them.
+//! Laws of fluids: the constants of a droplet's liquid, its viscosity, and the speeds that follow from them.
+
+pub mod viscosity;
+
+pub use viscosity::Viscosity;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -7,16 +11,16 @@ use serde::{Deserialize, Serialize};
 
 use crate::limits::{plausible, temperature, within};
 
-/// A Newtonian fluid that conducts heat.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// A fluid that conducts heat.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fluid {
     /// Mass density at rest [kg/m³].
     #[schemars(transform = within(1e-3, 1e6, "kg/m³", "the density").plausible(&plausible::FLUID_DENSITY))]
     pub density: f64,
-    /// Dynamic viscosity [Pa s].
+    /// Dynamic viscosity: a number, a table over the temperature, or a law of the shear rate [Pa s].
     #[schemars(transform = within(1e-9, 1e6, "Pa s", "the viscosity").plausible(&plausible::VISCOSITY))]
-    pub viscosity: f64,
+    pub viscosity: Viscosity,
     /// Specific heat capacity [J/(kg K)].
     #[schemars(transform = within(1e-1, 1e7, "J/(kg K)", "the specific heat capacity")
         .plausible(&plausible::FLUID_SPECIFIC_HEAT))]
@@ -76,12 +80,18 @@ impl Fluid {
         (2.0 * self.surface_tension / (self.density * spacing)).sqrt()
     }
 
-    /// √(12 µU/(ρD)) [m/s], the speed equivalent to the pressure at which a drop of high viscosity stops, of an impact
-    /// speed U [m/s] and a diameter D [m]; it exceeds that of the flow where Re < 12. Drops of Re 0.8 to 5 were measured
+    /// The viscosity [Pa s] that stands for the fluid in dimensionless numbers, closed forms and estimates: that at a
+    /// temperature [K] and, of a law of the shear rate, at a rate [1/s].
+    pub fn reference_viscosity(&self, temperature: f64, rate: f64) -> f64 {
+        self.viscosity.at(temperature).viscosity(rate)
+    }
+
+    /// √(12 µU/(ρD)) [m/s], the speed equivalent to the pressure at which a drop of high viscosity stops, of a reference
+    /// viscosity µ [Pa s], an impact speed U [m/s] and a diameter D [m]; it exceeds that of the flow where Re < 12. Drops of Re 0.8 to 5 were measured
     /// at 12 to 14 µU/D. At Re 0.1 (asphalt, D/Δx 10 to 40) density stays within 0.5 % at communication points. Below
     /// that nothing was measured.
-    pub fn viscous_speed(&self, speed: f64, diameter: f64) -> f64 {
-        (VISCOUS_PRESSURE * self.viscosity * speed / (self.density * diameter)).sqrt()
+    pub fn viscous_speed(&self, viscosity: f64, speed: f64, diameter: f64) -> f64 {
+        (VISCOUS_PRESSURE * viscosity * speed / (self.density * diameter)).sqrt()
     }
 }
 

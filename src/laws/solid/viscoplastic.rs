@@ -19,7 +19,7 @@ use std::sync::Arc;
 use super::law::{Deformation, FlowLaw, Need};
 use super::overstress::Overstress;
 use super::{Elasticity, Elastoplastic, PointConstants, Yielding, law_of_parts};
-use crate::laws::{MaterialConstant, Part, Property};
+use crate::laws::Part;
 use crate::limits::{positive, within};
 
 law_of_parts! {
@@ -34,19 +34,7 @@ pub struct Flow {
     pub creep: Creep,
 }
 
-impl Part for Flow {
-    fn parameters() -> &'static [MaterialConstant] {
-        &[]
-    }
-
-    fn properties(&self) -> Vec<(&'static str, &Property)> {
-        Vec::new()
-    }
-
-    fn number(&mut self, _: &str) -> Option<&mut f64> {
-        None
-    }
-}
+impl Part for Flow {}
 
 impl Deformation for ViscoplasticLaw {
     fn elasticity(&self) -> &Elasticity {

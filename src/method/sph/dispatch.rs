@@ -87,7 +87,7 @@ mod tests {
         let (diameter, spacing) = (1e-4, 1e-5);
         let fluid = Fluid {
             density: 1000.0,
-            viscosity: 1e-3,
+            viscosity: 1e-3.into(),
             specific_heat: 4000.0,
             conductivity: 0.6,
             surface_tension: 0.07,

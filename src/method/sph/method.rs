@@ -107,7 +107,8 @@ impl Method {
         let gravity = plan.gravity.map(|g| g * h / (c * c));
         let images = Images::of(plan, h, gravity);
         let points = PointLattice::of(plan);
-        let viscosity = fluid.viscosity / (units.density * c * h);
+        let viscosity = fluid.viscosity.at(plan.reference_temperature()).viscosity(0.0);
+        let viscosity = viscosity / (units.density * c * h);
         let moment = plan.kernel.second_moment(plan.dimension);
         Self {
             units,

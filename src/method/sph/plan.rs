@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::images::copies;
 use crate::kernel::Kernel;
+use crate::laws::Viscosity;
 use crate::port::WallCells;
 pub use crate::scene::Placement;
 use crate::scene::Precision;
@@ -48,14 +49,14 @@ pub struct DropletPlan {
     pub wall: Option<Wall>,
 }
 
-/// Constants of a Newtonian fluid as particles take them, with the speed of sound of the model.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+/// Constants of a fluid as particles take them, with the speed of sound of the model.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fluid {
     /// Density at rest ρ₀ [kg/m³].
     pub density: f64,
     /// Dynamic viscosity µ [Pa s].
-    pub viscosity: f64,
+    pub viscosity: Viscosity,
     /// [J/(kg K)]
     pub specific_heat: f64,
     /// Thermal conductivity [W/(m K)]; 0 disables heat.

@@ -1,6 +1,6 @@
 //! Checks size, fluid, particles and arrivals of each droplet.
 
-use super::{Checker, fits, number, replayed};
+use super::{Checker, fits, number, replayed, viscosity};
 use crate::scene::droplet::{
     Arrival, Droplet, DropletMethod, DropletSymmetry, LEAST_SOUND_OVER_FLOW,
 };
@@ -17,6 +17,7 @@ pub fn check(checker: &mut Checker) {
         let path = Path::default().key("body").key(name);
         if is_sound(checker, &path) {
             replayed::check(checker, &path, (name, droplet));
+            viscosity::check(checker, &path.at("fluid.viscosity"), droplet);
         }
         if is_sound(checker, &path) && droplet.has_particles() {
             resolution(checker, &path.at("spacing"), droplet);

@@ -26,7 +26,7 @@ pub fn check(checker: &mut Checker, path: &Path, material: &Material) {
     needs(checker, path, material, material.law.deformation().needs());
 }
 
-fn table(checker: &mut Checker, path: &Path, table: &Table) {
+pub fn table(checker: &mut Checker, path: &Path, table: &Table) {
     let Err(error) = table.check() else { return };
     // The allowed values are a separate part of a scene's errors.
     let message = error.to_string();

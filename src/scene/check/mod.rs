@@ -18,6 +18,7 @@ mod reservoir;
 mod start;
 mod support;
 mod values;
+mod viscosity;
 mod wall;
 
 pub use crate::limits::number;

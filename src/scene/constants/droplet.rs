@@ -13,7 +13,7 @@ pub struct DropletConstant {
     pub description: &'static str,
     pub quantity: Quantity,
     pub start: AtStart,
-    place: fn(&mut Droplet) -> &mut f64,
+    place: fn(&mut Droplet) -> Option<&mut f64>,
 }
 
 impl DropletConstant {
@@ -23,49 +23,49 @@ impl DropletConstant {
             description: "diameter of a drop",
             quantity: Quantity::Length,
             start: AtStart::PoleAtZero,
-            place: |droplet| &mut droplet.diameter,
+            place: |droplet| Some(&mut droplet.diameter),
         },
         Self {
             key: "impact_velocity",
             description: "speed towards the wall at the release",
             quantity: Quantity::Velocity,
             start: AtStart::Polynomial,
-            place: |droplet| &mut droplet.impact_velocity,
+            place: |droplet| Some(&mut droplet.impact_velocity),
         },
         Self {
             key: "density",
             description: "mass density at rest",
             quantity: Quantity::Density,
             start: AtStart::PoleAtZero,
-            place: |droplet| &mut droplet.fluid.density,
+            place: |droplet| Some(&mut droplet.fluid.density),
         },
         Self {
             key: "viscosity",
             description: "dynamic viscosity",
             quantity: Quantity::Viscosity,
             start: AtStart::Never,
-            place: |droplet| &mut droplet.fluid.viscosity,
+            place: |droplet| droplet.fluid.viscosity.number("viscosity"),
         },
         Self {
             key: "specific_heat",
             description: "specific heat capacity",
             quantity: Quantity::SpecificHeat,
             start: AtStart::Never,
-            place: |droplet| &mut droplet.fluid.specific_heat,
+            place: |droplet| Some(&mut droplet.fluid.specific_heat),
         },
         Self {
             key: "conductivity",
             description: "thermal conductivity",
             quantity: Quantity::Conductivity,
             start: AtStart::Never,
-            place: |droplet| &mut droplet.fluid.conductivity,
+            place: |droplet| Some(&mut droplet.fluid.conductivity),
         },
         Self {
             key: "surface_tension",
             description: "surface tension",
             quantity: Quantity::SurfaceTension,
             start: AtStart::Never,
-            place: |droplet| &mut droplet.fluid.surface_tension,
+            place: |droplet| Some(&mut droplet.fluid.surface_tension),
         },
         Self {
             key: "sound_speed",
@@ -74,13 +74,14 @@ impl DropletConstant {
             start: AtStart::Never,
             place: |droplet| {
                 let chosen = droplet.sound_speed();
-                droplet.fluid.sound_speed.get_or_insert(chosen)
+                Some(droplet.fluid.sound_speed.get_or_insert(chosen))
             },
         },
     ];
 
-    /// The constant's place in a droplet; a speed of sound that the scene leaves out is filled in first.
-    pub(super) fn place<'a>(&self, droplet: &'a mut Droplet) -> &'a mut f64 {
+    /// The constant's place in a droplet; `None` where the scene sets no number. A speed of sound that the scene leaves
+    /// out is filled in first.
+    pub(super) fn place<'a>(&self, droplet: &'a mut Droplet) -> Option<&'a mut f64> {
         (self.place)(droplet)
     }
 }
@@ -94,22 +95,29 @@ impl PartialEq for DropletConstant {
 
 impl Eq for DropletConstant {}
 
-/// The constants of a droplet. Inputs set speed and temperature of drops on demand, and only particles have a speed of
+/// The constants of a droplet, with those of its law of viscosity. Inputs set speed and temperature of drops on demand, and only particles have a speed of
 /// sound.
 pub fn offered(body: &str, droplet: &Droplet) -> Vec<OfferedConstant> {
     let is_input = |key: &str| droplet.is_on_demand() && key == "impact_velocity";
     let is_of_particles = |key: &str| !droplet.has_particles() && key == "sound_speed";
-    let is_offered = |key: &str| !is_input(key) && !is_of_particles(key);
+    let has_viscosity = droplet.fluid.viscosity.clone().number("viscosity").is_some();
+    let is_of_law = |key: &str| !has_viscosity && key == "viscosity";
+    let is_offered = |key: &str| !is_input(key) && !is_of_particles(key) && !is_of_law(key);
     let rows = DropletConstant::ALL.iter().filter(|constant| is_offered(constant.key));
     let own = rows.map(|constant| OfferedConstant {
         key: constant.key.to_owned(),
         description: format!("{} of {body}", constant.description),
         constant: Constant::Droplet(constant),
     });
+    let of_law = droplet.fluid.viscosity.parameters().iter().map(|constant| OfferedConstant {
+        key: constant.key.to_owned(),
+        description: format!("{} of {body}", constant.description),
+        constant: Constant::Material(constant),
+    });
     let temperature = (!droplet.is_on_demand()).then(|| OfferedConstant {
         key: "initial_temperature".to_owned(),
         description: format!("uniform temperature of {body} at the release"),
         constant: Constant::InitialTemperature,
     });
-    own.chain(temperature).collect()
+    own.chain(of_law).chain(temperature).collect()
 }

@@ -15,6 +15,7 @@ use crate::quantity::Quantity;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Constant {
     InitialTemperature,
+    /// Of the material of a solid, or of the law of viscosity of a droplet's fluid.
     Material(&'static MaterialConstant),
     /// Of the material of some layers.
     LayerMaterial {
@@ -92,7 +93,12 @@ impl Body {
         match (self, constant) {
             (body, Constant::InitialTemperature) => vec![body.initial_temperature_mut()],
             (Body::Solid(solid), constant) => solid::places(solid, constant),
-            (Body::Droplet(droplet), Constant::Droplet(constant)) => vec![constant.place(droplet)],
+            (Body::Droplet(droplet), Constant::Droplet(constant)) => {
+                constant.place(droplet).into_iter().collect()
+            }
+            (Body::Droplet(droplet), Constant::Material(constant)) => {
+                droplet.fluid.viscosity.number(constant.key).into_iter().collect()
+            }
             _ => panic!("a body offers the constants of its kind"),
         }
     }

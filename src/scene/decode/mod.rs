@@ -6,8 +6,10 @@
 mod failure;
 mod keys;
 mod material;
+mod tagged;
 mod unit;
 mod value;
+mod viscosity;
 
 use std::collections::BTreeSet;
 
@@ -118,6 +120,7 @@ impl Decoder<'_> {
             for material in (0..count).map(|i| layers.index(i).key("material")) {
                 self.read_material(&material);
             }
+            self.read_viscosity(&body.key("fluid").key("viscosity"));
             self.read_if::<Solid>(&body, "kind", "solid");
             self.read_if::<Droplet>(&body, "kind", "droplet");
             self.read_if::<Reservoir>(&body, "kind", "reservoir");

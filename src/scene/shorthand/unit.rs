@@ -11,36 +11,38 @@ pub struct Unit {
     pub dimension: Dimension,
 }
 
-/// Twice the exponents of kg, m, s, K, rad and B, as effusivities have the root of a second.
-pub type Dimension = [i32; 6];
+/// Twice the exponents of kg, m, s, K, rad, B and mol, as effusivities have the root of a second.
+pub type Dimension = [i32; 7];
 
 /// The dimension of pure numbers.
-pub const NUMBER: Dimension = [0; 6];
+pub const NUMBER: Dimension = [0; 7];
 
 const fn unit(factor: f64, exponents: Dimension) -> Unit {
-    let [kg, m, s, kelvin, radian, byte] = exponents;
-    Unit { factor, zero: 0.0, dimension: [2 * kg, 2 * m, 2 * s, 2 * kelvin, 2 * radian, 2 * byte] }
+    let [kg, m, s, kelvin, radian, byte, mole] = exponents;
+    let dimension = [2 * kg, 2 * m, 2 * s, 2 * kelvin, 2 * radian, 2 * byte, 2 * mole];
+    Unit { factor, zero: 0.0, dimension }
 }
 
-const MASS: Dimension = [1, 0, 0, 0, 0, 0];
-const KELVIN: Dimension = [0, 0, 0, 1, 0, 0];
-const PRESSURE: Dimension = [1, -1, -2, 0, 0, 0];
-const LENGTH: Dimension = [0, 1, 0, 0, 0, 0];
-const VOLUME: Dimension = [0, 3, 0, 0, 0, 0];
-const FORCE: Dimension = [1, 1, -2, 0, 0, 0];
-const ENERGY: Dimension = [1, 2, -2, 0, 0, 0];
-const POWER: Dimension = [1, 2, -3, 0, 0, 0];
-const TIME: Dimension = [0, 0, 1, 0, 0, 0];
-const FREQUENCY: Dimension = [0, 0, -1, 0, 0, 0];
-const VISCOSITY: Dimension = [1, -1, -1, 0, 0, 0];
-const ANGLE: Dimension = [0, 0, 0, 0, 1, 0];
-const MEMORY: Dimension = [0, 0, 0, 0, 0, 1];
+const MASS: Dimension = [1, 0, 0, 0, 0, 0, 0];
+const KELVIN: Dimension = [0, 0, 0, 1, 0, 0, 0];
+const PRESSURE: Dimension = [1, -1, -2, 0, 0, 0, 0];
+const LENGTH: Dimension = [0, 1, 0, 0, 0, 0, 0];
+const VOLUME: Dimension = [0, 3, 0, 0, 0, 0, 0];
+const FORCE: Dimension = [1, 1, -2, 0, 0, 0, 0];
+const ENERGY: Dimension = [1, 2, -2, 0, 0, 0, 0];
+const POWER: Dimension = [1, 2, -3, 0, 0, 0, 0];
+const TIME: Dimension = [0, 0, 1, 0, 0, 0, 0];
+const FREQUENCY: Dimension = [0, 0, -1, 0, 0, 0, 0];
+const VISCOSITY: Dimension = [1, -1, -1, 0, 0, 0, 0];
+const ANGLE: Dimension = [0, 0, 0, 0, 1, 0, 0];
+const MEMORY: Dimension = [0, 0, 0, 0, 0, 1, 0];
+const AMOUNT: Dimension = [0, 0, 0, 0, 0, 0, 1];
 
 /// Most brackets and roots within each other.
 const DEEPEST: usize = 8;
 
 /// Units that take prefixes.
-const PREFIXED: [(&str, Unit); 15] = [
+const PREFIXED: [(&str, Unit); 16] = [
     ("m", unit(1.0, LENGTH)),
     ("g", unit(1e-3, MASS)),
     ("s", unit(1.0, TIME)),
@@ -56,6 +58,7 @@ const PREFIXED: [(&str, Unit); 15] = [
     ("L", unit(1e-3, VOLUME)),
     ("P", unit(0.1, VISCOSITY)),
     ("B", unit(1.0, MEMORY)),
+    ("mol", unit(1.0, AMOUNT)),
 ];
 
 const DEGREE: Unit = unit(PI / 180.0, ANGLE);

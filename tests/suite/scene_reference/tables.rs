@@ -4,7 +4,7 @@ use impinge::limits::keyword;
 use serde_json::Value;
 
 /// Headings of `docs/scene.md` with a table, and where in the schema the table that they describe stands.
-pub const SECTIONS: [(&str, &str); 31] = [
+pub const SECTIONS: [(&str, &str); 33] = [
     ("The whole", ""),
     ("`fidelity`", "/$defs/Fidelity"),
     ("`solver`", "/$defs/Solver"),
@@ -24,6 +24,8 @@ pub const SECTIONS: [(&str, &str); 31] = [
     ("`faces.FACE.radiation` of a solid", "/$defs/Radiation"),
     ("`[body.NAME]` of a droplet", "/$defs/Body/oneOf/1"),
     ("`fluid` of a droplet", "/$defs/Fluid"),
+    ("`viscosity` of a fluid", "/$defs/ViscosityLaw"),
+    ("`arrhenius` of a viscosity", "/$defs/Arrhenius"),
     ("`arrivals` of a droplet", "/$defs/Arrival"),
     ("`record` of a droplet", "/$defs/Recording"),
     ("`[body.NAME]` of a reservoir", "/$defs/Body/oneOf/2"),
