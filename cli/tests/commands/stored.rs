@@ -8,10 +8,13 @@ use crate::{Called, SCENE, Workplace};
 
 const VARIABLE: &str = "IMPINGE_CACHE";
 
-/// The scene without meshes and with an open level, so that level and mesh are chosen.
+/// The scene of heat alone, without a mesh and with an open level: both are chosen.
 fn open_scene() -> String {
     let text = SCENE.replace("mesh = { spacing = 4e-5, order = 1 }\n", "");
-    format!("fidelity.level = \"auto\"\n{text}")
+    format!(
+        "fidelity.level = \"auto\"\n{}",
+        text.replace("\"temperature\", \"stress\"", "\"temperature\"")
+    )
 }
 
 impl Workplace {
