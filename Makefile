@@ -60,7 +60,7 @@ rust-test:
 	cargo fmt --all --check
 	cargo clippy --release --workspace --all-targets -- -D warnings
 	cargo test --release --workspace --bins $(TESTS:%=--test %)
-	cargo test --release --package closed-form --package fmu-lint --lib
+	cargo test --release --package assessments --package closed-form --package fmu-lint --lib
 	cargo test --release --workspace --doc
 	cargo test --release --package impinge --lib $(UNOPTIMISED)
 

@@ -14,6 +14,8 @@ ROOT = Path(__file__).resolve().parents[1]
 os.environ["PYTHONPATH"] = os.pathsep.join(
     [str(ROOT / "python"), str(ROOT / "tests"), *filter(None, [os.environ.get("PYTHONPATH")])]
 )
+# Programs that tests start share a store of their own, and leave the user's alone.
+os.environ.setdefault("IMPINGE_CACHE", str(ROOT / "target/cache"))
 SCENES = ROOT / "tests/fmpy/scenes"
 EXAMPLES = sorted(ROOT.glob("examples/*/scene.toml"))
 EVERY_SCENE = [*EXAMPLES, *sorted(SCENES.glob("*.toml"))]

@@ -18,6 +18,7 @@ use std::path::{Path, PathBuf};
 use std::process::{self, ExitCode};
 
 use archive::Entries;
+use assessments::{Meshes, Store};
 use clap::{CommandFactory, Parser};
 use clap_complete::Shell;
 use impinge::advice;
@@ -49,11 +50,14 @@ struct Arguments {
     /// Run the default experiment and pack its inputs and outputs too
     #[arg(long)]
     reference: bool,
+    /// Choose meshes and estimate errors anew, instead of reusing those stored for an equal scene
+    #[arg(long)]
+    fresh: bool,
     /// Write only the modelDescription.xml to this file
     #[arg(long, value_name = "FILE", conflicts_with_all = ["output", "library", "platform", "reference"])]
     xml: Option<PathBuf>,
     /// Check a unit of FMI 2.0, of any tool; its library is loaded to compare the GUID
-    #[arg(long, conflicts_with_all = ["output", "library", "platform", "reference", "xml"])]
+    #[arg(long, conflicts_with_all = ["output", "library", "platform", "reference", "fresh", "xml"])]
     lint: bool,
     /// List the rules
     #[arg(long, requires = "lint")]
@@ -150,7 +154,8 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
     for note in notes_on_walls(&scene) {
         complain(&format!("note: {note}"));
     }
-    let levels = tolerance::levels(&scene, available_memory());
+    let store = Store::of_user(arguments.fresh);
+    let levels = store.levels(&scene, available_memory()).found;
     for note in &levels.notes {
         complain(&format!("note: {note}"));
     }
@@ -169,8 +174,8 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
     for note in to_be_recorded(&scene).into_iter().chain(tolerance::note_on_sample(&scene)) {
         complain(&format!("note: {note}"));
     }
-    let (known, estimates) = tolerance::estimates(&levels.scene);
-    for warning in tolerance::warnings(&known, &estimates) {
+    let Meshes { scene: known, warnings, .. } = store.meshes(&levels.scene).found;
+    for warning in warnings {
         complain(&format!("warning: {warning}"));
     }
     let text = tolerance::packed_text(&scene, &text, &known);

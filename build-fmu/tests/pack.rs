@@ -260,6 +260,34 @@ fn leveled(constants: &str, level: &str) -> String {
     )
 }
 
+#[test]
+fn units_are_the_same_with_and_without_stored_assessments() {
+    let place = Place::new();
+    let copper = "density = 8960.0, specific_heat = 385.0, conductivity = 400.0";
+    let open = leveled(copper, "auto");
+    let mesh = open.lines().find(|line| line.starts_with("mesh")).unwrap();
+    fs::write(place.path("open.toml"), open.replace(mesh, "")).unwrap();
+    let pack = |cache: &str, options: &str| {
+        let packed = Command::new("sh")
+            .current_dir(place.0.path())
+            .env("IMPINGE_CACHE", cache)
+            .args(["-c", &format!("{PROGRAM} open.toml -o open.fmu --library lib.so {options}")])
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&packed.stderr).into_owned();
+        assert!(packed.status.success(), "{said}");
+        (said, fs::read(place.path("open.fmu")).unwrap())
+    };
+    let without = pack("", "");
+    assert_eq!(place.names(), ["lib.so", "open.fmu", "open.toml", "scene.toml"]);
+    assert!(texts(&place.path("open.fmu"))["resources/scene.toml"].contains("estimated_error"));
+    for (what, options) in [("first", ""), ("again", ""), ("fresh", "--fresh")] {
+        assert!(pack("cache", options) == without, "{what}");
+    }
+    let stored = fs::read_dir(place.path("cache/assessments")).unwrap().count();
+    assert_eq!(stored, 2, "its level and its mesh");
+}
+
 /// The texts of a unit's files by their names.
 fn texts(path: &Path) -> BTreeMap<String, String> {
     let mut archive = zip::ZipArchive::new(fs::File::open(path).unwrap()).unwrap();

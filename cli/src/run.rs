@@ -2,6 +2,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use assessments::{Meshes, Store};
 use clap::Args;
 use impinge::advice;
 use impinge::model::{
@@ -87,6 +88,9 @@ pub struct Options {
     /// Turn the fields of discs about their axis: files of about 25 times the size
     #[arg(long)]
     revolve: bool,
+    /// Choose meshes and estimate errors anew, instead of reusing those stored for an equal scene
+    #[arg(long)]
+    fresh: bool,
 }
 
 fn positive(text: &str) -> Result<f64, &'static str> {
@@ -112,6 +116,7 @@ impl Options {
             ("--rows-every", self.rows_every != 1),
             ("--fields-every", self.fields_every.is_some()),
             ("--revolve", self.revolve),
+            ("--fresh", self.fresh),
         ];
         match given.into_iter().find(|(_, is_given)| *is_given) {
             Some((option, _)) => Err(CliError::NoRun { option, what: what.to_owned() }),
@@ -145,12 +150,13 @@ impl Run {
         for note in to_be_recorded(&scene).into_iter().chain(tolerance::note_on_sample(&scene)) {
             super::print_message("note", &note);
         }
-        let levels = tolerance::levels(&scene, available_memory());
+        let store = Store::of_user(self.options.fresh);
+        let levels = store.levels(&scene, available_memory()).found;
         for note in &levels.notes {
             super::print_message("note", note);
         }
-        let (scene, estimates) = tolerance::estimates(&levels.scene);
-        super::warn(&tolerance::warnings(&scene, &estimates));
+        let Meshes { scene, estimates, warnings } = store.meshes(&levels.scene).found;
+        super::warn(&warnings);
         stopwatch.lap("reading the scene, choosing and judging meshes");
         let model = Model::build(&scene, scene.solver.threads)
             .map_err(|error| CliError::from_model(error, &scene))?;

@@ -107,7 +107,7 @@ def test_pictures_are_as_wide_as_a_page_and_small(kind):
 
 
 def test_guards_name_tests_that_exist():
-    packages = ["src", "build-fmu", "cli", "closed-form", "fmu-lint"]
+    packages = ["src", "assessments", "build-fmu", "cli", "closed-form", "fmu-lint"]
     folders = [(ROOT / "tests", "*.*"), *((ROOT / package, "*.rs") for package in packages)]
     paths = [path for folder, files in folders for path in folder.rglob(files)]
     sources = [path.read_text() for path in paths if path.suffix in (".rs", ".py", ".toml")]

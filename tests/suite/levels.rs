@@ -1,6 +1,6 @@
 //! What `level = "auto"` comes to, what is told of it, and reductions that are stored.
 
-use impinge::model::tolerance::{Levels, levels, packed_text, stored_reductions};
+use impinge::model::tolerance::{Levels, levels, levels_fit, packed_text, stored_reductions};
 use impinge::model::{Model, forecast, keep_reduction};
 use impinge::scene::{self, Scene, SolidLevel};
 use impinge::variables::Registry;
@@ -72,8 +72,11 @@ fn auto_says_what_stands_against_a_reduced_model() {
     assert_eq!(scene.resolved["plate"].level, SolidLevel::Full);
     assert!(notes[0].contains("computes only its probes and fields"), "{}", notes[0]);
     // What does not fit into memory is not tried.
-    let Levels { notes, .. } = levels(&parsed(&text(COPPER, "auto", 1e-2)), 1e3);
+    let open = parsed(&text(COPPER, "auto", 1e-2));
+    let Levels { notes, .. } = levels(&open, 1e3);
     assert!(notes[0].starts_with("plate: full, as"), "{}", notes[0]);
+    assert!(levels_fit(&open, AVAILABLE) && !levels_fit(&open, 1e3));
+    assert!(levels_fit(&parsed(&peaks), 1e3), "memory does not decide on it");
 }
 
 #[test]

@@ -15,6 +15,7 @@ pub mod words;
 use std::fmt::Write;
 use std::path::PathBuf;
 
+use assessments::{Assessed, Meshes, Store};
 use clap::Args;
 use impinge::model::tolerance::{self, BodyEstimate};
 use impinge::model::{Forecast, Model, Timeline, check_memory, forecast};
@@ -42,6 +43,9 @@ pub struct Check {
     /// List them with the meaning of every output
     #[arg(long)]
     outputs: bool,
+    /// Choose meshes and estimate errors anew, instead of reusing those stored for an equal scene
+    #[arg(long)]
+    fresh: bool,
 }
 
 impl Check {
@@ -53,10 +57,12 @@ impl Check {
         if let Some(note) = tolerance::note_on_sample(&scene) {
             super::print_message("note", &note);
         }
-        let levels = tolerance::levels(&scene, available_memory());
-        let (scene, estimates) = tolerance::estimates(&levels.scene);
-        let preparation = Preparation { begun, done: Usage::now() };
-        warnings.extend(tolerance::warnings(&scene, &estimates));
+        let store = Store::of_user(self.fresh);
+        let levels = store.levels(&scene, available_memory());
+        let Assessed { found: meshes, cost, is_stored } = store.meshes(&levels.found.scene);
+        let preparation = Preparation { begun, costs: [levels.cost, cost] };
+        let Meshes { scene, estimates, warnings: of_meshes } = meshes;
+        warnings.extend(of_meshes);
         let reduced =
             tolerance::reduced_model(&scene, available_memory()).map_err(CliError::Model)?;
         warnings.extend(reduced.iter().flat_map(Model::reduction_warnings));
@@ -76,7 +82,10 @@ impl Check {
         );
         if self.verbose {
             text.push_str(&sections(&scene, &forecast, &estimates));
-            text.push_str(&reductions(reduced.as_ref(), &levels.notes));
+            text.push_str(&reductions(reduced.as_ref(), &levels.found.notes));
+            if is_stored {
+                text.push_str(STORED);
+            }
         }
         if self.list || self.outputs {
             text.push_str(&variables(&scene, self.outputs));
@@ -84,6 +93,10 @@ impl Check {
         Ok(text)
     }
 }
+
+/// Note on meshes from the store.
+const STORED: &str =
+    "\nMeshes and errors were stored for an equal scene; --fresh finds them anew.\n";
 
 /// Everything about the scene's parts.
 fn sections(scene: &Scene, forecast: &Forecast, estimates: &[BodyEstimate]) -> String {

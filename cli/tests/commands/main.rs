@@ -15,6 +15,7 @@ mod new;
 mod report;
 mod run_files;
 mod settings;
+mod stored;
 mod substances;
 
 const SCENE: &str = r#"

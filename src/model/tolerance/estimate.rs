@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use serde::{Deserialize, Serialize};
+
 use super::responses::{Responses, Watched};
 use crate::quantity::Quantity;
 
@@ -62,7 +64,7 @@ pub struct Estimate {
 }
 
 /// Error of an output over its range in the default experiment.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct OutputError {
     pub name: String,
     /// Error due to elements along the surface [1].

@@ -31,6 +31,12 @@ pub fn levels(scene: &Scene, available: f64) -> Levels {
     found
 }
 
+/// Returns true if `available` memory [B] decides on none of the open levels of a scene.
+pub fn levels_fit(scene: &Scene, available: f64) -> bool {
+    let fits = |name: &str| check_memory(&alone(scene, name), available).is_ok();
+    scene.open_levels().all(|name| scene.obstacle(name).is_some() || fits(name))
+}
+
 /// Returns what prevents the reduction of a solid within the tolerance.
 fn obstacle(
     (scene, available): (&Scene, f64),

@@ -21,7 +21,7 @@ pub use crate::quantity::percent;
 use crate::runtime::shared_values::SharedValues;
 use crate::scene::{MeshFactors, Scene};
 use choice::{Choice, choose, is_chosen};
-pub use levels::{Levels, levels, reduced_model, stored_reductions};
+pub use levels::{Levels, levels, levels_fit, reduced_model, stored_reductions};
 pub use report::{
     BodyEstimate, PACKED, estimate as estimate_of, estimates, finer_mesh, packed_text, warned_from,
     warnings,

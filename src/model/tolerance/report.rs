@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use serde::{Deserialize, Serialize};
+
 use super::choice::{COARSEST_TRIED, Levels, Trials, factors, open, search};
 use super::estimate::{Estimate, OutputError};
 use super::resolve;
@@ -15,7 +17,7 @@ use crate::variables::Registry;
 use crate::warning::{self, Warning};
 
 /// Estimated errors of the outputs of a body on its mesh.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BodyEstimate {
     pub body: String,
     /// Relative to their ranges over the default experiment.
