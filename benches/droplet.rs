@@ -39,6 +39,7 @@ fn plan(lean: bool, surface_tension: f64) -> DropletPlan {
         fluid,
         placement: Placement::Lattice,
         precision: Precision::Single,
+        viscous: Viscous::Explicit,
         density_diffusion: 0.1,
         corrected_diffusion: !lean,
         shifting: !lean,

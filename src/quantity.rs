@@ -29,6 +29,7 @@ pub enum Quantity {
     Area,
     Volume,
     Velocity,
+    ShearRate,
     Viscosity,
     SurfaceTension,
     Mass,
@@ -56,7 +57,7 @@ const fn scaled(name: &'static str, factor: f64) -> Option<DisplayUnit> {
 }
 
 impl Quantity {
-    pub const ALL: [Quantity; 32] = [
+    pub const ALL: [Quantity; 33] = [
         Quantity::Time,
         Quantity::Temperature,
         Quantity::TemperatureDifference,
@@ -78,6 +79,7 @@ impl Quantity {
         Quantity::Area,
         Quantity::Volume,
         Quantity::Velocity,
+        Quantity::ShearRate,
         Quantity::Viscosity,
         Quantity::SurfaceTension,
         Quantity::Mass,
@@ -132,6 +134,7 @@ impl Quantity {
             Quantity::Area => "Area",
             Quantity::Volume => "Volume",
             Quantity::Velocity => "Velocity",
+            Quantity::ShearRate => "ShearRate",
             Quantity::Viscosity => "DynamicViscosity",
             Quantity::SurfaceTension => "SurfaceTension",
             Quantity::Mass => "Mass",
@@ -166,6 +169,7 @@ impl Quantity {
             Quantity::Area => "m2",
             Quantity::Volume => "m3",
             Quantity::Velocity => "m/s",
+            Quantity::ShearRate => "1/s",
             Quantity::Viscosity => "Pa.s",
             Quantity::SurfaceTension => "N/m",
             Quantity::Mass => "kg",
@@ -199,6 +203,7 @@ impl Quantity {
             Quantity::Area => [0, 2, 0, 0],
             Quantity::Volume => [0, 3, 0, 0],
             Quantity::Velocity => [0, 1, -1, 0],
+            Quantity::ShearRate => [0, 0, -1, 0],
             Quantity::Viscosity => [1, -1, -1, 0],
             Quantity::SurfaceTension => [1, 0, -2, 0],
             Quantity::Mass => [1, 0, 0, 0],
@@ -258,6 +263,7 @@ impl Quantity {
             Quantity::Area => 1e-10,
             Quantity::Volume => 1e-12,
             Quantity::Velocity => 10.0,
+            Quantity::ShearRate => 1e3,
             Quantity::Viscosity => 1e-3,
             Quantity::SurfaceTension => 0.1,
             Quantity::Mass => 1e-9,

@@ -93,6 +93,13 @@ pub struct Droplet {
     /// Precision of pair interactions.
     #[serde(default)]
     pub precision: Precision,
+    /// Advance of viscosity in time.
+    #[serde(default)]
+    #[schemars(extend(
+        "otherwise" = "`auto`: implicit where that is cheaper, or where viscosity depends on the temperature or on the shear rate",
+        "condition" = "`explicit` with a constant viscosity"
+    ))]
+    pub viscous: ViscousAdvance,
     /// δ of the density diffusion [1].
     #[serde(default = "default_density_diffusion")]
     #[schemars(transform = within(0.0, 1.0, "1", "").says("the density diffusion is out of bounds", "0 to 1"))]
@@ -147,6 +154,19 @@ pub enum DropletMethod {
     Record,
     /// Closed forms of a film that spreads and cools, repeated for every drop.
     Film,
+}
+
+/// Advance of viscosity in time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum ViscousAdvance {
+    /// The cheaper of both, by the forecast.
+    #[default]
+    Auto,
+    /// With other forces, in steps short enough for it.
+    Explicit,
+    /// Solved at the end of each step: thick fluids take fewer, longer steps.
+    Implicit,
 }
 
 /// Modelled part of the drops.

@@ -40,7 +40,7 @@ pub use constants::{Constant, DropletConstant, LayersOf, OfferedConstant};
 pub use contact::FirstContact;
 pub use droplet::{
     Arrival, Coupling, Droplet, DropletMethod, DropletSymmetry, Governing, Placement, Precision,
-    ReleaseBy, Wall, WallStart, velocity,
+    ReleaseBy, ViscousAdvance, Wall, WallStart, velocity,
 };
 pub use error::{Problem, SceneError};
 pub use file::{bytes_of, open_file};

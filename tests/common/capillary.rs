@@ -38,6 +38,7 @@ pub fn plan(dimension: usize, across: f64, viscosity: f64) -> DropletPlan {
         },
         placement: Placement::Lattice,
         precision: Precision::Single,
+        viscous: Viscous::Explicit,
         density_diffusion: 0.1,
         corrected_diffusion: true,
         shifting: false,

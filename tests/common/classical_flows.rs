@@ -3,9 +3,10 @@
 use std::f64::consts::PI;
 
 use impinge::kernel::Kernel;
+use impinge::laws::Viscosity;
 use impinge::method::sph::{
     DropletPlan, DropletSph, DropletTotals, Extent, Fluid, ParticleFields, Placement, Precision,
-    Wall,
+    Viscous, Wall,
 };
 use impinge::port::WallCells;
 
@@ -21,9 +22,10 @@ pub struct Setup {
     /// H/Δx.
     pub support: f64,
     pub density: f64,
-    pub viscosity: f64,
+    pub viscosity: Viscosity,
     pub sound_speed: f64,
     pub shifting: bool,
+    pub viscous: Viscous,
     pub gravity: [f64; 3],
     pub extents: [Extent; 3],
     pub cells: Option<WallCells>,
@@ -90,9 +92,9 @@ impl Setup {
     fn plan(self) -> DropletPlan {
         let fluid = Fluid {
             density: self.density,
-            viscosity: self.viscosity.into(),
+            viscosity: self.viscosity,
             specific_heat: 1.0,
-            conductivity: 1e-12 * self.viscosity,
+            conductivity: 0.0,
             surface_tension: 0.0,
             sound_speed: self.sound_speed,
         };
@@ -105,6 +107,7 @@ impl Setup {
             fluid,
             placement: Placement::Lattice,
             precision: Precision::Single,
+            viscous: self.viscous,
             density_diffusion: 0.1,
             corrected_diffusion: true,
             shifting: self.shifting,
@@ -161,9 +164,10 @@ impl Poiseuille {
             spacing,
             support,
             density: Self::DENSITY,
-            viscosity: Self::VISCOSITY,
+            viscosity: Self::VISCOSITY.into(),
             sound_speed: 10.0 * Self::FASTEST,
             shifting: true,
+            viscous: Viscous::Explicit,
             gravity: [Self::GRADIENT / Self::DENSITY, 0.0, 0.0],
             extents: [Extent::Periodic(Self::LENGTH), Extent::Open, Extent::Closed(1.0)],
             cells: Some(cells),
@@ -231,9 +235,10 @@ impl TaylorGreen {
             spacing,
             support,
             density: 1000.0,
-            viscosity: 1000.0 * Self::VISCOSITY,
+            viscosity: (1000.0 * Self::VISCOSITY).into(),
             sound_speed: 10.0,
             shifting: true,
+            viscous: Viscous::Explicit,
             gravity: [0.0; 3],
             extents: [Extent::Periodic(1.0), Extent::Open, Extent::Periodic(1.0)],
             cells: None,
@@ -271,9 +276,10 @@ impl Column {
             spacing,
             support: 3.0,
             density: Self::DENSITY,
-            viscosity: 1e-3,
+            viscosity: 1e-3.into(),
             sound_speed: Self::SOUND_SPEED,
             shifting: true,
+            viscous: Viscous::Explicit,
             gravity: [0.0, 0.0, -Self::GRAVITY],
             extents: [Extent::Closed(1.0), Extent::Open, Extent::Open],
             cells: Some(WallCells::Tiles { count: [1, 1], size: [4.0, 1.0] }),

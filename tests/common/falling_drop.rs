@@ -36,6 +36,7 @@ pub fn open_space(spacing: f64, fluid: Fluid) -> DropletPlan {
         fluid,
         placement: Placement::Lattice,
         precision: Precision::Single,
+        viscous: Viscous::Explicit,
         density_diffusion: 0.1,
         corrected_diffusion: true,
         shifting: true,

@@ -1,7 +1,7 @@
 //! The classical flows at coarse resolution; `tests/verification/flows.rs` refines them.
 
 use crate::classical_flows::{Column, Flow, Poiseuille, Setup, TaylorGreen, tilted_lattice};
-use impinge::method::sph::Extent;
+use impinge::method::sph::{Extent, Viscous};
 
 #[test]
 fn flow_between_plates_becomes_a_parabola_and_drags_at_them() {
@@ -72,9 +72,10 @@ fn a_uniform_motion_goes_on_through_periods() {
         spacing,
         support: 3.0,
         density: 1000.0,
-        viscosity: 1.0,
+        viscosity: 1.0.into(),
         sound_speed: 10.0,
         shifting: true,
+        viscous: Viscous::Explicit,
         gravity: [0.0; 3],
         extents: [Extent::Periodic(1.0), Extent::Open, Extent::Periodic(1.0)],
         cells: None,

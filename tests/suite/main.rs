@@ -56,6 +56,7 @@ mod substance_reference;
 mod tension;
 mod tolerance;
 mod viscosity;
+mod viscous;
 mod walls;
 mod warning_reference;
 mod yield_estimates;

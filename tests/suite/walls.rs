@@ -40,6 +40,7 @@ fn film_plan(cells: WallCells, effusivity: Option<f64>, mirrors: [bool; 2]) -> D
         },
         placement: Placement::Lattice,
         precision: Precision::Single,
+        viscous: Viscous::Explicit,
         density_diffusion: 0.1,
         corrected_diffusion: true,
         shifting: true,

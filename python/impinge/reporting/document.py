@@ -25,6 +25,7 @@ GROUPS = {
     "J": "Heat and energy",
     "m": "Length",
     "m/s": "Speed",
+    "1/s": "Shear rate",
     "N": "Force",
     "N.s": "Impulse",
     "kg": "Mass",

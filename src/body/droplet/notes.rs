@@ -1,9 +1,10 @@
 //! Notes on a droplet before it runs: choices and simplifications.
 
-use super::plan::fine_radius;
+use super::plan::{fine_radius, plan_of};
 use super::watch;
 use crate::advice::{HeatError, Resolution};
-use crate::scene::{Droplet, Governing, Scene, Wall};
+use crate::method::sph::Viscous;
+use crate::scene::{Droplet, Governing, Scene, ViscousAdvance, Wall};
 
 /// Returns notes on choices and simplifications, with reasons: one sentence each.
 pub fn notes(scene: &Scene, name: &str, droplet: &Droplet) -> Vec<String> {
@@ -25,6 +26,7 @@ pub fn notes(scene: &Scene, name: &str, droplet: &Droplet) -> Vec<String> {
     .to_owned()];
     notes.extend(note_on_box(scene, name, droplet));
     notes.extend(note_on_sound(droplet));
+    notes.extend(note_on_viscosity(droplet));
     notes.extend(droplet.is_on_demand().then(|| note_on_demand(scene, name, droplet)));
     notes.extend(stands.then(|| note_on_first_blow(droplet)));
     let tolerance = scene.fidelity.tolerance;
@@ -70,6 +72,23 @@ pub fn notes_on_walls(scene: &Scene) -> Vec<String> {
         note_on_held_wall(wall, droplet).filter(|_| droplet.fluid.conductivity > 0.0)
     };
     scene.wall.iter().filter_map(note).collect()
+}
+
+/// Notes how viscosity is advanced where it is not in the usual way.
+fn note_on_viscosity(droplet: &Droplet) -> Option<String> {
+    let Viscous::Implicit { .. } = plan_of(droplet, None, None).viscous else { return None };
+    let reason = match droplet.fluid.viscosity.constant() {
+        None => "its viscosity depends on the temperature or on the shear rate",
+        Some(_) if droplet.viscous == ViscousAdvance::Implicit => "the scene sets `viscous`",
+        Some(_) => "explicit steps would be shorter than is worth it",
+    };
+    let yields = match droplet.fluid.viscosity.yield_stress() {
+        0.0 => "",
+        _ => {
+            ". Fluid below its yield stress rests but for the solver's tolerance, which `creep` shows"
+        }
+    };
+    Some(format!("viscosity is solved at the end of every time step, because {reason}{yields}"))
 }
 
 /// Notes when inputs release drops, and the assumptions of the forecast about them.

@@ -1,9 +1,9 @@
 //! Converts a droplet of a scene to the plan from which the engine builds it.
 
 use crate::method::fem::Refinement;
-use crate::method::sph::{self, Demand, DropletPlan, Extent, Release};
+use crate::method::sph::{self, Demand, DropletPlan, Extent, Release, Viscous};
 use crate::port::WallCells;
-use crate::scene::{Arrival, Coupling, Droplet, Footprint};
+use crate::scene::{Arrival, Coupling, Droplet, Footprint, ViscousAdvance};
 
 /// Returns the plan of a droplet, above the cells of a wall or in free space.
 pub fn plan_of(
@@ -14,7 +14,8 @@ pub fn plan_of(
     let fluid = &droplet.fluid;
     let release = |arrival: &Arrival| release_at(droplet, arrival);
     let expected = release(&Arrival::default());
-    DropletPlan {
+    let implicit = Viscous::Implicit { rate: droplet.fastest_flow() / droplet.diameter };
+    let plan = DropletPlan {
         dimension: droplet.dimension,
         axisymmetric: droplet.is_axisymmetric(),
         spacing: droplet.spacing,
@@ -30,6 +31,10 @@ pub fn plan_of(
         },
         placement: droplet.placement,
         precision: droplet.precision,
+        viscous: match droplet.viscous {
+            ViscousAdvance::Explicit => Viscous::Explicit,
+            ViscousAdvance::Auto | ViscousAdvance::Implicit => implicit,
+        },
         density_diffusion: droplet.density_diffusion,
         corrected_diffusion: droplet.corrected_diffusion,
         shifting: droplet.shifts(),
@@ -43,6 +48,10 @@ pub fn plan_of(
             contact_angle: fluid.contact_angle,
             effusivity,
         }),
+    };
+    match droplet.viscous {
+        ViscousAdvance::Auto => plan.with_cheaper_viscosity(droplet.fastest_flow()),
+        ViscousAdvance::Explicit | ViscousAdvance::Implicit => plan,
     }
 }
 

@@ -26,6 +26,8 @@ enum Offered {
     OnDemand,
     /// Those on a solid, which may run over its edge.
     OnASolid,
+    /// Those of a fluid with a yield stress.
+    Yielding,
 }
 
 enum Read {
@@ -36,7 +38,7 @@ enum Read {
     Reader(fn(&mut DropletReader) -> f64),
 }
 
-const TOTALS: [Total; 31] = [
+const TOTALS: [Total; 33] = [
     of_all(
         "height",
         "height of the body of fluid above the wall, without strays",
@@ -170,6 +172,15 @@ const TOTALS: [Total; 31] = [
     on_demand("waiting", "drops asked for that wait until their place is free", |totals| {
         totals.waiting
     }),
+    yielding("yielded_fraction", "fraction of the mass that yields", Quantity::Ratio, |totals| {
+        totals.yielded_mass / totals.mass
+    }),
+    yielding(
+        "creep",
+        "largest shear rate of fluid that does not yield, in the last time step: zero but for the solver's tolerance",
+        Quantity::ShearRate,
+        |totals| totals.creep,
+    ),
     Total {
         key: "force_outside",
         words: "force beyond the edge of the solid, which does not act on it, mean over the last exchange",
@@ -214,6 +225,15 @@ const fn on_demand(
     Total { key, words, quantity: Quantity::Count, of: Offered::OnDemand, read: Read::Totals(read) }
 }
 
+const fn yielding(
+    key: &'static str,
+    words: &'static str,
+    quantity: Quantity,
+    read: fn(&DropletTotals) -> f64,
+) -> Total {
+    Total { key, words, quantity, of: Offered::Yielding, read: Read::Totals(read) }
+}
+
 /// Returns the totals that a droplet of a scene offers, each with its place in the table. In a plane model they are
 /// amounts per metre of depth. No total of a moving fluid follows an input without delay.
 pub fn offered_totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
@@ -221,11 +241,14 @@ pub fn offered_totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
     let stands = coupled || scene.wall_under(name).is_some();
     let is_plane = scene.droplet(name).is_some_and(|droplet| droplet.dimension == 2);
     let on_demand = scene.droplet(name).is_some_and(Droplet::is_on_demand);
+    let yields =
+        scene.droplet(name).is_some_and(|droplet| droplet.fluid.viscosity.yield_stress() > 0.0);
     let is_offered = |total: &Total| match total.of {
         Offered::All => true,
         Offered::AboveAWall => stands,
         Offered::OnDemand => on_demand,
         Offered::OnASolid => coupled,
+        Offered::Yielding => yields,
     };
     let totals = TOTALS.iter().enumerate().filter(|(_, total)| is_offered(total));
     let described = totals.map(|(place, &Total { key, words, quantity, .. })| {

@@ -36,6 +36,8 @@ pub struct Cloud {
     pub gradient: Vec<[f64; 3]>,
     /// Moment matrices of the last step: xx, yy, zz, xy, yz, xz.
     pub moment: Vec<[f64; 6]>,
+    /// Viscous stresses of the last step over ρ₀c₀², see [`viscous`](super::viscous); `None` for Newtonian fluids.
+    pub stress: Option<Vec<[f64; 6]>>,
 }
 
 /// Consecutive particles from number `first` on, which one thread may change; the fields are those
@@ -85,6 +87,8 @@ pub struct Ledger {
     pub memory: SurfaceMemory,
     /// State of drops on demand.
     pub requests: Option<Requests>,
+    /// Largest shear rate of fluid that does not yield, in the last time step, over c₀/H; `None` for Newtonian fluids.
+    pub creep: Option<f64>,
 }
 
 /// Dimensions of the part of a state that precedes its particles.
@@ -96,6 +100,8 @@ pub struct HeadNumbers {
     pub exponentials: usize,
     /// Largest number of drops that may be requested; `None` without drops on demand.
     pub most: Option<usize>,
+    /// True if the particles have viscous stresses.
+    pub stressed: bool,
 }
 
 /// Numbers that a thread copies as one piece of work.
@@ -172,6 +178,8 @@ impl Fields for Ledger {
             ),
         ];
         fields.extend(self.requests.iter_mut().flat_map(Requests::fields));
+        let creep = body("creep", "largest shear rate of fluid that does not yield, over c/H", 1);
+        fields.extend(self.creep.iter_mut().map(|rate| (creep, from_mut(rate))));
         fields
     }
 }
@@ -179,7 +187,7 @@ impl Fields for Ledger {
 impl Fields for Cloud {
     fn fields(&mut self) -> Vec<(Field, &mut [f64])> {
         let of = |name, words, width| Field { name, words, per: Per::Particle, width };
-        vec![
+        let mut fields = vec![
             (of("position", "place over H", 3), self.position.as_flattened_mut()),
             (of("velocity", "velocity over c", 3), self.velocity.as_flattened_mut()),
             (of("mass", "mass over ρH^d", 1), &mut self.mass),
@@ -197,7 +205,10 @@ impl Fields for Cloud {
             (of("potential", "potential of surface tension over ρc²", 1), &mut self.potential),
             (of("gradient", "gradient of the density", 3), self.gradient.as_flattened_mut()),
             (of("moment", "moment matrix of the last step", 6), self.moment.as_flattened_mut()),
-        ]
+        ];
+        let stress = of("stress", "viscous stress over ρc²", 6);
+        fields.extend(self.stress.iter_mut().map(|list| (stress, list.as_flattened_mut())));
+        fields
     }
 }
 
@@ -209,6 +220,7 @@ impl Ledger {
             exchange: WallExchange::none(head.cells),
             memory: SurfaceMemory { given: zeros.clone(), reported: zeros },
             requests: head.most.map(Requests::none),
+            creep: head.stressed.then_some(0.0),
             ..Self::default()
         }
     }
@@ -216,7 +228,7 @@ impl Ledger {
 
 /// Layout of the state of a number of particles.
 pub fn layout(head: HeadNumbers, particles: usize) -> Layout {
-    Layout::of(&mut Ledger::none(head)).then(Layout::of(&mut Cloud::of(particles)))
+    Layout::of(&mut Ledger::none(head)).then(Layout::of(&mut Cloud::of(head, particles)))
 }
 
 impl Cloud {
@@ -263,6 +275,11 @@ impl Cloud {
         (0..count).step_by(size).map_while(part).collect()
     }
 
+    /// No particles yet, with or without viscous stresses.
+    pub fn none(stressed: bool) -> Self {
+        Self { stress: stressed.then(Vec::new), ..Self::default() }
+    }
+
     /// Appends a particle at rest density.
     pub fn push(&mut self, position: [f64; 3], velocity: [f64; 3], mass: f64, temperature: f64) {
         self.position.push(position);
@@ -276,6 +293,7 @@ impl Cloud {
         self.potential.push(0.0);
         self.gradient.push([0.0; 3]);
         self.moment.push([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]);
+        self.stress.iter_mut().for_each(|list| list.push([0.0; 6]));
     }
 
     /// Reorders the particles.
@@ -292,10 +310,11 @@ impl Cloud {
         permute.apply(&mut self.potential);
         permute.apply(&mut self.gradient);
         permute.apply(&mut self.moment);
+        self.stress.iter_mut().for_each(|list| permute.apply(list));
     }
 
     /// Allocates particles whose values are not yet set.
-    fn of(count: usize) -> Self {
+    fn of(head: HeadNumbers, count: usize) -> Self {
         Self {
             position: vec![[0.0; 3]; count],
             velocity: vec![[0.0; 3]; count],
@@ -308,6 +327,7 @@ impl Cloud {
             potential: vec![0.0; count],
             gradient: vec![[0.0; 3]; count],
             moment: vec![[0.0; 6]; count],
+            stress: head.stressed.then(|| vec![[0.0; 6]; count]),
         }
     }
 }
@@ -334,7 +354,7 @@ pub fn head_len(head: HeadNumbers) -> usize {
 /// Number of particles of a state; `None` if its length fits no number.
 pub fn particles_in(state: &[f64], head: HeadNumbers) -> Option<usize> {
     let rest = state.len().checked_sub(head_len(head))?;
-    let numbers = Layout::of(&mut Cloud::of(1)).len();
+    let numbers = Layout::of(&mut Cloud::of(head, 1)).len();
     (rest % numbers == 0).then_some(rest / numbers)
 }
 
@@ -360,7 +380,7 @@ pub fn ledger_of(state: &[f64], head: HeadNumbers) -> Ledger {
 
 /// Reads the particles of a state.
 pub fn cloud_of(state: &[f64], head: HeadNumbers, team: &Team) -> Cloud {
-    let mut cloud = Cloud::of(particles_in(state, head).unwrap_or(0));
+    let mut cloud = Cloud::of(head, particles_in(state, head).unwrap_or(0));
     let mut rest = &state[head_len(head)..];
     let mut copies = Vec::new();
     for (_, numbers) in cloud.fields() {

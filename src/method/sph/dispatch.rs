@@ -110,6 +110,7 @@ mod tests {
             fluid,
             placement: Placement::Lattice,
             precision: Precision::Single,
+            viscous: Viscous::Explicit,
             density_diffusion: 0.1,
             corrected_diffusion: true,
             shifting: true,

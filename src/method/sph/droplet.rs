@@ -82,7 +82,7 @@ impl DropletSph {
 
     /// State at time zero: it contains the drops released then.
     pub fn initial_state(&self) -> Vec<f64> {
-        let (mut ledger, mut cloud) = (self.empty_ledger(), Cloud::default());
+        let (mut ledger, mut cloud) = (self.empty_ledger(), self.no_particles());
         // Particles too close to be listed are refused again by the first step.
         let _ = self.release(&mut ledger, &mut cloud);
         flat(&mut ledger, &mut cloud)
@@ -92,7 +92,7 @@ impl DropletSph {
     pub fn state_of(&self, particles: &ParticleFields) -> Vec<f64> {
         let units = &self.method.units;
         let reference = self.reference_temperature();
-        let mut cloud = Cloud::default();
+        let mut cloud = self.no_particles();
         for i in 0..particles.mass.len() {
             let position = particles.position[i].map(|x| x / units.length);
             let velocity = particles.velocity[i].map(|v| v / units.speed);
@@ -135,7 +135,7 @@ impl DropletSph {
     /// Particles after none, one, … of the releases.
     fn released(&self) -> &[Released] {
         self.released.get_or_make(|| {
-            let (mut ledger, mut cloud) = (Ledger::default(), Cloud::default());
+            let (mut ledger, mut cloud) = (Ledger::default(), self.no_particles());
             let mut all = vec![Released::default()];
             let expected = self.plan.demand.as_ref().map(|demand| &demand.expected);
             for release in self.plan.releases.iter().chain(expected) {
@@ -145,7 +145,7 @@ impl DropletSph {
                     particles: before.particles + cloud.len(),
                     mass: before.mass + cloud.mass.iter().sum::<f64>(),
                 });
-                cloud = Cloud::default();
+                cloud = self.no_particles();
             }
             all
         })
@@ -291,10 +291,19 @@ impl DropletSph {
         (particles.round() as usize, step)
     }
 
+    /// Returns true if particles have viscous stresses.
+    fn is_stressed(&self) -> bool {
+        !self.method.flow.is_newtonian()
+    }
+
+    fn no_particles(&self) -> Cloud {
+        Cloud::none(self.is_stressed())
+    }
+
     fn head(&self) -> HeadNumbers {
         let cells = self.plan.wall.as_ref().map_or(0, |wall| wall.cells.len());
         let most = self.plan.demand.as_ref().map(|demand| demand.most);
-        HeadNumbers { cells, exponentials: self.below.len(), most }
+        HeadNumbers { cells, exponentials: self.below.len(), most, stressed: self.is_stressed() }
     }
 
     fn empty_ledger(&self) -> Ledger {

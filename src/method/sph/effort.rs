@@ -124,7 +124,8 @@ fn rates_at(plan: &DropletPlan, method: &Method, run: RunSettings, time: f64) ->
     let of_wall = walled * (STEP_AT_WALL + STEP_IN_FILM * at_wall);
     let of_steps = STEP * pairs + of_wall * pairs.max(1.0) + STEP_WITH_HEAT * heated;
     let listing = TENSION_LISTING + TENSION_LISTING_AT_WALL * walled;
-    let of_advance = steps * (of_steps + TENSION_STEP * tension_factor)
+    let of_viscosity = STEP * pairs.max(0.1) * (method.step_cost() - 1.0);
+    let of_advance = steps * (of_steps + of_viscosity + TENSION_STEP * tension_factor)
         + ADVANCE
         + ADVANCE_ABOVE_HEAT * heated * at_wall
         + tension_factor

@@ -1,6 +1,7 @@
 //! Reasons why a droplet could not be advanced.
 
 use super::kick::{FARTHEST, FASTEST};
+use crate::math::conjugate_gradients::NotConverged;
 use crate::quantity::kelvin;
 use crate::runtime::allowance::Halt;
 
@@ -30,6 +31,8 @@ pub enum Failure {
         kelvin(*temperature)
     )]
     BelowAbsoluteZero { temperature: f64, time: f64 },
+    #[error("viscosity at t = {time:.6e} s: {reason}")]
+    Viscosity { reason: NotConverged, time: f64 },
     #[error("the recorded drop is invalid: {reason}")]
     Unrecorded { reason: String },
     #[error("{0}")]

@@ -175,6 +175,11 @@ impl Images {
         Self { ends, walled, round: false, codes, table: (0..1 << BITS).map(image).collect() }
     }
 
+    /// Returns true if no planes bound the model but those at zero.
+    pub fn are_open(&self) -> bool {
+        self.ends.iter().all(|ends| !matches!(ends, Ends::Planes { far: Some(_), .. }))
+    }
+
     pub fn ends(&self) -> [Ends; 3] {
         self.ends
     }

@@ -71,6 +71,12 @@ pub fn lanes<L: Lanes>([x, y, z]: [f64; 3]) -> [L; 3] {
     [L::constant(x), L::constant(y), L::constant(z)]
 }
 
+/// The sums of three lanes, multiplied by a factor.
+#[inline(always)]
+pub fn scaled<L: Lanes>([x, y, z]: [L; 3], factor: f64) -> [f64; 3] {
+    [factor * x.sum().into(), factor * y.sum().into(), factor * z.sum().into()]
+}
+
 /// Lanes as an array, which the compiler maps to the vectors available to it.
 #[derive(Debug, Clone, Copy)]
 pub struct Array<R>([R; WIDTH]);

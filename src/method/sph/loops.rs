@@ -128,13 +128,24 @@ pub fn for_all<P: PairSum<Output: Clone + Default>>(
     blocks: &[Block],
     kind: PairKind,
     team: &Team,
+    all: Vec<P::Output>,
+) -> Vec<P::Output> {
+    with_kernel_shape!(kind.kernel, S => for_all_of::<S, P>(pass, blocks, kind, team, all))
+}
+
+/// Same as [`for_all`], with the shape of a kernel other than the model's.
+pub fn for_all_of<S: Shape, P: PairSum<Output: Clone + Default>>(
+    pass: &P,
+    blocks: &[Block],
+    kind: PairKind,
+    team: &Team,
     mut all: Vec<P::Output>,
 ) -> Vec<P::Output> {
     let count = blocks.iter().map(|block| block.count).sum();
     all.resize(count, P::Output::default());
     let mut parts: Vec<&mut [P::Output]> = all.chunks_mut(PART).collect();
     let store = |part: &mut &mut [P::Output], sums: &[P::Output]| part.clone_from_slice(sums);
-    for_parts(pass, blocks, kind, team, &mut parts, store);
+    for_parts_of::<S, P, _>(pass, blocks, kind, team, &mut parts, store);
     all
 }
 
@@ -143,7 +154,20 @@ pub fn for_all<P: PairSum<Output: Clone + Default>>(
 pub fn for_parts<P: PairSum, T: Send>(
     pass: &P,
     blocks: &[Block],
-    PairKind { kernel, precision, rings }: PairKind,
+    kind: PairKind,
+    team: &Team,
+    parts: &mut [T],
+    take: impl Fn(&mut T, &[P::Output]) + Sync,
+) {
+    with_kernel_shape!(kind.kernel, S => {
+        for_parts_of::<S, P, T>(pass, blocks, kind, team, parts, take);
+    });
+}
+
+fn for_parts_of<S: Shape, P: PairSum, T: Send>(
+    pass: &P,
+    blocks: &[Block],
+    PairKind { precision, rings, .. }: PairKind,
     team: &Team,
     parts: &mut [T],
     take: impl Fn(&mut T, &[P::Output]) + Sync,
@@ -151,10 +175,10 @@ pub fn for_parts<P: PairSum, T: Send>(
     team.for_pieces(parts, |first, parts| {
         let last = blocks.len().min((first + parts.len()) * GROUP);
         let (blocks, take) = (&blocks[first * GROUP..last], &take);
-        with_kernel_shape!(kernel, S => with_form!(rings, F => {
+        with_form!(rings, F => {
             let kind = PhantomData::<(S, F)>;
             dispatch(PairWork { pass, blocks, parts, take, kind }, precision);
-        }));
+        });
     });
 }
 

@@ -9,8 +9,9 @@ use super::free_surface::Setting;
 use super::images::Images;
 use super::loops::PairKind;
 use super::moment::{filled, renormalised};
-use super::plan::DropletPlan;
+use super::plan::{DropletPlan, Viscous};
 use super::units::Units;
+use super::viscous::FlowCurves;
 use super::wall_heat::WallHeat;
 use super::wall_points::PointLattice;
 use crate::kernel::Kernel;
@@ -29,8 +30,12 @@ pub struct Method {
     pub even: [bool; 2],
     pub rings: bool,
     pub images: Images,
-    /// Pair coefficient of ν over c₀H, see [`Momentum`](super::momentum::Momentum).
-    pub pair_viscosity: f64,
+    /// ν over c₀H; of a law of viscosity, its reference.
+    pub viscosity: f64,
+    /// Flow curves of the fluid.
+    pub flow: FlowCurves,
+    /// True if viscosity is solved at the end of a step, see [`viscous`](super::viscous).
+    pub implicit: bool,
     pub conduction: f64,
     pub diffusion: f64,
     /// True if density diffusion is corrected by renormalised gradients.
@@ -88,6 +93,23 @@ impl Default for StepShares {
     }
 }
 
+/// Largest distance over H that particles move in a time step with implicit viscosity.
+const MOST_WAY: f64 = 0.1;
+/// `s λ/ω²` of sound over ν/c₀², see [`Method::damped`].
+const DAMPED_SOUND: f64 = 0.9;
+/// `s λ/ω²` of the shortest capillary wave over `µΛ/σ`, with its length Λ and the s of its undamped step.
+const DAMPED_TENSION: f64 = 0.0245;
+
+/// Damping of a particle's motion against its neighbours over ν/H².
+const DAMPED_PARTICLE: f64 = 2.5;
+
+/// Cost of the set-up of a viscous system, and of a product with it, over that of a time step.
+const SETUP_COST: f64 = 4.0;
+const PRODUCT_COST: f64 = 2.0;
+/// Products of a viscous step that is not stiff, and further ones for each root of its stiffness.
+const FEWEST_PRODUCTS: f64 = 4.0;
+const PRODUCTS_PER_ROOT: f64 = 3.0;
+
 /// Largest number of steps between impulses of surface tension, which changes slowly relative to
 /// sound. Impulses between steps conserve its energy (reversible reference system propagator,
 /// Tuckerman, Berne & Martyna 1992, J. Chem. Phys. 97, 1990–2001, doi 10.1063/1.463137).
@@ -107,9 +129,11 @@ impl Method {
         let gravity = plan.gravity.map(|g| g * h / (c * c));
         let images = Images::of(plan, h, gravity);
         let points = PointLattice::of(plan);
-        let viscosity = fluid.viscosity.at(plan.reference_temperature()).viscosity(0.0);
-        let viscosity = viscosity / (units.density * c * h);
-        let moment = plan.kernel.second_moment(plan.dimension);
+        let flow = FlowCurves::of(plan, &units);
+        let (viscosity, implicit) = match plan.viscous {
+            Viscous::Explicit => (flow.newtonian(0.0), false),
+            Viscous::Implicit { rate } => (flow.viscosity(0.0, rate * units.time()), true),
+        };
         Self {
             units,
             dimension: plan.dimension,
@@ -120,7 +144,9 @@ impl Method {
             even: plan.even(),
             rings: plan.axisymmetric,
             images: images.clone(),
-            pair_viscosity: 2.0 * plan.dimension as f64 / moment * viscosity,
+            viscosity,
+            flow,
+            implicit,
             conduction: fluid.conductivity / (units.density * fluid.specific_heat * c * h),
             diffusion: plan.density_diffusion,
             corrects: plan.corrected_diffusion && plan.density_diffusion > 0.0,
@@ -195,30 +221,113 @@ impl Method {
 
     /// Largest stable step, over H/c₀.
     pub fn stable_step(&self, fastest: f64, most_accelerated: f64) -> f64 {
+        let advective = match self.implicit {
+            true => MOST_WAY / fastest,
+            false => f64::INFINITY,
+        };
         [
-            self.shares.courant / (1.0 + fastest),
+            self.acoustic_step(fastest),
+            advective,
             self.viscous_step(),
-            self.shares.diffusive * self.diffusive_step,
+            self.diffusive_step(),
             self.shares.conductive / self.conduction,
-            self.shares.forced / most_accelerated.sqrt(),
+            self.forced_step(most_accelerated),
             self.capillary_step(),
         ]
         .into_iter()
         .fold(f64::INFINITY, f64::min)
     }
 
+    /// Time step at a speed of the flow [m/s], over H/c₀.
+    pub fn step_at(&self, fastest: f64) -> f64 {
+        self.stable_step(fastest / self.units.speed, 0.0)
+    }
+
+    /// Expected cost of a time step over that of one with explicit viscosity.
+    pub fn step_cost(&self) -> f64 {
+        if !self.implicit {
+            return 1.0;
+        }
+        1.0 + SETUP_COST + PRODUCT_COST * self.products(self.step_at(0.0))
+    }
+
+    /// Expected number of products with the matrix of implicit viscosity in a time step: conjugate gradients take some
+    /// roots of the condition number.
+    pub fn products(&self, dt: f64) -> f64 {
+        let dimension = self.dimension as f64;
+        let moment = self.kernel.second_moment(self.dimension) / dimension;
+        let stiffest = 4.0 * self.viscosity / moment * dt;
+        FEWEST_PRODUCTS + PRODUCTS_PER_ROOT * stiffest.sqrt()
+    }
+
+    /// Acoustic limit of the time step; without viscosity, a fraction of H/c₀.
+    ///
+    /// A wave of frequency ω under the damping λ of implicit viscosity grows in no step with
+    /// `ω²Δt² < 4 + 2λΔt`. As sound is damped by `λ = 3ν k²`, `λ/ω² = 3ν/c²` for all wave numbers k.
+    fn acoustic_step(&self, fastest: f64) -> f64 {
+        let undamped = self.shares.courant / (1.0 + fastest);
+        self.damped(undamped, DAMPED_SOUND * self.viscosity)
+    }
+
+    /// Step that implicit viscosity allows in place of an undamped one, from the ratio `s λ/ω²` of a
+    /// wave's damping and the square of its frequency, with the share s in `ω²Δt² < 4s + 2sλΔt`.
+    fn damped(&self, undamped: f64, ratio: f64) -> f64 {
+        if !self.implicit {
+            return undamped;
+        }
+        ratio + (ratio * ratio + undamped * undamped).sqrt()
+    }
+
+    /// Limit of the time step at which no acceleration moves a particle by more than a fraction of
+    /// H; implicit viscosity resists what differs between neighbours.
+    fn forced_step(&self, most_accelerated: f64) -> f64 {
+        let undamped = self.shares.forced / most_accelerated.sqrt();
+        self.damped(undamped, 0.5 * undamped * undamped * DAMPED_PARTICLE * self.viscosity)
+    }
+
+    /// Diffusive limit of the time step; implicit viscosity reduces the diffusion instead.
+    fn diffusive_step(&self) -> f64 {
+        if self.implicit {
+            return f64::INFINITY;
+        }
+        self.shares.diffusive * self.diffusive_step
+    }
+
+    /// δ of the density diffusion in a time step: at most what is stable.
+    pub fn diffusion(&self, dt: f64) -> f64 {
+        if !self.implicit {
+            return self.diffusion;
+        }
+        self.diffusion * (self.shares.diffusive * self.diffusive_step / dt).min(1.0)
+    }
+
     /// Viscous limit of the time step. The sums of viscosity have no rate above twice their
     /// diagonal, `(4d/m) ν`, with m the kernel's second moment. Accelerations use velocities
     /// predicted ahead, so nothing grows whose rate times the step is below 1.
     fn viscous_step(&self) -> f64 {
-        self.shares.viscous / (2.0 * self.pair_viscosity)
+        if self.implicit {
+            return f64::INFINITY;
+        }
+        self.shares.viscous / (2.0 * self.pair_viscosity())
+    }
+
+    /// Coefficient of viscosity in the sums over pairs, see
+    /// [`Momentum`](super::momentum::Momentum); 0 where viscosity is implicit.
+    pub fn pair_viscosity(&self) -> f64 {
+        if self.implicit {
+            return 0.0;
+        }
+        let dimension = self.dimension;
+        2.0 * dimension as f64 / self.kernel.second_moment(dimension) * self.viscosity
     }
 
     /// Capillary limit of the time step, for the shortest wave that surface tension, smoothed over
     /// h, still drives.
     fn capillary_step(&self) -> f64 {
         let Some(Setting { energy, .. }) = &self.surface else { return f64::INFINITY };
-        self.shares.capillary * (energy.smoothing.reach.powi(3) / (16.0 * PI * self.tension)).sqrt()
+        let wave = energy.smoothing.reach;
+        let undamped = self.shares.capillary * (wave.powi(3) / (16.0 * PI * self.tension)).sqrt();
+        self.damped(undamped, DAMPED_TENSION * self.viscosity * wave / self.tension)
     }
 
     /// Number of steps between impulses of surface tension.

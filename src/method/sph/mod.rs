@@ -40,6 +40,7 @@ mod spread;
 mod stepper;
 mod tension;
 mod units;
+mod viscous;
 mod wall_heat;
 mod wall_points;
 
@@ -49,4 +50,4 @@ pub use droplet::{DropletSph, DropletTotals, ParticleFields, WarmPlace};
 pub use effort::{Effort, RunSettings};
 pub use failure::Failure;
 pub use method::StepShares;
-pub use plan::{Demand, DropletPlan, Extent, Fluid, Placement, Release, Wall};
+pub use plan::{Demand, DropletPlan, Extent, Fluid, Placement, Release, Viscous, Wall};

@@ -1,7 +1,7 @@
 //! Accelerations at the end of a step.
 
 use super::images::{Images, Source};
-use super::lanes::{Lanes, WIDTH, lanes};
+use super::lanes::{Lanes, WIDTH, lanes, scaled};
 use super::loops::{Local, PairSum};
 use super::neighbours::Block;
 use super::rings::{Arc, Form, PLACES, flat};
@@ -115,11 +115,6 @@ fn total<L: Lanes, S: Shape, F: Form>(
         }
     }
     force
-}
-
-#[inline(always)]
-fn scaled<L: Lanes>([x, y, z]: [L; 3], factor: f64) -> [f64; 3] {
-    [factor * x.sum().into(), factor * y.sum().into(), factor * z.sum().into()]
 }
 
 /// The particle whose neighbours are summed, broadcast to all lanes.

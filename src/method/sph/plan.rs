@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use serde::{Deserialize, Serialize};
 
 use super::images::copies;
+use super::method::Method;
 use crate::kernel::Kernel;
 use crate::laws::Viscosity;
 use crate::port::WallCells;
@@ -28,6 +29,8 @@ pub struct DropletPlan {
     pub placement: Placement,
     /// Precision of pair interactions.
     pub precision: Precision,
+    /// Advance of viscosity in time.
+    pub viscous: Viscous,
     /// δ of the density diffusion, for a smoothing length H/2.
     pub density_diffusion: f64,
     /// True if density diffusion is corrected by renormalised gradients. The correction preserves
@@ -47,6 +50,16 @@ pub struct DropletPlan {
     pub demand: Option<Demand>,
     /// The wall; `None` for a droplet in free space.
     pub wall: Option<Wall>,
+}
+
+/// Advance of viscosity in time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Viscous {
+    /// With the other forces, in steps short enough for it; for Newtonian fluids of constant viscosity.
+    Explicit,
+    /// Solved at the end of each step; its stability sets no limit. Time steps follow from the viscosity at a shear
+    /// rate [1/s].
+    Implicit { rate: f64 },
 }
 
 /// Constants of a fluid as particles take them, with the speed of sound of the model.
@@ -104,6 +117,17 @@ pub struct Demand {
 }
 
 impl DropletPlan {
+    /// The plan with the cheaper advance of viscosity at a speed of the flow [m/s], which stays implicit where the
+    /// viscosity is not constant.
+    pub fn with_cheaper_viscosity(self, fastest: f64) -> Self {
+        if self.fluid.viscosity.constant().is_none() {
+            return self;
+        }
+        let explicit = Self { viscous: Viscous::Explicit, ..self.clone() };
+        let cost = |plan: &Self| Method::of(plan).step_cost() / Method::of(plan).step_at(fastest);
+        if cost(&explicit) <= cost(&self) { explicit } else { self }
+    }
+
     /// Returns for x and y whether there is no motion as a whole along that axis.
     pub fn even(&self) -> [bool; 2] {
         self.mirrors.map(|mirrored| mirrored || self.axisymmetric)

@@ -125,6 +125,12 @@ impl<L: Lanes> Turn<L> {
         [x - x * self.back, x * self.aside, z]
     }
 
+    /// Expresses a vector in the axes of the turned place.
+    #[inline(always)]
+    pub fn seen(&self, [x, y, z]: [L; 3]) -> [L; 3] {
+        [x - x * self.back + y * self.aside, y - y * self.back - x * self.aside, z]
+    }
+
     /// Rotates a record of position, velocity, volume and one more number.
     #[inline(always)]
     pub fn record(&self, [x, y, z, u, v, w, volume, last]: [L; 8]) -> [L; 8] {

@@ -21,6 +21,7 @@ use super::order::space_order;
 use super::pulls::{Bounded, balanced};
 use super::shifting::{Crowding, displacement};
 use super::units::pressure;
+use super::viscous;
 use super::wall_heat::Touching;
 use super::wall_points::WallPoints;
 use crate::runtime::allowance::Allowance;
@@ -86,6 +87,11 @@ impl<'a, 'p> Stepper<'a, 'p> {
         }
     }
 
+    /// Unknowns that a time step advances, or as many as take as long.
+    fn work(&self) -> usize {
+        self.cloud.len() * UNKNOWNS * self.method.step_cost() as usize
+    }
+
     /// Returns true if particles must be sorted: they have mixed, or must be wrapped into a period.
     fn needs_sorting(&self) -> bool {
         self.neighbours.surrounded() > GROWTH * self.ledger.surrounded
@@ -127,6 +133,9 @@ impl<'a, 'p> Stepper<'a, 'p> {
         if self.needs_sorting() {
             self.sort();
         }
+        if method.implicit {
+            self.list(&Displacements::none(self.cloud.len()))?;
+        }
         let mut rest = duration / method.units.time();
         let mut motion = self.kick(Times::NONE);
         while rest > 0.0 && self.cloud.len() > 0 {
@@ -136,7 +145,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
             }
             // Equal steps to the end, so that none is tiny.
             let steps = (rest / stable).ceil();
-            allowance.foresee(steps, STEPS, self.cloud.len() * UNKNOWNS)?;
+            allowance.foresee(steps, STEPS, self.work())?;
             let dt = rest / steps;
             let turn = method.turn(dt).min(steps);
             motion = self.round(dt, turn, steps, allowance)?;
@@ -168,7 +177,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
         let mut left = turn;
         let mut motion = None;
         while left > 0.0 {
-            allowance.spend(1.0, STEPS, self.cloud.len() * UNKNOWNS)?;
+            allowance.spend(1.0, STEPS, self.work())?;
             let begins = (left == turn).then_some(impulse);
             let ends = (left == 1.0).then_some(impulse);
             motion = Some(self.step(dt, steps - (turn - left), [begins, ends])?);
@@ -184,8 +193,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
         steps: f64,
         [begins, ends]: [Option<f64>; 2],
     ) -> Result<Motion, Failure> {
-        let motion = self.kick(Times { dt: 0.5 * dt, tension: begins });
-        self.push_wall(&motion.pushed);
+        let motion = self.begin(dt, begins)?;
         let speed = motion.root_mean_square_speed(self.cloud.len(), self.method.even);
         self.ledger.way += dt * speed;
         if self.ledger.way > SHIFT_WAY {
@@ -199,7 +207,10 @@ impl<'a, 'p> Stepper<'a, 'p> {
         self.list(&displacements.times(dt))?;
         self.drift_to_middle(dt);
         self.change_density_and_heat(dt);
-        let times = Times { dt: 0.5 * dt, tension: ends };
+        let times = match self.method.implicit {
+            true => Times::NONE,
+            false => Times { dt: 0.5 * dt, tension: ends },
+        };
         self.accelerate(times);
         if ends.is_some() {
             self.apply_tension();
@@ -211,6 +222,41 @@ impl<'a, 'p> Stepper<'a, 'p> {
             self.check()?;
         }
         Ok(motion)
+    }
+
+    /// Changes velocities before the particles move: by half of the step's accelerations, or, with
+    /// implicit viscosity, by all of them, because viscosity responds to all.
+    fn begin(&mut self, dt: f64, impulse: Option<f64>) -> Result<Motion, Failure> {
+        if !self.method.implicit {
+            let motion = self.kick(Times { dt: 0.5 * dt, tension: impulse });
+            self.push_wall(&motion.pushed);
+            return Ok(motion);
+        }
+        let motion = self.kick(Times { dt, tension: impulse.map(|half| 2.0 * half) });
+        self.push_wall(&motion.pushed);
+        self.apply_viscosity(dt)?;
+        Ok(self.kick(Times::NONE))
+    }
+
+    /// Changes velocities by viscosity over a step.
+    fn apply_viscosity(&mut self, dt: f64) -> Result<(), Failure> {
+        let (method, team) = (self.method, self.team);
+        let step = viscous::advance(method, self.cloud, &self.neighbours.blocks, dt, team)
+            .map_err(|reason| Failure::Viscosity { reason, time: self.ledger.time })?;
+        team.for_each(&mut self.cloud.velocity, |i, velocity| {
+            (0..3).for_each(|a| velocity[a] += step.changes[i][a]);
+        });
+        if let Some(stress) = &mut self.cloud.stress {
+            *stress = step.stresses;
+            self.ledger.creep = Some(step.creep);
+        }
+        let Some(points) = &mut self.points else { return Ok(()) };
+        let momentum = method.units.mass() * method.units.speed;
+        for (i, pull) in step.by_wall.iter().enumerate().filter(|(_, pull)| **pull != [0.0; 3]) {
+            let impulse = pull.map(|a| -momentum * self.cloud.mass[i] * dt * a);
+            points.push(method.place(self.cloud.position[i]), impulse);
+        }
+        Ok(())
     }
 
     /// Moves particles to the middle of a step, and records the inputs of the rates there.
@@ -297,7 +343,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
             densities: &self.densities,
             annexes: &self.annexes,
             normalisation: method.normalisation,
-            diffusion: method.diffusion,
+            diffusion: method.diffusion(dt),
             tension_dimension: method.surface.as_ref().map(|_| method.dimension),
             conduction: method.conduction / conducting::<MOMENTS>(method, &self.cloud.moment),
         };
@@ -340,7 +386,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
             records: &records,
             densities: &cloud.density,
             normalisation: method.normalisation,
-            viscosity: method.pair_viscosity,
+            viscosity: method.pair_viscosity(),
         };
         let memory = std::mem::take(&mut self.accelerations);
         let acceleration = self.over_pairs(&pass, memory);

@@ -17,7 +17,7 @@ pub fn check(checker: &mut Checker) {
         let path = Path::default().key("body").key(name);
         if is_sound(checker, &path) {
             replayed::check(checker, &path, (name, droplet));
-            viscosity::check(checker, &path.at("fluid.viscosity"), droplet);
+            viscosity::check(checker, &path, droplet);
         }
         if is_sound(checker, &path) && droplet.has_particles() {
             resolution(checker, &path.at("spacing"), droplet);

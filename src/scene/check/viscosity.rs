@@ -3,13 +3,14 @@
 use super::{Checker, material, number};
 use crate::laws::Viscosity;
 use crate::limits::Bounds;
-use crate::scene::droplet::{Droplet, DropletMethod};
+use crate::scene::droplet::{Droplet, DropletMethod, ViscousAdvance};
 use crate::scene::locate::Path;
 
 /// Bounds of the reference viscosity of a law, those of a plain number [Pa s].
 const BOUNDS: Bounds = Bounds::between(1e-9, 1e6);
 
-pub fn check(checker: &mut Checker, path: &Path, droplet: &Droplet) {
+pub fn check(checker: &mut Checker, droplet_path: &Path, droplet: &Droplet) {
+    let path = &droplet_path.at("fluid.viscosity");
     let viscosity = &droplet.fluid.viscosity;
     if let Viscosity::Table(table) = viscosity {
         material::table(checker, path, table);
@@ -19,7 +20,7 @@ pub fn check(checker: &mut Checker, path: &Path, droplet: &Droplet) {
     }
     if checker.is_fine(path) && viscosity.constant().is_none() {
         method(checker, path, droplet);
-        particles(checker, path, droplet);
+        explicit(checker, &droplet_path.key("viscous"), droplet);
     }
 }
 
@@ -58,11 +59,10 @@ fn method(checker: &mut Checker, path: &Path, droplet: &Droplet) {
     checker.refuse(path, message, allowed);
 }
 
-/// Refuses viscosities that change with shear rate or temperature, until the sums over particles take flow curves. This
-/// function is the only place that depends on it.
-fn particles(checker: &mut Checker, path: &Path, droplet: &Droplet) {
-    if droplet.has_particles() && checker.is_fine(path) {
-        let message = "particles take Newtonian fluids of constant viscosity only";
-        checker.refuse(path, message, "a number, or law = \"newtonian\" without `arrhenius`");
+/// Refuses explicit steps for viscosities that are not constant.
+fn explicit(checker: &mut Checker, path: &Path, droplet: &Droplet) {
+    if droplet.has_particles() && droplet.viscous == ViscousAdvance::Explicit {
+        let message = "explicit steps take Newtonian fluids of constant viscosity";
+        checker.refuse(path, message, "\"auto\", \"implicit\"");
     }
 }

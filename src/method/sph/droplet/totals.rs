@@ -7,6 +7,7 @@ use crate::method::sph::method::Method;
 use crate::method::sph::plan::DropletPlan;
 use crate::method::sph::spread::{Film, spread_diameter};
 use crate::method::sph::units::{compression_energy, pressure};
+use crate::method::sph::viscous::AT_YIELD;
 
 /// Sums over the fluid, images at mirrors included (a plane model: per metre of depth).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -45,6 +46,10 @@ pub struct DropletTotals {
     pub temperature_range: [f64; 2],
     /// Mean temperature by mass [K].
     pub mean_temperature: f64,
+    /// Mass of fluid that yields [kg], and the largest shear rate of the rest in the last time step [1/s]; zero for
+    /// fluids without a yield stress.
+    pub yielded_mass: f64,
+    pub creep: f64,
     /// Number of time steps since time zero, and of particles, images excluded.
     pub steps: f64,
     pub particles: f64,
@@ -79,6 +84,10 @@ pub fn totals(
         max_pressure: f64::NEG_INFINITY,
         ..DropletTotals::default()
     };
+    if method.flow.yield_stress() > 0.0 {
+        totals.creep = ledger.creep.unwrap_or(0.0) / units.time();
+        totals.yielded_mass = images * units.mass() * yielded_mass(method, cloud);
+    }
     let reference = plan.reference_temperature();
     for i in 0..cloud.len() {
         let mass = images * cloud.mass[i];
@@ -117,6 +126,14 @@ pub fn totals(
         totals.spread_diameter = plan.spacing * spread_diameter(&places, Film::of(plan));
     }
     totals
+}
+
+/// Mass over ρ₀H^d of particles at their yield stress.
+fn yielded_mass(method: &Method, cloud: &Cloud) -> f64 {
+    let limit = AT_YIELD * method.flow.yield_stress();
+    let stresses = cloud.stress.iter().flatten();
+    let yields = |stress: &[f64; 6]| stress.iter().map(|s| s * s).sum::<f64>() >= limit * limit;
+    stresses.zip(&cloud.mass).filter(|(stress, _)| yields(stress)).map(|(_, mass)| mass).sum()
 }
 
 /// Returns for each particle whether it belongs to the body of fluid.

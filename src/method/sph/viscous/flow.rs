@@ -1,0 +1,185 @@
+//! Fluids whose viscosity depends on the shear rate, and those that yield.
+//!
+//! Their dissipation is a convex function Φ of the shear rate, `Φ′(γ̇) = τ(γ̇)`. The velocities of a step are those of
+//! the saddle point of
+//!
+//! `Σ m (u − u*)²/(2 dt) + Σ V [Φ(|q|) + s·(y′ − q) + r/2 (y′ − q)²] + …`
+//!
+//! in u, in a shear rate q of each particle and in its stress s, with the deviator y′ of the strain rate of u and a
+//! penalty r > 0. The method of multipliers takes turns: q and s of each particle by the flow curve, u by a linear system
+//! with the viscosity r. No viscosity is regularised: where a fluid does not yield, q is zero, and s is any stress up to
+//! the yield stress. What creeps there is the remainder y′, which the iteration reduces below its tolerance.
+//!
+//! Stresses are kept from step to step, as a first guess of the next.
+//!
+//! Sources: R. Glowinski and P. Le Tallec, *Augmented Lagrangian and Operator-Splitting Methods in Nonlinear Mechanics*,
+//! SIAM 1989; for yield stresses Roquet & Saramito (2003), Comput. Methods Appl. Mech. Eng. 192, 3317–3341, doi
+//! 10.1016/S0045-7825(03)00262-7.
+
+use super::super::cloud::Cloud;
+use super::super::method::Method;
+use super::super::neighbours::Block;
+use super::ViscousStep;
+use super::rate::length;
+use super::strain::Elongation;
+use super::system::{Moduli, System};
+use super::tensor::Products;
+use crate::math::conjugate_gradients::{NotConverged, solve};
+use crate::runtime::parallel::Team;
+
+/// Residual of a turn's linear system over its initial one.
+const TURN: f64 = 0.1;
+/// Residuals of forces and of shear rates at the end, over their sizes.
+const TOLERANCE: f64 = 1e-3;
+/// Over-relaxation of stresses; the method converges below (1 + √5)/2.
+const RELAXATION: f64 = 1.6;
+/// Fraction of the yield stress from which on fluid counts as yielding; the error of stresses is of this order.
+pub const AT_YIELD: f64 = 0.999;
+/// Range of penalties over the reference viscosity.
+const PENALTIES: [f64; 2] = [0.1, 10.0];
+const MOST_TURNS: usize = 1000;
+
+/// Advances a fluid by its flow curves.
+pub fn advance(
+    method: &Method,
+    cloud: &Cloud,
+    blocks: &[Block],
+    dt: f64,
+    team: &Team,
+) -> Result<ViscousStep, NotConverged> {
+    let moduli = vec![Moduli::newtonian(method.viscosity); cloud.len()];
+    let mut system = System::of(method, cloud, blocks, dt, moduli, team);
+    let mut velocity = cloud.velocity.as_flattened().to_vec();
+    let pairs = system.elongations(&velocity);
+    let moduli = team.map(cloud.len(), |i| moduli_at(&system, &pairs, i));
+    system.set_moduli(moduli);
+    let mut turn = Turn {
+        pairs: system.elongations(&velocity),
+        stresses: cloud.stress.clone().unwrap_or_else(|| vec![[0.0; 6]; cloud.len()]),
+        creep: 0.0,
+        mismatch: 0.0,
+    };
+    let (mut first, mut iterations) = (None, 0);
+    for k in 0..MOST_TURNS {
+        let totals = turn.follow_curves(&system, team);
+        let forces = system.forces(&turn.pairs, &system.forms_under(&turn.pairs, &totals));
+        let load = residual(&system, &velocity, &forces);
+        let size = norm(&load, &cloud.mass);
+        let first = *first.get_or_insert(size);
+        if size <= TOLERANCE * first && turn.mismatch <= TOLERANCE {
+            if std::env::var("DBG").is_ok() {
+                eprintln!("turns {k} it {iterations} dt {dt} creep {}", turn.creep);
+            }
+            return Ok(turn.end(&system, &velocity, iterations));
+        }
+        let (changes, spent) = solve(&system, &load, TURN, team)?;
+        iterations += spent;
+        velocity.iter_mut().zip(&changes).for_each(|(v, change)| *v += change);
+        turn.pairs = system.elongations(&velocity);
+        let moduli = team.map(cloud.len(), |i| {
+            let pairs = moduli_at(&system, &turn.pairs, i).pairs;
+            Moduli { pairs, ..system.moduli[i] }
+        });
+        system.set_moduli(moduli);
+        turn.pairs = system.elongations(&velocity);
+    }
+    Err(NotConverged { residual: turn.mismatch, iterations, tolerance: TOLERANCE })
+}
+
+/// Penalty and viscosities of a particle from its shear rate before the step.
+fn moduli_at(system: &System, pairs: &[Elongation], i: usize) -> Moduli {
+    let reference = system.method.viscosity;
+    let rate = length(&system.axes.deviator(&system.rate(pairs, i)));
+    let rate = (rate * rate + system.rest(pairs, i)).sqrt();
+    let secant = system.method.flow.viscosity(system.cloud.temperature[i], rate);
+    let shear = secant.clamp(PENALTIES[0] * reference, PENALTIES[1] * reference);
+    Moduli { shear, volume: reference, pairs: shear }
+}
+
+/// State of the iteration.
+struct Turn {
+    pairs: Vec<Elongation>,
+    /// s of each particle, over ρ₀c₀².
+    stresses: Vec<Products>,
+    /// Largest shear rate of particles that do not yield.
+    creep: f64,
+    /// Norm of `r (y′ − q)` over that of s.
+    mismatch: f64,
+}
+
+impl Turn {
+    /// Updates q and s by the flow curve of each particle. Returns the stresses `s + r (y′ − q)` of the next linear
+    /// system, with those of the volume.
+    fn follow_curves(&mut self, system: &System, team: &Team) -> Vec<Products> {
+        let flow = &system.method.flow;
+        let pieces = team.map(self.pairs.len(), |i| {
+            let Moduli { shear: penalty, volume, .. } = system.moduli[i];
+            let y = system.rate(&self.pairs, i);
+            let deviator = system.axes.deviator(&y);
+            let load: Products =
+                std::array::from_fn(|n| self.stresses[i][n] + penalty * deviator[n]);
+            let size = length(&load);
+            let rest = system.rest(&self.pairs, i);
+            let rate = flow.rate_beyond(system.cloud.temperature[i], size, penalty, rest);
+            let part = if size > 0.0 { rate / size } else { 0.0 };
+            let gap: Products = std::array::from_fn(|n| deviator[n] - part * load[n]);
+            let stress: Products =
+                std::array::from_fn(|n| self.stresses[i][n] + RELAXATION * penalty * gap[n]);
+            let of_volume = system.axes.scaled(&y, 0.0, volume);
+            let total = std::array::from_fn(|n| stress[n] + penalty * gap[n] + of_volume[n]);
+            let is_at_yield = length(&stress) >= AT_YIELD * flow.yield_stress();
+            let creep = if is_at_yield { 0.0 } else { length(&deviator) };
+            let weight = system.volume(i);
+            let sums =
+                [weight * (penalty * length(&gap)).powi(2), weight * length(&stress).powi(2)];
+            (stress, total, creep, sums)
+        });
+        let (mut gaps, mut whole) = (0.0, 0.0);
+        self.creep = 0.0;
+        let mut totals = Vec::with_capacity(pieces.len());
+        for (i, (stress, total, creep, sums)) in pieces.into_iter().enumerate() {
+            self.stresses[i] = stress;
+            self.creep = self.creep.max(creep);
+            (gaps, whole) = (gaps + sums[0], whole + sums[1]);
+            totals.push(total);
+        }
+        self.mismatch = if gaps > 0.0 { (gaps / whole).sqrt() } else { 0.0 };
+        totals
+    }
+
+    fn end(self, system: &System, velocity: &[f64], iterations: usize) -> ViscousStep {
+        let before = system.cloud.velocity.as_flattened();
+        let changes: Vec<f64> = velocity.iter().zip(before).map(|(v, before)| v - before).collect();
+        let stresses: Vec<Products> = (0..self.pairs.len())
+            .map(|i| {
+                let y = system.rate(&self.pairs, i);
+                let of_volume = system.axes.scaled(&y, 0.0, system.moduli[i].volume);
+                std::array::from_fn(|n| self.stresses[i][n] + of_volume[n])
+            })
+            .collect();
+        let forms = system.forms_under(&self.pairs, &stresses);
+        let by_wall = system.by_wall(&system.forces(&self.pairs, &forms), &changes);
+        ViscousStep {
+            changes: changes.as_chunks().0.to_vec(),
+            by_wall,
+            stresses: self.stresses,
+            creep: self.creep,
+            iterations,
+        }
+    }
+}
+
+/// Residual of the step's equation of motion: `m (u* − u)` plus the impulses of forces.
+fn residual(system: &System, velocity: &[f64], forces: &[super::system::Forces]) -> Vec<f64> {
+    let before = system.cloud.velocity.as_flattened();
+    let mut load = system.load(forces);
+    for (n, load) in load.iter_mut().enumerate() {
+        *load += system.cloud.mass[n / 3] * (before[n] - velocity[n]);
+    }
+    load
+}
+
+/// `√(Σ r²/m)`.
+fn norm(load: &[f64], mass: &[f64]) -> f64 {
+    load.iter().enumerate().map(|(n, load)| load * load / mass[n / 3]).sum::<f64>().sqrt()
+}
