@@ -82,6 +82,9 @@ THERMAL = f'model = "thermoelastic", {STEEL}'
 ELASTIC_STEEL = f'model = "thermoelastic", {STEEL}, {ELASTIC}'
 HARDENING = "yield_stress = 250e6, isotropic_hardening = 2e9"
 YIELDING = f'model = "elastoplastic", {STEEL}, {ELASTIC}, {HARDENING}'
+CREEPING = (
+    f'model = "viscoplastic", {STEEL}, {ELASTIC}, creep = {{ coefficient = 1e-26, exponent = 3.0 }}'
+)
 MELTING = f"{THERMAL}, melting = {{ solidus = 1700.0, liquidus = 1750.0, latent_heat = 2.7e5 }}"
 DISC = "disc = { radius = 2e-3, thickness = 0.5e-3 }"
 BOX = "box = [4e-3, 4e-3, 0.5e-3]"
@@ -102,6 +105,9 @@ SCENES = {
     + spot(2e-4, 1e7),
     "box, stress": head("D", 1e-2, 1e-3) + solid(BOX, ELASTIC_STEEL) + spot(2e-4, 1e7),
     "disc, yielding": head("E", 1e-2, 5e-4) + solid(DISC, YIELDING) + spot(2e-4, 3e8),
+    "box, yielding": head("L", 1e-2, 1e-3) + solid(BOX, YIELDING) + spot(2e-4, 3e8),
+    "box, hardly yielding": head("M", 1e-2, 1e-3) + solid(BOX, YIELDING) + spot(2e-4, 2e7),
+    "box, creeping": head("N", 2e-3, 1e-3) + solid(BOX, CREEPING) + spot(2e-4, 1e8),
     "box, melting": head("F", 2e-4, 2e-5) + solid(BOX, MELTING, gives=ONLY_HEAT) + spot(3e-4, 1e9),
     "water on a disc": head("G", 2e-4, 1e-5)
     + solid(DISC, THERMAL, gives=ONLY_HEAT)

@@ -30,6 +30,7 @@ const SAMPLES: usize = 64;
 /// are a jump.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InputTable {
+    path: PathBuf,
     between: Between,
     /// Indices in a state's inputs of each column: several where a name represents an array.
     columns: Vec<Vec<usize>>,
@@ -78,6 +79,7 @@ impl InputTable {
         let registry = Registry::of(scene);
         let columns = columns(path, &header, &registry)?;
         let mut table = Self {
+            path: path.to_owned(),
             between,
             columns: columns.iter().map(|variables| places(variables)).collect(),
             counted: columns.iter().map(|of| of[0].quantity == Some(Quantity::Count)).collect(),
@@ -217,6 +219,14 @@ impl InputTable {
         let mut times: Vec<f64> = self.times.iter().filter(inside).copied().collect();
         times.dedup();
         times
+    }
+
+    /// Names the rows that bound a part of a step between two times [s].
+    pub fn rows_at(&self, from: f64, to: f64) -> String {
+        let is_row = |time: &f64| self.times.contains(time);
+        let times: Vec<String> =
+            [from, to].into_iter().filter(is_row).map(|time| format!("{time:e} s")).collect();
+        format!("{}, row at {}", self.path.display(), times.join(" and at "))
     }
 
     /// Stores in a state the values and derivatives between two times [s] without a row between them.

@@ -436,7 +436,8 @@ impl Running<'_> {
             // The remainder of a run that is not a whole number of steps is short, but no jump precedes it.
             let is_rest = is_whole && i > 0 && i + 1 == self.timeline.count;
             if !is_rest {
-                self.warn_of_length(length);
+                let cut = (!is_whole).then_some((from, to));
+                self.warn_of_length(length, cut);
             }
             self.advance((from, to), length)?;
             self.state.set_time(to);
@@ -450,13 +451,19 @@ impl Running<'_> {
         Ok(())
     }
 
-    /// Warns once of a step that is too short for a mesh [s].
-    fn warn_of_length(&mut self, length: f64) {
-        if let Some(warning) = self.model.warning_on_step(length).filter(|_| !self.warned_of_length)
-        {
-            super::warn(&[warning]);
-            self.warned_of_length = true;
-        }
+    /// Warns once of a step that is too short for a mesh [s], and names the rows of the table that cut it.
+    fn warn_of_length(&mut self, length: f64, cut: Option<(f64, f64)>) {
+        let warning = self.model.warning_on_step(length).filter(|_| !self.warned_of_length);
+        let Some(warning) = warning else { return };
+        let rows = cut.zip(self.table.as_ref()).map(|((from, to), table)| table.rows_at(from, to));
+        super::warn(&[match rows {
+            Some(rows) => {
+                let place = format!("{rows}: {}", warning.place());
+                warning.finding().clone().at(place)
+            }
+            None => warning,
+        }]);
+        self.warned_of_length = true;
     }
 
     /// Warns once of each fluid that is beyond a point at which it freezes or boils.

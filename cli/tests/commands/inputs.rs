@@ -126,7 +126,11 @@ fn short_pulses_warn_and_balance() {
         run_with(&place, &table, &options).succeeds().stderr()
     };
     let pulse = said("0,5e7\n1e-11,0\n");
-    assert!(pulse.contains("a step of 1.0e-11 s is shorter than"), "{pulse}");
+    let named = "warning: table.csv, row at 0e0 s and at 1e-11 s: plate: a step of 1.0e-11 s is shorter than";
+    assert!(pulse.contains(named), "{pulse}");
+    let late = said("0,5e7\n9.999e-8,0\n");
+    let named = "warning: table.csv, row at 9.999e-8 s: plate: a step of 1.0e-11 s is shorter than";
+    assert!(late.contains(named), "{late}");
     let flipping = said("0,5e7\n5e-8,-5e7\n");
     assert!(!flipping.contains("heat in differs"), "{flipping}");
 }

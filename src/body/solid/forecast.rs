@@ -67,8 +67,14 @@ const ROW_RATE: f64 = 2.5e4;
 /// melting front crosses some of them: each crossing costs inner steps of the whole body.
 const NONLINEAR_HEAT: f64 = 3e-6;
 const FRONT: f64 = 1.2e-8;
-/// Time per node for the equilibrium of a body with yielding parts [s], and its memory per node [B].
-const YIELDING: f64 = 1.5e-4;
+/// Time per node for the equilibrium of a body with yielding parts in a step [s], in boxes and in sections: the middle,
+/// in ratio, of bodies that stay elastic and of those that flow throughout. Constants that depend on the temperature and
+/// the inner steps of creep multiply it.
+const YIELDING: f64 = 1.1e-5;
+const YIELDING_SECTION: f64 = 2e-5;
+const WITH_TABLES: f64 = 2.5;
+const WITH_CREEP: f64 = 11.0;
+/// Memory per node of a body with yielding parts [B].
 const YIELDING_MEMORY: f64 = 8e3;
 /// Modes through layers: cube of the number of nodes along z per second, on each thread.
 const COLUMN_RATE: f64 = 1e8;
@@ -92,7 +98,8 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
     let solver = plan.law.as_ref().map_or(0.0, |law| solver_memory(&plan.mesh, law));
     // Bricks need no assembly.
     let assembly = if by_bricks { 3e-7 } else { 2e-5 };
-    let iterations = if by_bricks { n / BRICK_RATE } else { 0.0 };
+    // Those of equilibrium are counted with it.
+    let iterations = if by_bricks && !is_yielding_box { n / BRICK_RATE } else { 0.0 };
     let at_start = |axis| is_odd_at_start(scene, name, axis);
     let classes = count_classes(plan.mesh.mirrored, at_start);
     // Memory is taken when a class is first loaded; the time is that of a run that loads all possible classes.
@@ -127,7 +134,7 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
         if !is_yielding_box {
             further_memory += factor_memory(geometry, unknowns[1]);
         }
-        nonlinear_time += YIELDING * nodes / threads;
+        nonlinear_time += yielding_time(solid, geometry) * nodes / threads;
     }
     if scene.meets_rings(name) {
         further_memory += FaceRings::expected_bytes(&plan.mesh);
@@ -159,6 +166,19 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
             + passes * links / PRODUCT_RATE,
         notes: plan.notes,
     }
+}
+
+/// Time per node for the equilibrium in a step [s].
+fn yielding_time(solid: &Solid, geometry: Geometry) -> f64 {
+    let materials = solid.materials_of_layers();
+    let has_tables = materials.iter().any(|own| {
+        let properties = own.law.deformation().properties();
+        !properties.iter().all(|(_, property)| property.is_constant())
+    });
+    let creeps = materials.iter().any(|own| own.law.deformation().creeps());
+    let base = if geometry == Geometry::Box { YIELDING } else { YIELDING_SECTION };
+    let more = if creeps { WITH_CREEP } else { 1.0 };
+    base * more * if has_tables { WITH_TABLES } else { 1.0 }
 }
 
 /// Nodes of a mesh and its mirror images.
