@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use impinge::kernel::Kernel;
 use impinge::method::sph::{
-    DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release,
+    DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release, Viscous,
 };
 
 const SPACING: f64 = 1e-5;

@@ -9,7 +9,7 @@ use std::time::Instant;
 use impinge::kernel::Kernel;
 use impinge::method::sph::{
     DropletPlan, DropletSph, Extent, Failure, Fluid, ParticleFields, Placement, Precision,
-    StepShares,
+    StepShares, Viscous,
 };
 use serde::{Deserialize, Serialize};
 

@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use impinge::closed_form::SwingingDrop;
 use impinge::kernel::Kernel;
 use impinge::method::sph::{
-    DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release, Wall,
+    DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release, Viscous,
+    Wall,
 };
 use impinge::port::WallCells;
 use nalgebra::{DMatrix, DVector};

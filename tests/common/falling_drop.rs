@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use impinge::kernel::Kernel;
 use impinge::laws::Viscosity;
 use impinge::method::sph::{
-    DropletPlan, DropletSph, Extent, Fluid, Placement, Precision, Release, Wall,
+    DropletPlan, DropletSph, Extent, Fluid, Placement, Precision, Release, Viscous, Wall,
 };
 use impinge::port::WallCells;
 

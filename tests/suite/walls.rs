@@ -6,7 +6,8 @@ use std::f64::consts::PI;
 use crate::common::{Trial, off};
 use impinge::kernel::Kernel;
 use impinge::method::sph::{
-    DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release, Wall,
+    DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release, Viscous,
+    Wall,
 };
 use impinge::port::{Domain, WallCells};
 

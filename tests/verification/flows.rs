@@ -1,7 +1,7 @@
 //! Classical flows of the droplet engine: between plates (Park 2019, §2.4.5.2), Taylor–Green's
 //! vortices, water at rest, a rotating square, and the break of a dam.
 
-use impinge::method::sph::{Extent, ParticleFields};
+use impinge::method::sph::{Extent, ParticleFields, Viscous};
 use impinge::port::WallCells;
 
 use crate::classical_flows::{Column, Flow, Poiseuille, Setup, TaylorGreen, lattice};
@@ -224,9 +224,10 @@ fn rotating_square(side: usize, shifting: bool) -> Flow {
         spacing,
         support: 3.0,
         density: DENSITY,
-        viscosity: 0.0,
+        viscosity: 0.0.into(),
         sound_speed: 7.0,
         shifting,
+        viscous: Viscous::Explicit,
         gravity: [0.0; 3],
         extents: [Extent::Open; 3],
         cells: None,
@@ -355,9 +356,10 @@ fn dam_break(columns: usize, pictures: Option<&mut Vec<Vec<f64>>>) -> Vec<f64> {
         spacing,
         support: 3.0,
         density: 1000.0,
-        viscosity: 1e-3,
+        viscosity: 1e-3.into(),
         sound_speed: 20.0 * (GRAVITY * BASE).sqrt(),
         shifting: true,
+        viscous: Viscous::Explicit,
         gravity: [0.0, 0.0, -GRAVITY],
         extents: [Extent::Closed(20.0 * BASE), Extent::Open, Extent::Open],
         cells: Some(WallCells::Tiles { count: [1, 1], size: [1.0, 1.0] }),

@@ -398,7 +398,7 @@ mod tests {
 
     #[test]
     fn state_round_trip() {
-        let mut cloud = Cloud::default();
+        let mut cloud = Cloud::none(true);
         for i in 0..5 {
             let x = f64::from(i);
             cloud.push([x, 1.0 + x, 2.0], [3.0, 4.0, x], 0.1 * x, 300.0 + x);
@@ -407,6 +407,7 @@ mod tests {
             cloud.acceleration[last] = [[x, 1.0, 2.0], [3.0, x, 4.0]];
             cloud.tension[last] = [7.0, x, 5.0, -x];
             cloud.potential[last] = 0.125 * x;
+            cloud.stress.as_mut().unwrap()[last] = [x; 6];
             cloud.gradient[last] = [0.5, x, 0.25];
             cloud.moment[last] = [x, 1.0, 2.0, 0.1, 0.2, 0.3];
         }
@@ -431,9 +432,10 @@ mod tests {
                 asked: 3.0,
                 waiting: vec![[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], [0.0; 6]],
             }),
+            creep: Some(0.5),
             ..Ledger::default()
         };
-        let head = HeadNumbers { cells: 3, exponentials: 2, most: Some(2) };
+        let head = HeadNumbers { cells: 3, exponentials: 2, most: Some(2), stressed: true };
         let team = Team::new(2);
         let mut state = vec![7.0; 3];
         flatten(&mut state, &mut ledger, &mut cloud, &team);

@@ -74,7 +74,7 @@ mod tests {
     use super::Instructions;
     use crate::kernel::Kernel;
     use crate::method::sph::{DropletPlan, DropletSph, Extent, Fluid, Placement, Precision};
-    use crate::method::sph::{Release, Wall};
+    use crate::method::sph::{Release, Viscous, Wall};
     use crate::port::WallCells;
 
     thread_local! {

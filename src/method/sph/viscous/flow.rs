@@ -31,6 +31,10 @@ use crate::runtime::parallel::Team;
 const TURN: f64 = 0.1;
 /// Residuals of forces and of shear rates at the end, over their sizes.
 const TOLERANCE: f64 = 1e-3;
+/// Residual of forces over momenta below which it is rounding.
+const ROUNDING: f64 = 1e-5;
+/// Stress over that at the reference rate below which its accuracy does not matter.
+const FAINT: f64 = 1e-2;
 /// Over-relaxation of stresses; the method converges below (1 + √5)/2.
 const RELAXATION: f64 = 1.6;
 /// Fraction of the yield stress from which on fluid counts as yielding; the error of stresses is of this order.
@@ -59,18 +63,18 @@ pub fn advance(
         creep: 0.0,
         mismatch: 0.0,
     };
+    let moving: Vec<f64> =
+        velocity.iter().enumerate().map(|(n, v)| v * cloud.mass[n / 3]).collect();
+    let noise = ROUNDING * norm(&moving, &cloud.mass);
     let (mut first, mut iterations) = (None, 0);
-    for k in 0..MOST_TURNS {
+    for _ in 0..MOST_TURNS {
         let totals = turn.follow_curves(&system, team);
         let forces = system.forces(&turn.pairs, &system.forms_under(&turn.pairs, &totals));
         let load = residual(&system, &velocity, &forces);
         let size = norm(&load, &cloud.mass);
         let first = *first.get_or_insert(size);
-        if size <= TOLERANCE * first && turn.mismatch <= TOLERANCE {
-            if std::env::var("DBG").is_ok() {
-                eprintln!("turns {k} it {iterations} dt {dt} creep {}", turn.creep);
-            }
-            return Ok(turn.end(&system, &velocity, iterations));
+        if size <= (TOLERANCE * first).max(noise) && turn.mismatch <= TOLERANCE {
+            return Ok(turn.end(&system, &velocity));
         }
         let (changes, spent) = solve(&system, &load, TURN, team)?;
         iterations += spent;
@@ -143,11 +147,13 @@ impl Turn {
             (gaps, whole) = (gaps + sums[0], whole + sums[1]);
             totals.push(total);
         }
-        self.mismatch = if gaps > 0.0 { (gaps / whole).sqrt() } else { 0.0 };
+        let volume: f64 = (0..self.pairs.len()).map(|i| system.volume(i)).sum();
+        let least = (FAINT * system.method.reference_stress).powi(2) * volume;
+        self.mismatch = if gaps > 0.0 { (gaps / whole.max(least)).sqrt() } else { 0.0 };
         totals
     }
 
-    fn end(self, system: &System, velocity: &[f64], iterations: usize) -> ViscousStep {
+    fn end(self, system: &System, velocity: &[f64]) -> ViscousStep {
         let before = system.cloud.velocity.as_flattened();
         let changes: Vec<f64> = velocity.iter().zip(before).map(|(v, before)| v - before).collect();
         let stresses: Vec<Products> = (0..self.pairs.len())
@@ -164,7 +170,6 @@ impl Turn {
             by_wall,
             stresses: self.stresses,
             creep: self.creep,
-            iterations,
         }
     }
 }

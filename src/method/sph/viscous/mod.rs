@@ -59,8 +59,6 @@ pub struct ViscousStep {
     pub stresses: Vec<Products>,
     /// Largest shear rate of fluid that does not yield, over c₀/H.
     pub creep: f64,
-    /// Number of products with the system's matrix.
-    pub iterations: usize,
 }
 
 /// Computes the changes of velocity by viscosity over a time step, over H/c₀.
@@ -80,15 +78,12 @@ pub fn advance(
     let velocity = cloud.velocity.as_flattened();
     let pairs = system.elongations(velocity);
     let forces = system.forces(&pairs, &system.forms(&pairs));
-    let (changes, iterations) = solve(&system, &system.load(&forces), TOLERANCE, team)?;
+    let (changes, _) = solve(&system, &system.load(&forces), TOLERANCE, team)?;
     let after: Vec<f64> = velocity.iter().zip(&changes).map(|(v, change)| v + change).collect();
     let pairs = system.elongations(&after);
     let by_wall = system.by_wall(&system.forces(&pairs, &system.forms(&pairs)), &changes);
-    if std::env::var("DBG").is_ok() {
-        eprintln!("it {iterations} dt {dt}");
-    }
     let changes = changes.as_chunks().0.to_vec();
-    Ok(ViscousStep { changes, by_wall, stresses: Vec::new(), creep: 0.0, iterations })
+    Ok(ViscousStep { changes, by_wall, stresses: Vec::new(), creep: 0.0 })
 }
 
 #[cfg(test)]

@@ -75,10 +75,10 @@ impl PairSum for Strain<'_> {
         by_wall.add_all::<S, F>(&here, wall, local);
         let scale = self.weights.normalisation;
         let mut rates = [0.0; 6];
-        for n in 0..6 {
+        for (n, rate) in rates.iter_mut().enumerate() {
             let cancels = F::ROUND && (n == 3 || n == 4);
             let sum: f64 = (by_fluid.rates[n] + by_wall.rates[n]).sum().into();
-            rates[n] = if cancels { 0.0 } else { -scale * sum };
+            *rate = if cancels { 0.0 } else { -scale * sum };
         }
         let forces =
             [flat::<F>(scaled(by_fluid.force, scale)), flat::<F>(scaled(by_wall.force, scale))];
@@ -155,8 +155,7 @@ impl<L: Lanes> Sums<L> {
         self.force[1] = self.force[1] + tangential * d[1];
         self.force[2] = self.force[2] + normal * d[2];
         self.squares = self.squares + elongating * elongation;
-        for n in 0..6 {
-            let (a, b) = AXES[n];
+        for (n, (a, b)) in AXES.into_iter().enumerate() {
             self.rates[n] = self.rates[n] + elongating * d[a] * d[b];
         }
     }

@@ -99,8 +99,7 @@ impl<L: Lanes> Form6<L> {
     #[inline(always)]
     fn at(&self, x: [L; 3]) -> L {
         let mut sum = self.0[0] * x[0] * x[0];
-        for n in 1..6 {
-            let (a, b) = AXES[n];
+        for (n, (a, b)) in AXES.into_iter().enumerate().skip(1) {
             sum = sum + self.0[n] * x[a] * x[b];
         }
         sum

@@ -114,6 +114,18 @@ fn plans() -> Vec<(DropletPlan, f64)> {
     ]
 }
 
+/// The system of a Newtonian fluid over a time step.
+fn newtonian<'a>(
+    method: &'a Method,
+    cloud: &'a Cloud,
+    neighbours: &'a Neighbours,
+    dt: f64,
+    team: &'a Team,
+) -> System<'a> {
+    let moduli = vec![Moduli::newtonian(method.viscosity); cloud.len()];
+    System::of(method, cloud, &neighbours.blocks, dt, moduli, team)
+}
+
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
@@ -130,7 +142,7 @@ fn operator_is_symmetric_and_positive() {
     for (plan, centre) in plans() {
         let (cloud, neighbours) = ball(&plan, 5.5, centre);
         let (method, team) = (Method::of(&plan), Team::new(2));
-        let system = System::of(&method, &cloud, &neighbours.blocks, 10.0, &team);
+        let system = newtonian(&method, &cloud, &neighbours, 10.0, &team);
         let [x, y] = [1, 4].map(|seed| disordered(&plan, cloud.len(), seed));
         let apply = |x: &[f64]| {
             let mut out = vec![0.0; x.len()];
@@ -148,16 +160,13 @@ fn operator_is_symmetric_and_positive() {
 fn dissipation(plan: &DropletPlan, gradient: [[f64; 3]; 3]) -> f64 {
     let (cloud, neighbours) = ball(plan, 6.5, 0.0);
     let (method, team) = (Method::of(plan), Team::new(1));
-    let system = System::of(&method, &cloud, &neighbours.blocks, 1.0, &team);
+    let system = newtonian(&method, &cloud, &neighbours, 1.0, &team);
     let velocity: Vec<f64> =
         cloud.position.iter().flat_map(|x| gradient.map(|row| dot(&row, x))).collect();
     let mut out = vec![0.0; velocity.len()];
     system.apply(&velocity, &mut out);
-    let of_mass: f64 = velocity
-        .iter()
-        .zip(&cloud.mass.iter().flat_map(|m| [*m; 3]).collect::<Vec<_>>())
-        .map(|(v, m)| m * v * v)
-        .sum();
+    let masses: Vec<f64> = cloud.mass.iter().flat_map(|m| [*m; 3]).collect();
+    let of_mass: f64 = velocity.iter().zip(&masses).map(|(v, m)| m * v * v).sum();
     let found = 0.5 * (dot(&velocity, &out) - of_mass);
     let rate = |a: usize, b: usize| 0.5 * (gradient[a][b] + gradient[b][a]);
     let squares: f64 = (0..9).map(|n| rate(n / 3, n % 3).powi(2)).sum();
@@ -193,11 +202,12 @@ fn rigid_motion_bears_no_force() {
     let plan = plan();
     let (cloud, neighbours) = ball(&plan, 5.5, 0.0);
     let (method, team) = (Method::of(&plan), Team::new(1));
-    let system = System::of(&method, &cloud, &neighbours.blocks, 1.0, &team);
+    let system = newtonian(&method, &cloud, &neighbours, 1.0, &team);
     let turning =
         |[x, y, z]: [f64; 3]| [1.0 + 2.0 * y - 3.0 * z, 4.0 * z - 2.0 * x, 3.0 * x - 4.0 * y];
     let velocity: Vec<f64> = cloud.position.iter().flat_map(|x| turning(*x)).collect();
-    let forces = system.forces(&velocity);
+    let pairs = system.elongations(&velocity);
+    let forces = system.forces(&pairs, &system.forms(&pairs));
     let largest = forces.as_flattened().as_flattened().iter().fold(0.0_f64, |a, f| a.max(f.abs()));
     assert!(largest < 1e-10, "{largest}");
 }
@@ -221,5 +231,4 @@ fn momentum_and_angular_momentum_are_conserved() {
         }
     }
     assert!(change.iter().chain(&turn).all(|sum| sum.abs() < 1e-11 * whole), "{change:?} {turn:?}");
-    assert!(step.iterations > 3);
 }
