@@ -17,6 +17,8 @@ pub struct Released {
 
 /// Relative rounding of a sum of masses.
 const ROUNDING: f64 = 1e-9;
+/// Viscous stress over ρ₀c₀² that no flow reaches which is much slower than sound.
+const LARGEST_STRESS: f64 = 1e3;
 
 /// Returns the reason why a state must not be loaded: the particle loops cannot process it, or no
 /// run leads to it. `coldest` returns the lowest temperature [K] of a cloud, `released` the
@@ -58,7 +60,14 @@ pub fn check(
             return Err(format!("particle {i} has {ratio} of the density at rest"));
         }
     }
-    Ok(())
+    let sizes =
+        cloud.stress.iter().flatten().map(|stress| stress.iter().map(|s| s * s).sum::<f64>());
+    match sizes.enumerate().find(|(_, size)| *size >= LARGEST_STRESS * LARGEST_STRESS) {
+        Some((i, size)) => {
+            Err(format!("particle {i} under {} times the stress ρc² of sound", size.sqrt()))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Refuses a ledger that contradicts itself or the plan; returns the number of released drops.
@@ -86,6 +95,7 @@ fn check_head(
         ("a last step", ledger.exchange.duration),
         ("a way", ledger.way),
         ("a volume", ledger.surrounded),
+        ("a creep", ledger.creep.unwrap_or(0.0)),
     ];
     match numbers.into_iter().find(|&(_, number)| number < 0.0) {
         Some((what, number)) => Err(format!("{what} of {number}, which is below zero")),

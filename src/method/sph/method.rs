@@ -95,7 +95,7 @@ impl Default for StepShares {
 }
 
 /// Largest distance over H that particles move in a time step with implicit viscosity.
-const MOST_WAY: f64 = 0.1;
+const MOST_WAY: f64 = 0.05;
 /// `s λ/ω²` of sound over ν/c₀², see [`Method::damped`].
 const DAMPED_SOUND: f64 = 0.9;
 /// `s λ/ω²` of the shortest capillary wave over `µΛ/σ`, with its length Λ and the s of its undamped step.
