@@ -42,6 +42,7 @@ pub fn plan_of(
             cells,
             contact_angle: fluid.contact_angle,
             effusivity,
+            conductance: None,
         }),
     }
 }
