@@ -17,8 +17,10 @@ const AT_WALL: [f64; 2] = [0.95, 1.05];
 /// particles stay above both.
 const COVERED: [f64; 2] = [0.25, 0.75];
 /// Number of passes that reconcile the law's relaxation with the wall temperature. Every pass keeps
-/// the latter between its value without flux and that of the fluid.
+/// the latter between its value without flux and that of the fluid. Through a resistance the
+/// temperature within it is reconciled, too.
 const PASSES: usize = 3;
+const RESISTIVE_PASSES: usize = 6;
 
 /// Constants of the heat of contact, from a plan.
 #[derive(Debug, Clone, PartialEq)]
@@ -192,7 +194,8 @@ impl WallHeat {
         let mut walls = free.clone();
         let mut contacts = Vec::new();
         let mut above = vec![Above::default(); walls.len()];
-        for _ in 0..PASSES {
+        let passes = if points.resistance.is_some() { RESISTIVE_PASSES } else { PASSES };
+        for _ in 0..passes {
             contacts = team.map(points.points.len(), |n| {
                 self.contact(&points.points[n], &walls, dt, points.resistance.as_ref())
             });
