@@ -61,6 +61,7 @@ fn layer(fluid: Fluid, spacing: f64, shear: f64) -> (DropletSph, Vec<f64>, f64) 
             cells: tiles,
             contact_angle: 0.5 * PI,
             effusivity: Some(SOLID.effusivity()),
+            conductance: None,
         }),
         ..falling_drop(DIAMETER / spacing, fluid)
     };

@@ -4,6 +4,8 @@
 //! Source: each half space obeys the solution for a convective surface (H. S. Carslaw and J. C. Jaeger, *Conduction of
 //! Heat in Solids*, 2nd ed., Oxford 1959, §2.7); with `b = h (1/e₁ + 1/e₂)` the flux is `h ΔT exp(b²t) erfc(b√t)`.
 
+use std::f64::consts::PI;
+
 use super::contact::Contact;
 use super::special::erfcx;
 
@@ -19,6 +21,14 @@ impl ResistiveContact {
     /// Flux from the first into the second body [W/m²].
     pub fn flux(&self, t: f64) -> f64 {
         self.conductance * self.difference() * erfcx(self.rate() * t.sqrt())
+    }
+
+    /// Heat transferred from the first into the second body [J/m²]: the integral of the flux,
+    /// `h ΔT/b² (exp(b²t) erfc(b√t) − 1 + 2b √(t/π))`.
+    pub fn heat(&self, t: f64) -> f64 {
+        let y = self.rate() * t.sqrt();
+        let passed = erfcx(y) - 1.0 + 2.0 * y / PI.sqrt();
+        self.conductance * self.difference() * passed / self.rate().powi(2)
     }
 
     /// Temperatures of both surfaces [K]: each changes by a fraction of the difference that follows from its
@@ -44,6 +54,7 @@ impl ResistiveContact {
 #[cfg(test)]
 mod tests {
     use super::super::medium::Conductor;
+    use super::super::quadrature::integrate;
     use super::*;
 
     fn contact(conductance: f64) -> ResistiveContact {
@@ -64,6 +75,19 @@ mod tests {
                 let [first, second] = contact.surfaces(t);
                 let law = conductance * (first - second);
                 assert!((law / contact.flux(t) - 1.0).abs() < 1e-9, "{conductance} {t}");
+            }
+        }
+    }
+
+    #[test]
+    fn heat_is_the_integral_of_the_flux() {
+        for conductance in [1e2, 1e4, 1e6] {
+            let contact = contact(conductance);
+            for t in [1e-3, 1.0, 100.0] {
+                // Over the root of time the flux has no singularity of its slope.
+                let flux = |root: f64| 2.0 * root * contact.flux(root * root);
+                let integral = integrate(flux, &[0.0, t.sqrt()]);
+                assert!((contact.heat(t) / integral - 1.0).abs() < 1e-8, "{conductance} {t}");
             }
         }
     }

@@ -184,6 +184,13 @@ pub static CONTACT: Range<'static> = Range {
     highest: 1.0,  // air gaps of centimetres
     mistakes: Cow::Borrowed(&[scaled("cm² K/W", 1e-4), scaled("mm² K/W", 1e-6)]),
 };
+pub static CONDUCTANCE: Range<'static> = Range {
+    what: "the conductance of a contact",
+    unit: "W/(m² K)",
+    lowest: 1.0,   // air gaps of centimetres
+    highest: 1e10, // metals that have grown on each other
+    mistakes: Cow::Borrowed(&[scaled("W/(cm² K)", 1e4), scaled("W/(mm² K)", 1e6)]),
+};
 pub static DIAMETER: Range<'static> = Range {
     what: "the diameter of a drop",
     unit: "m",

@@ -247,6 +247,12 @@ const fn direction() -> Limits {
     limits.says("the direction is more than a full turn", "-6.28319 to 6.28319 (rad)")
 }
 
+/// Conductance of a contact [W/(m² K)].
+const fn conductance() -> Limits {
+    let limits = within(1e-12, 1e15, "W/(m² K)", "the conductance of the contact");
+    limits.plausible(&plausible::CONDUCTANCE)
+}
+
 /// Coordinate of a drop's centre at its release [m].
 const fn arrival() -> Limits {
     within(-1e3, 1e3, "m", "the place of an arrival")
@@ -272,6 +278,10 @@ pub struct Wall {
         .low("the effusivity √(kρc) of what lies below is positive", "> 0 (W √s/(m² K))")
         .otherwise("none: prescribed wall temperature"))]
     pub effusivity: Option<f64>,
+    /// Heat flux over the difference of the temperatures of the surfaces of fluid and wall [W/(m² K)].
+    #[serde(default)]
+    #[schemars(transform = conductance().otherwise("perfect contact"))]
+    pub conductance: Option<f64>,
     /// Start values.
     #[serde(default)]
     #[schemars(extend("otherwise" = ""))]
@@ -299,9 +309,9 @@ pub struct Coupling {
         "condition" = "`SOLID.top` without prescribed temperature, below a droplet; `SOLID.bottom` of the upper solid"
     ))]
     pub to: String,
-    /// Heat flux over the difference of temperatures [W/(m² K)], only between solids.
-    #[schemars(transform = within(1e-12, 1e15, "W/(m² K)", "the conductance of the contact")
-        .otherwise("none below a droplet, needed between solids"))]
+    /// Heat flux over the difference of the temperatures of both surfaces [W/(m² K)].
+    #[schemars(transform = conductance()
+        .otherwise("perfect contact of a droplet; needed between solids"))]
     pub conductance: Option<f64>,
     /// Load of the droplet's pressure and shear on the solid.
     #[serde(default = "yes")]

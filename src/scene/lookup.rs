@@ -99,6 +99,14 @@ impl Scene {
         }
     }
 
+    /// Conductance between a droplet and what lies below it [W/(m² K)]; `None` for perfect contact.
+    pub fn conductance_below(&self, droplet: &str) -> Option<f64> {
+        match self.coupling_from(droplet) {
+            Some(coupling) => self.coupling[coupling].conductance,
+            None => self.wall[self.wall_under(droplet)?].conductance,
+        }
+    }
+
     /// The index of the coupling of a droplet.
     pub fn coupling_from(&self, droplet: &str) -> Option<usize> {
         self.coupling.iter().position(|coupling| coupling.from == droplet)

@@ -179,7 +179,8 @@ impl SphericalCap {
         model: impl Fn(DropletPlan) -> DropletPlan,
     ) -> (DropletSph, Vec<f64>) {
         let cells = WallCells::Rings { count: 1, radius: 10.0 * RADIUS };
-        let wall = Some(Wall { cells, contact_angle: self.angle, effusivity: None });
+        let wall =
+            Some(Wall { cells, contact_angle: self.angle, effusivity: None, conductance: None });
         let mut plan = model(DropletPlan { wall, ..plan(3, across, viscosity) });
         // Half of a sphere has the drop's volume.
         plan.releases[0].diameter *= 2f64.cbrt();
@@ -226,7 +227,7 @@ pub fn on_wall(across: f64, angle: f64) -> (DropletSph, Vec<f64>) {
     let cells = WallCells::Tiles { count: [1, 1], size: [10.0 * RADIUS, 1.0] };
     let plan = DropletPlan {
         mirrors: [true, false],
-        wall: Some(Wall { cells, contact_angle: angle, effusivity: None }),
+        wall: Some(Wall { cells, contact_angle: angle, effusivity: None, conductance: None }),
         ..plan(2, across, 1e-2)
     };
     upper_half(DropletSph::new(plan, 1))

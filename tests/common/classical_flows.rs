@@ -116,7 +116,12 @@ impl Setup {
             extents: self.extents,
             demand: None,
             releases: Vec::new(),
-            wall: self.cells.map(|cells| Wall { cells, contact_angle: 0.5 * PI, effusivity: None }),
+            wall: self.cells.map(|cells| Wall {
+                cells,
+                contact_angle: 0.5 * PI,
+                effusivity: None,
+                conductance: None,
+            }),
         }
     }
 }

@@ -67,7 +67,7 @@ pub fn above_wall(
             velocity: [0.0, 0.0, -speed],
             temperature,
         }],
-        wall: Some(Wall { cells, contact_angle: 0.5 * PI, effusivity: None }),
+        wall: Some(Wall { cells, contact_angle: 0.5 * PI, effusivity: None, conductance: None }),
         ..open_space(spacing, fluid)
     }
 }

@@ -1,6 +1,14 @@
 //! Drops of many fluids on plates of many materials: temperatures of contact, and none beyond those at first.
 
+use std::f64::consts::PI;
+
 use crate::common::{Trial, off};
+use crate::falling_drop::open_space;
+use impinge::closed_form::{Conductor, Contact, ResistiveContact};
+use impinge::laws::Viscosity;
+use impinge::method::sph::{DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Release, Wall};
+use impinge::port::WallCells;
+use impinge::runtime::allowance::Allowance;
 
 /// Density, specific heat, conductivity, surface tension, viscosity in SI units.
 const FLUIDS: [(&str, [f64; 5]); 8] = [
@@ -107,6 +115,15 @@ const DISC: &str = "disc = { radius = 2e-4, thickness = 2e-4 }";
 
 /// Runs a pair and holds its temperatures and its heat; that of the centre at the end.
 fn run(name: &str, text: &str, beyond: f64) -> f64 {
+    run_of(name, text, beyond).get("centre.temperature")
+}
+
+/// The heat of a pair that is run as above [J].
+fn heat_of_run(name: &str, text: &str, beyond: f64) -> f64 {
+    run_of(name, text, beyond).get("drop.heat")
+}
+
+fn run_of(name: &str, text: &str, beyond: f64) -> Trial {
     let mut trial = Trial::new(text);
     let room = beyond * (HOT - COLD);
     for _ in 0..STEPS {
@@ -121,7 +138,7 @@ fn run(name: &str, text: &str, beyond: f64) -> f64 {
     let [given, taken] = ["drop.heat", "plate.heat_in"].map(|total| trial.get(total));
     assert!(given > 0.0 && off(taken, given) < 1e-12, "{name}: {given} J, {taken} J");
     assert!(off(-trial.get("drop.heat_stored"), given) < 1e-6, "{name}");
-    trial.get("centre.temperature")
+    trial
 }
 
 /// Linear and quadratic elements take turns, so that every fluid and every solid meets both.
@@ -223,4 +240,146 @@ fn take_turns(symmetry: &str, is_compared: bool) {
         let [given, taken] = [drop.get("drop.heat"), plate.get("plate.heat_in")];
         assert!(off(taken, given) < 1e-3, "{fluid_name} on {solid_name}: {given} J, {taken} J");
     }
+}
+
+/// A layer of fluid at rest on a wall, periodic along it, which cools through a resistance.
+struct Layer {
+    drop: DropletSph,
+    state: Vec<f64>,
+    area: f64,
+}
+
+const WATER: Conductor = Conductor { conductivity: 0.6, heat_capacity: 4e6 };
+
+impl Layer {
+    fn of(spacing: f64, rows: usize, effusivity: Option<f64>, conductance: Option<f64>) -> Self {
+        const SIDE: usize = 6;
+        let period = SIDE as f64 * spacing;
+        let fluid = Fluid {
+            density: 1000.0,
+            viscosity: Viscosity::Constant(3e-4),
+            specific_heat: 4000.0,
+            conductivity: 0.6,
+            surface_tension: 0.0,
+            sound_speed: 50.0,
+        };
+        let never = Release {
+            time: 1e9,
+            centre: [0.0; 3],
+            diameter: 0.0,
+            velocity: [0.0; 3],
+            temperature: HOT,
+        };
+        let cells = WallCells::Tiles { count: [1, 1], size: [4.0 * period; 2] };
+        let plan = DropletPlan {
+            extents: [Extent::Periodic(period), Extent::Periodic(period), Extent::Open],
+            releases: vec![never],
+            wall: Some(Wall { cells, contact_angle: 1.5, effusivity, conductance }),
+            ..open_space(spacing, fluid)
+        };
+        let mut particles = ParticleFields::default();
+        for n in 0..SIDE * SIDE * rows {
+            let place = [n % SIDE, n / SIDE % SIDE, n / (SIDE * SIDE)];
+            particles.position.push(place.map(|i| (i as f64 + 0.5) * spacing));
+            particles.velocity.push([0.0; 3]);
+            particles.mass.push(1000.0 * spacing.powi(3));
+            particles.density.push(1000.0);
+            particles.temperature.push(HOT);
+        }
+        let drop = DropletSph::new(plan, 1);
+        let state = drop.state_of(&particles);
+        Self { drop, state, area: period * period }
+    }
+
+    /// Heat given to a half space in a time [J/m²].
+    fn advance(&mut self, duration: f64) -> f64 {
+        let none = Allowance::default();
+        let exchange =
+            self.drop.advance_on_half_space(&mut self.state, COLD, duration, &none).unwrap();
+        exchange.heat[0] / self.area
+    }
+}
+
+/// Largest error of the heat, at any of the times and spacings.
+const RESISTED: f64 = 0.01;
+
+/// Two half spaces, over three decades of time and of Biot numbers hΔx/k and more, on particles from ten times as wide
+/// as the thermal layer to an eighth of it. The first times are shorter than a step of the coarser ones.
+#[test]
+fn layers_cool_through_a_resistance() {
+    let time: f64 = 3.5e-6;
+    let deep = (PI * WATER.diffusivity() * time).sqrt();
+    for wall in [None, Some(6000.0), Some(500.0), Some(100.0)] {
+        let second = Conductor { conductivity: 1.0, heat_capacity: wall.map_or(1e30, |e| e * e) };
+        let bodies =
+            Contact { first: WATER, first_temperature: HOT, second, second_temperature: COLD };
+        for fineness in [0.1, 0.5, 2.0, 8.0] {
+            let spacing = deep / fineness;
+            for resisting in [0.03, 0.3, 1.0, 3.0, 30.0, 1e3] {
+                let conductance = resisting * WATER.effusivity() / time.sqrt();
+                let rows = (6.0 * fineness).ceil().max(6.0) as usize;
+                let mut layer = Layer::of(spacing, rows, wall, Some(conductance));
+                let exact = ResistiveContact { bodies, conductance };
+                let (mut heat, mut now) = (0.0, 0.0);
+                let mut error = |next: f64| {
+                    heat += layer.advance(next - now);
+                    now = next;
+                    heat / exact.heat(now) - 1.0
+                };
+                let errors = [1e-3, 1e-2, 0.1, 1.0].map(|part| error(part * time));
+                let biot = conductance * spacing / WATER.conductivity;
+                println!(
+                    "Bi {biot:.2e}, {fineness} particles, e {wall:?}, {resisting}: {errors:.4?}"
+                );
+                let largest = errors.iter().fold(0.0, |most: f64, error| most.max(error.abs()));
+                assert!(largest < RESISTED, "Bi {biot}, {fineness}, {wall:?}: {errors:?}");
+            }
+        }
+    }
+}
+
+/// Heat of drops on plates: balanced, between the initial temperatures, in proportion to a small conductance, and that
+/// of perfect contact through a large one.
+#[test]
+fn drops_transfer_heat_through_a_resistance() {
+    for ((fluid_name, fluid), (solid_name, solid)) in [
+        (FLUIDS[3], SOLIDS[1]),
+        (FLUIDS[1], SOLIDS[3]),
+        (FLUIDS[0], SOLIDS[5]),
+        (FLUIDS[4], SOLIDS[0]),
+    ] {
+        let perfect = scene(fluid, solid, DISC, "fem", 1);
+        let heat = |conductance: Option<f64>| {
+            let key = conductance.map_or(String::new(), |h| format!("conductance = {h:e}\n"));
+            let text = perfect.replace("traction = false\n", &format!("traction = false\n{key}"));
+            let name = format!("{fluid_name} on {solid_name}, {conductance:?}");
+            heat_of_run(&name, &text, BEYOND[0])
+        };
+        let [least, twice, some, much, most] = [1.0, 2.0, 1e5, 1e7, 1e14].map(|h| heat(Some(h)));
+        let all = heat(None);
+        let name = format!("{fluid_name} on {solid_name}");
+        println!("{name}: {least:e} {twice:e} {some:e} {much:e} {most:e} {all:e}");
+        assert!(off(twice, 2.0 * least) < 1e-3, "{name}: {least} J, {twice} J");
+        assert!([twice, some, much, most].is_sorted(), "{name}: {some} J, {much} J, {most} J");
+        assert!(off(most, all) < 0.03, "{name}: {most} J, {all} J");
+    }
+}
+
+/// The key of a wall acts as that of a coupling does.
+#[test]
+fn walls_of_prescribed_temperature_resist_too() {
+    let ((_, fluid), (_, solid)) = (FLUIDS[3], SOLIDS[1]);
+    let [text, _] = halves(&scene(fluid, solid, DISC, "fem", 1), 1.0);
+    let held = text.replace("effusivity = 1.0\n", "");
+    let heat = |key: &str| {
+        let mut trial = Trial::new(&held.replace("[[wall]]\n", &format!("[[wall]]\n{key}")));
+        (0..STEPS).for_each(|_| trial.step(STOP / STEPS as f64));
+        let [given, lost] = ["drop.heat", "drop.heat_stored"].map(|total| trial.get(total));
+        assert!(given > 0.0 && off(-lost, given) < 1e-6, "{key}: {given} J, {lost} J");
+        given
+    };
+    let [all, most] = ["", "conductance = 1e14\n"].map(heat);
+    let [least, twice] = ["conductance = 1.0\n", "conductance = 2.0\n"].map(heat);
+    assert!(off(most, all) < 0.01, "{most} J, {all} J");
+    assert!(off(twice, 2.0 * least) < 1e-4 && twice < 1e-3 * all, "{least} J, {twice} J");
 }

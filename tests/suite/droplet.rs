@@ -233,7 +233,7 @@ fn contact_heat(spacing: f64) -> f64 {
     plan.fluid.sound_speed = 5.0;
     plan.fluid.viscosity = 1e-2.into();
     let cells = WallCells::Tiles { count: [1, 1], size: [1e-3, 1e-3] };
-    plan.wall = Some(Wall { cells, contact_angle: 0.5 * PI, effusivity: None });
+    plan.wall = Some(Wall { cells, contact_angle: 0.5 * PI, effusivity: None, conductance: None });
     plan.extents = [Extent::Closed(0.5 * width), Extent::Closed(0.5 * width), Extent::Open];
     let drop = DropletSph::new(plan, 1);
     let mut block = ParticleFields::default();

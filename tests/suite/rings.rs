@@ -280,7 +280,12 @@ fn an_even_film_of_rings_gives_as_much_to_every_cell() {
         let cells = WallCells::Rings { count, radius: count as f64 * width * spacing };
         let areas = cells.areas(Domain::whole(3));
         let mut plan = plan.clone();
-        plan.wall = Some(Wall { cells, contact_angle: 0.5 * PI, effusivity: Some(6000.0) });
+        plan.wall = Some(Wall {
+            cells,
+            contact_angle: 0.5 * PI,
+            effusivity: Some(6000.0),
+            conductance: None,
+        });
         let drop = DropletSph::new(plan, 1);
         let mut film = ParticleFields::default();
         for k in 0..4 {

@@ -57,7 +57,7 @@ fn film_plan(cells: WallCells, effusivity: Option<f64>, mirrors: [bool; 2]) -> D
             velocity: [0.0; 3],
             temperature: HOT,
         }],
-        wall: Some(Wall { cells, contact_angle: 0.5 * PI, effusivity }),
+        wall: Some(Wall { cells, contact_angle: 0.5 * PI, effusivity, conductance: None }),
     }
 }
 

@@ -76,7 +76,12 @@ impl Layer {
             extents: [Extent::Periodic(period), Extent::Periodic(period), Extent::Open],
             // Without droplets there is no temperature before contact.
             releases: if case.thin { vec![at_no_time] } else { Vec::new() },
-            wall: Some(Wall { cells, contact_angle: 0.5 * PI, effusivity: case.effusivity }),
+            wall: Some(Wall {
+                cells,
+                contact_angle: 0.5 * PI,
+                effusivity: case.effusivity,
+                conductance: None,
+            }),
             ..open_space(spacing, WATER)
         };
         let mut particles = ParticleFields::default();

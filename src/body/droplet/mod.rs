@@ -134,7 +134,10 @@ impl DropletBody {
         };
         let effusivity = wall.and_then(|wall| scene.wall[wall].effusivity);
         let cells = on.map(|(cells, _)| cells).or(wall_cells);
-        let plan = plan_of(droplet, cells, effusivity);
+        let mut plan = plan_of(droplet, cells, effusivity);
+        if let Some(wall) = &mut plan.wall {
+            wall.conductance = scene.conductance_below(name);
+        }
         let (particles, _) = DropletSph::forecast(&plan);
         let threads = threads(is_large(particles));
         let sph = DropletSph::new(plan, threads);

@@ -47,6 +47,7 @@ pub fn plan_of(
             cells,
             contact_angle: fluid.contact_angle,
             effusivity,
+            conductance: None,
         }),
     };
     match droplet.viscous {

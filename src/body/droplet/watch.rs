@@ -101,6 +101,12 @@ pub fn note(scene: &Scene, (name, fluid): (&str, &Fluid)) -> String {
             "{general}: a step warns once where fluid passes `freezes_at` or `boils_at`"
         );
     };
+    if let Some(conductance) = scene.conductance_below(name) {
+        return format!(
+            "{general}; in contact with `{below}` at {below_temperature} K through {conductance} W/(m² K) its surface is \
+             predicted to reach {temperature:.1} K by the stop time, as half spaces do"
+        );
+    }
     format!(
         "{general}; in contact with `{below}` at {below_temperature} K the fluid is predicted to be at \
          {temperature:.1} K, (e₁T₁ + e₂T₂)/(e₁ + e₂) of effusivities e"

@@ -30,14 +30,14 @@ pub struct ContactLaw {
 }
 
 /// θ beyond which the deficit decays towards 1 as in a layer of uniform temperature.
-const THICK: f64 = 0.95;
+pub const THICK: f64 = 0.95;
 /// Number of entries of the table.
 const PLACES: usize = 96;
 /// Number of layers of the lattice; its diffusion steps relative to the elapsed time, and their
 /// bounds.
 const LAYERS: usize = 64;
 const SHARE: f64 = 0.02;
-const SHORTEST: f64 = 1e-5;
+pub const SHORTEST: f64 = 1e-5;
 const LONGEST: f64 = 0.05;
 
 impl ContactLaw {
@@ -102,7 +102,7 @@ impl ContactLaw {
 
 /// Rates `2 Σ V (−F)`, over κ/Δx², at which a layer of a lattice approaches the temperature of the
 /// layer 1, 2, … layers away.
-fn couplings(kernel: Kernel, support: f64, dimension: usize) -> Vec<f64> {
+pub fn couplings(kernel: Kernel, support: f64, dimension: usize) -> Vec<f64> {
     let reach = support.ceil() as i64;
     let rows = if dimension == 3 { -reach..=reach } else { 0..=0 };
     let of_layer = |layer: i64| {
@@ -119,13 +119,29 @@ fn couplings(kernel: Kernel, support: f64, dimension: usize) -> Vec<f64> {
 /// Pairs of the lowest layer's θ and the flux over k (T∞ − T_w)/Δx over time, until slightly beyond
 /// [`THICK`].
 fn exact_flux(couplings: &[f64]) -> Vec<[f64; 2]> {
-    let moments = couplings.iter().enumerate().map(|(n, c)| ((n + 1) * (n + 1)) as f64 * c);
-    // Conductivity of the lattice over the nominal one: 1 but for the kernel's error.
-    let effusivity = moments.sum::<f64>().sqrt();
+    let effusivity = effusivity(couplings);
     let heat = |time: f64| 2.0 * effusivity * (time / PI).sqrt();
+    let flux = |time: f64| effusivity / (PI * time).sqrt();
+    deficits_under(couplings, (heat, flux), f64::INFINITY)
+}
+
+/// Effusivity of a lattice over the fluid's. The square is its conductivity over the nominal one: 1
+/// but for the kernel's error.
+pub fn effusivity(couplings: &[f64]) -> f64 {
+    let moments = couplings.iter().enumerate().map(|(n, c)| ((n + 1) * (n + 1)) as f64 * c);
+    moments.sum::<f64>().sqrt()
+}
+
+/// Pairs of the lowest layer's θ and the flux over time, until slightly beyond [`THICK`] or
+/// `longest`. `heat` is the integral of the flux.
+pub fn deficits_under(
+    couplings: &[f64],
+    (heat, flux): (impl Fn(f64) -> f64, impl Fn(f64) -> f64),
+    longest: f64,
+) -> Vec<[f64; 2]> {
     let (mut lost, mut time) = (vec![0.0; LAYERS], 0.0);
     let mut curve: Vec<[f64; 2]> = Vec::new();
-    while curve.last().is_none_or(|&[deficit, _]| deficit < THICK) {
+    while time < longest && curve.last().is_none_or(|&[deficit, _]| deficit < THICK) {
         let step = (SHARE * time).clamp(SHORTEST, LONGEST);
         let rate = |layer: usize| {
             let from = |distance: usize, coupling: f64| {
@@ -140,7 +156,7 @@ fn exact_flux(couplings: &[f64]) -> Vec<[f64; 2]> {
         lost.iter_mut().zip(rates).for_each(|(lost, rate)| *lost += step * rate);
         lost[0] += heat(time + step) - heat(time);
         time += step;
-        curve.push([lost[0], effusivity / (PI * time).sqrt()]);
+        curve.push([lost[0], flux(time)]);
     }
     curve
 }

@@ -119,7 +119,7 @@ mod tests {
             extents: [Extent::Open; 3],
             demand: None,
             releases: vec![release],
-            wall: Some(Wall { cells, contact_angle: 1.0, effusivity: None }),
+            wall: Some(Wall { cells, contact_angle: 1.0, effusivity: None, conductance: None }),
         };
         DropletSph::new(plan, 1)
     }

@@ -194,6 +194,9 @@ impl DropletSph {
         let cells = method.wall.as_ref();
         let mut points =
             cells.map(|cells| WallPoints::new(&method.points, cells, &surface, duration));
+        if let (Some(points), Some(heat)) = (&mut points, &method.wall_heat) {
+            points.resistance = heat.resistance_above(&surface);
+        }
         let end = ledger.time + duration;
         while ledger.time < end {
             let next =

@@ -33,6 +33,7 @@ mod placement;
 mod plan;
 mod pulls;
 mod requests;
+mod resistive_law;
 mod rings;
 mod shifting;
 mod smoothing;

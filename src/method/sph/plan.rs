@@ -176,4 +176,6 @@ pub struct Wall {
     /// `√(kρc)` of a solid below [W √s/(m² K)] whose surface responds after a step; `None` for a
     /// wall of prescribed temperature.
     pub effusivity: Option<f64>,
+    /// Conductance of the contact [W/(m² K)]; `None` for perfect contact.
+    pub conductance: Option<f64>,
 }

@@ -2,9 +2,11 @@
 
 use super::contact_law::ContactLaw;
 use super::plan::DropletPlan;
+use super::resistive_law::{Loss, Resistance, ResistiveLaw, Temperatures};
 use super::units::Units;
 use super::wall_points::{Point, Stencil, WallPoints};
 use crate::math::exponential;
+use crate::port::Surface;
 use crate::runtime::parallel::Team;
 
 /// Heights over Δx: a particle counts fully as at the wall below the first, and not at all above
@@ -15,13 +17,17 @@ const AT_WALL: [f64; 2] = [0.95, 1.05];
 /// particles stay above both.
 const COVERED: [f64; 2] = [0.25, 0.75];
 /// Number of passes that reconcile the law's relaxation with the wall temperature. Every pass keeps
-/// the latter between its value without flux and that of the fluid.
+/// the latter between its value without flux and that of the fluid. Through a resistance the
+/// temperature within it is reconciled, too.
 const PASSES: usize = 3;
+const RESISTIVE_PASSES: usize = 6;
 
 /// Constants of the heat of contact, from a plan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WallHeat {
     law: ContactLaw,
+    /// Law of a contact that resists.
+    resistive: Option<ResistiveLaw>,
     /// κ over c₀H, and Δx over H.
     conduction: f64,
     spacing: f64,
@@ -48,31 +54,62 @@ pub struct Touching {
     pub initial: f64,
 }
 
-/// Contribution of a point to a step: heat capacity times relaxation [J/K], and temperature of the
-/// fluid.
+/// Contribution of a point to a step: heat capacity times relaxation [J/K], temperature of the
+/// fluid, and the decrease of the flux, see [`Loss`].
 #[derive(Clone, Copy, Default)]
 struct Contact {
     conductance: f64,
     fluid: f64,
     relaxation: f64,
+    fall: f64,
+}
+
+/// Conductance of the fluid above a column [J/K], its product with the fluid's temperature, and the
+/// products of both with the decrease of the flux.
+#[derive(Clone, Copy, Default)]
+struct Above {
+    sum: f64,
+    drive: f64,
+    falling_sum: f64,
+    falling_drive: f64,
+}
+
+impl Above {
+    /// Adds a conductance of a contact.
+    fn add(&mut self, conductance: f64, Contact { fluid, fall, .. }: &Contact) {
+        self.sum += conductance;
+        self.drive += conductance * fluid;
+        self.falling_sum += fall * conductance;
+        self.falling_drive += fall * (conductance * fluid);
+    }
 }
 
 impl WallHeat {
     /// Constants of a plan; `None` without wall or heat. `area` is that of a point's square [m²].
     pub fn of(plan: &DropletPlan, units: &Units, area: f64) -> Option<Self> {
         let fluid = &plan.fluid;
-        if plan.wall.is_none() || fluid.conductivity <= 0.0 {
-            return None;
-        }
+        let wall = plan.wall.as_ref().filter(|_| fluid.conductivity > 0.0)?;
         let capacity = fluid.density * fluid.specific_heat;
+        let resistive = |conductance: f64| {
+            let biot = conductance * plan.spacing / fluid.conductivity;
+            let effusivity = (capacity * fluid.conductivity).sqrt();
+            let lattice = (plan.kernel, plan.support, plan.dimension);
+            ResistiveLaw::of(lattice, [biot, 1.0 / conductance, effusivity])
+        };
         Some(Self {
             law: ContactLaw::of(plan.kernel, plan.support, plan.dimension),
+            resistive: wall.conductance.map(resistive),
             conduction: fluid.conductivity / (capacity * units.speed * units.length),
             spacing: 1.0 / plan.support,
             layer: fluid.density * plan.spacing * area / units.mass(),
             capacity: fluid.specific_heat * units.mass(),
             unit_of_time: units.time(),
         })
+    }
+
+    /// The resistance of the contact above a surface; `None` for perfect contact.
+    pub fn resistance_above(&self, surface: &Surface) -> Option<Resistance> {
+        self.resistive.as_ref().map(|law| law.above(&surface.response))
     }
 
     /// Fraction of a particle, at a height over H, that is at the wall.
@@ -142,40 +179,46 @@ impl WallHeat {
         let free = |n: usize| {
             let column = &points.columns[n];
             let amplitudes = points.amplitudes[n * count..][..count].iter();
-            let decayed: f64 = amplitudes.zip(&weights).map(|(a, [decay, _])| a * decay).sum();
+            let decayed: f64 = amplitudes.zip(&weights).map(|(a, [decay, ..])| a * decay).sum();
             column.base + decayed + part * column.drift
         };
         let free: Vec<f64> = (0..points.columns.len()).map(free).collect();
-        // Rise of a column per heat, for a constant flux over the step [K/J].
+        // Rise of a column per heat, for a constant flux over the step [K/J]. A flux that falls
+        // raises it by another factor.
         let held = response.of_held_flux(seconds) / seconds;
+        let falling = match held > 0.0 {
+            true => response.of_falling_flux(seconds) / seconds / held,
+            false => 0.0,
+        };
         let answers: Vec<f64> = points.columns.iter().map(|column| held / column.area).collect();
         let mut walls = free.clone();
         let mut contacts = Vec::new();
-        // Conductance of the fluid above each column [J/K], and its product with the fluid's temperature.
-        let mut sums = vec![[0.0; 2]; walls.len()];
-        for _ in 0..PASSES {
-            contacts =
-                team.map(points.points.len(), |n| self.contact(&points.points[n], &walls, dt));
-            sums.fill([0.0; 2]);
+        let mut above = vec![Above::default(); walls.len()];
+        let passes = if points.resistance.is_some() { RESISTIVE_PASSES } else { PASSES };
+        for _ in 0..passes {
+            contacts = team.map(points.points.len(), |n| {
+                self.contact(&points.points[n], &walls, dt, points.resistance.as_ref())
+            });
+            above.fill(Above::default());
             for (point, contact) in points.points.iter().zip(&contacts) {
                 for &(column, part) in &point.below {
-                    let conductance = part * contact.conductance;
-                    let [sum, drive] = &mut sums[column as usize];
-                    *sum += conductance;
-                    *drive += conductance * contact.fluid;
+                    above[column as usize].add(part * contact.conductance, contact);
                 }
             }
-            for (n, [sum, drive]) in sums.iter().enumerate() {
+            for (n, above) in above.iter().enumerate() {
+                let drive = above.drive + falling * above.falling_drive;
+                let sum = above.sum + falling * above.falling_sum;
                 walls[n] = (free[n] + answers[n] * drive) / (1.0 + answers[n] * sum);
             }
         }
-        for (n, (column, [sum, drive])) in points.columns.iter_mut().zip(&sums).enumerate() {
-            let heat = drive - sum * walls[n];
+        for (n, (column, above)) in points.columns.iter_mut().zip(&above).enumerate() {
+            let heat = above.drive - above.sum * walls[n];
             column.heat += heat;
             let rate = heat / column.area;
+            let fall = (above.falling_drive - above.falling_sum * walls[n]) / column.area;
             let amplitudes = points.amplitudes[n * count..][..count].iter_mut().zip(&weights);
-            for ((amplitude, [decay, mean]), gain) in amplitudes.zip(&response.gains) {
-                *amplitude = decay * *amplitude + mean * gain * rate;
+            for ((amplitude, [decay, mean, falling]), gain) in amplitudes.zip(&response.gains) {
+                *amplitude = decay * *amplitude + mean * gain * rate + falling * gain * fall;
             }
         }
         for (point, contact) in points.points.iter_mut().zip(contacts) {
@@ -192,7 +235,13 @@ impl WallHeat {
     }
 
     /// Heat exchange of the fluid at a point with the columns below, at their given temperatures.
-    fn contact(&self, point: &Point, walls: &[f64], dt: f64) -> Contact {
+    fn contact(
+        &self,
+        point: &Point,
+        walls: &[f64],
+        dt: f64,
+        resistance: Option<&Resistance>,
+    ) -> Contact {
         let [bare, covered] = COVERED;
         let layers = point.mass / (self.layer * point.extent);
         if layers <= bare {
@@ -206,9 +255,15 @@ impl WallHeat {
         let wall = wall_below(point, walls);
         // Where drops of unequal temperature meet, the mean of the fluid at the point counts.
         let before = point.initial_sum / point.mass;
-        let deficit = (before - fluid) / (before - wall);
-        let relaxation = self.law.relaxation(Some(deficit).filter(|d| d.is_finite()), diffusion);
-        Contact { conductance: self.capacity * point.mass * relaxation, fluid, relaxation }
+        let Loss { part: relaxation, fall } = if let Some(resistance) = resistance {
+            let at = Temperatures { before, fluid, wall };
+            resistance.loss(at, diffusion, thickness / self.spacing)
+        } else {
+            let deficit = (before - fluid) / (before - wall);
+            let deficit = Some(deficit).filter(|d| d.is_finite());
+            Loss { part: self.law.relaxation(deficit, diffusion), fall: 0.0 }
+        };
+        Contact { conductance: self.capacity * point.mass * relaxation, fluid, relaxation, fall }
     }
 }
 
@@ -226,11 +281,12 @@ fn covered(point: &Point) -> f64 {
     point.below.iter().chain(&point.beyond).map(|&(_, part)| part).sum()
 }
 
-/// φ₀ and φ₁ for each rate.
-fn weights(rates: &[f64], seconds: f64) -> Vec<[f64; 2]> {
-    let both = |rate: &f64| {
-        let [decay, mean, ..] = exponential::weights(rate * seconds);
-        [decay, mean]
+/// φ₀, φ₁ and φ₁ − 2φ₂ for each rate: of the past, of a constant flux and of one that falls from 1 to
+/// −1.
+fn weights(rates: &[f64], seconds: f64) -> Vec<[f64; 3]> {
+    let of_rate = |rate: &f64| {
+        let [decay, mean, growing, ..] = exponential::weights(rate * seconds);
+        [decay, mean, mean - 2.0 * growing]
     };
-    rates.iter().map(both).collect()
+    rates.iter().map(of_rate).collect()
 }

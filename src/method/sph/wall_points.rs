@@ -9,6 +9,7 @@ use std::f64::consts::TAU;
 
 use super::images::copies;
 use super::plan::{DropletPlan, Extent};
+use super::resistive_law::Resistance;
 use crate::port::Cover;
 use crate::port::{CellHeat, Surface};
 use crate::port::{Domain, WallCells, WallExchange};
@@ -110,6 +111,8 @@ pub struct WallPoints<'a> {
     /// Time since the beginning of the step, and its length [s].
     pub time: f64,
     pub duration: f64,
+    /// Thermal resistance of the contact; `None` for perfect contact.
+    pub resistance: Option<Resistance>,
 }
 
 impl PointLattice {
@@ -224,6 +227,7 @@ impl<'a> WallPoints<'a> {
             heat_beyond: 0.0,
             time: 0.0,
             duration,
+            resistance: None,
         }
     }
 

@@ -27,16 +27,15 @@ fn check_droplet(checker: &mut Checker, path: &Path, i: usize, coupling: &Coupli
     let droplet = checker.droplet(&path.at("from"), &coupling.from);
     let face = checker.face(&path.at("to"), &coupling.to, |_| vec![FaceName::Top]);
     alone(checker, path, i, coupling);
-    if coupling.conductance.is_some() {
-        let message = "a droplet touches a solid without resistance";
-        checker.refuse(&path.at("conductance"), message, "no `conductance` for a droplet");
-    }
     if let Some((_, solid)) = face {
         free_face(checker, &path.at("to"), coupling, solid);
         if is_in_contact(checker, i, &coupling.to) {
             let message = format!("`{}` touches another solid", coupling.to);
             checker.refuse(&path.at("to"), message, "a face without another coupling");
         }
+    }
+    if let Some(droplet) = droplet.filter(|_| coupling.conductance.is_some()) {
+        resists(checker, &path.at("conductance"), droplet);
     }
     if let (Some(droplet), Some((_, solid))) = (droplet, face) {
         fit(checker, &path.at("from"), droplet, &solid.shape);
@@ -141,6 +140,16 @@ fn on_reservoir(checker: &mut Checker, path: &Path, place: &str, face: FaceName)
 fn is_in_contact(checker: &Checker, i: usize, place: &str) -> bool {
     let contacts = checker.scene.coupling[..i].iter().filter(|other| other.lower().is_some());
     contacts.into_iter().any(|other| other.from == *place || other.to == *place)
+}
+
+/// Checks that the heat of a droplet can pass a resistance.
+pub fn resists(checker: &mut Checker, path: &Path, droplet: &Droplet) {
+    let message = "recorded drops and films touch what lies below without resistance";
+    let allowed = "no `conductance`, or method = \"sph\"";
+    checker.require(!droplet.is_replayed(), path, message, allowed);
+    let message = "the fluid conducts no heat that the contact could resist";
+    let allowed = "no `conductance`, or a `conductivity` of the fluid above 0";
+    checker.require(droplet.fluid.conductivity > 0.0, path, message, allowed);
 }
 
 /// Refuses a second partner below a droplet.

@@ -1,5 +1,6 @@
 //! Checks that walls lie below droplets and have suitable cells.
 
+use super::coupling::resists;
 use super::{Checker, start};
 use crate::scene::droplet::Droplet;
 use crate::scene::locate::Path;
@@ -17,6 +18,9 @@ pub fn check(checker: &mut Checker) {
         if let Some(first) = checker.scene.wall_under(&wall.under).filter(|&first| first != i) {
             let message = format!("`{}` has wall[{first}] below it already", wall.under);
             checker.refuse(&path.at("under"), message, "one wall a droplet");
+        }
+        if wall.conductance.is_some() {
+            resists(checker, &path.at("conductance"), droplet);
         }
         if has_cells {
             fit(checker, &path.at("footprint"), &wall.footprint, droplet);

@@ -43,7 +43,7 @@ fn plan() -> DropletPlan {
 
 fn wall() -> Option<Wall> {
     let cells = WallCells::Tiles { count: [1, 1], size: [1e-3; 2] };
-    Some(Wall { cells, contact_angle: 1.0, effusivity: None })
+    Some(Wall { cells, contact_angle: 1.0, effusivity: None, conductance: None })
 }
 
 /// Numbers in [0, 1) without order.
