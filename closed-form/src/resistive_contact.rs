@@ -83,7 +83,7 @@ mod tests {
     fn heat_is_the_integral_of_the_flux() {
         for conductance in [1e2, 1e4, 1e6] {
             let contact = contact(conductance);
-            for t in [1e-3, 1.0, 100.0] {
+            for t in [1e-3_f64, 1.0, 100.0] {
                 // Over the root of time the flux has no singularity of its slope.
                 let flux = |root: f64| 2.0 * root * contact.flux(root * root);
                 let integral = integrate(flux, &[0.0, t.sqrt()]);

@@ -168,7 +168,10 @@ impl Resistance {
         };
         let [lost, flux] = found(part);
         // At first contact the flux falls like 1/√t, from which the line differs.
-        let fallen = (1.0 - flux * diffusion / lost).max(0.0).min(0.5);
+        let fallen = match lost > 0.0 {
+            true => (1.0 - flux * diffusion / lost).clamp(0.0, 0.5),
+            false => 0.0,
+        };
         Loss { part: lost, fall: fallen * (1.0 + SINGULAR * fallen) }
     }
 
