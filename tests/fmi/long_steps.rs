@@ -31,6 +31,7 @@ fn a_step_that_would_take_a_droplet_for_ever_is_discarded() {
     }
     // What makes a droplet's own steps as short as that does so too.
     let text = WALL.replace("viscosity = 1e-3", "viscosity = 1e6");
+    let text = text.replace("kind = \"droplet\"", "kind = \"droplet\"\nviscous = \"explicit\"");
     let unit = started(&text);
     discarded(&unit, 1e-5, &[WORDS[0], WORDS[1], "drop: "]);
 }

@@ -386,7 +386,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
             records: &records,
             densities: &cloud.density,
             normalisation: method.normalisation,
-            viscosity: method.pair_viscosity(),
+            viscosity: method.pair_viscosity,
         };
         let memory = std::mem::take(&mut self.accelerations);
         let acceleration = self.over_pairs(&pass, memory);
