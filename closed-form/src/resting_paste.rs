@@ -1,6 +1,6 @@
 //! Shapes in which a thin layer of a yield-stress fluid comes to rest on a horizontal plate.
 //!
-//! Where a spreading layer stops, the pressure gradient bears the yield stress at the plate, `ρg h |dh/dr| = τ₀`. At
+//! A spreading layer stops where the yield stress at the plate balances the pressure gradient, `ρg h |dh/dr| = τ₀`. At
 //! the distance d from the edge the thickness is `h = √(2τ₀d/(ρg))`, whence, from their volumes,
 //!
 //! - drop of the volume V [m³]: `R = (225 ρg V²/(128 π² τ₀))^{1/5}`;

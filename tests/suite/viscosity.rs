@@ -1,4 +1,4 @@
-//! Laws of viscosity in scenes: their forms and parameters, and what stays as it is with a plain number.
+//! Laws of viscosity in scenes: their forms and parameters, and results that equal those of a plain number.
 
 use impinge::advice;
 use impinge::laws::{Table, Viscosity};
@@ -122,4 +122,31 @@ fn fluid_beyond_the_table_of_its_viscosity_warns_before_and_during_a_run() {
     let cold = || over_temperature([start + 10.0, 1000.0], [1.1e-3, 1e-3]);
     assert_eq!(said(&cold()).len(), 1);
     assert!(steps(cold())[0].contains(&format!("beyond the {} K", start + 10.0)));
+}
+
+/// A small drop of fluid that thins by five decades as it meets a hot wall.
+#[test]
+fn fluid_that_thins_in_heat_stays_incompressible() {
+    let text = r#"
+name = "Thinning"
+stop_time = 5e-6
+step = 1e-6
+[body.drop]
+kind = "droplet"
+diameter = 2e-4
+impact_velocity = 1.0
+initial_temperature = 300.0
+spacing = 1e-5
+fluid = { density = 1000.0, viscosity = { temperature = [300.0, 400.0], value = [100.0, 1e-3] }, specific_heat = 2000.0, conductivity = 100.0, surface_tension = 0.03 }
+[[wall]]
+name = "wall"
+under = "drop"
+footprint = { rings = { count = 8, radius = 5e-4 } }
+start = { temperature = 420.0 }
+"#;
+    let scene = parse(text, "scene.toml").unwrap_or_else(|error| panic!("{error}"));
+    let mut trial = Trial::of(scene);
+    (0..5).for_each(|_| trial.step(1e-6));
+    let [low, high] = ["drop.min_density", "drop.max_density"].map(|name| trial.get(name) / 1000.0);
+    assert!(low > 0.95 && high < 1.05, "{low} {high}");
 }

@@ -37,6 +37,8 @@ pub struct Method {
     pub reference_stress: f64,
     /// True if viscosity is solved at the end of a step, see [`viscous`](super::viscous).
     pub implicit: bool,
+    /// True if no fluid may be thinner than the reference.
+    uniform: bool,
     /// Coefficient of viscosity in the sums over pairs, see
     /// [`Momentum`](super::momentum::Momentum); 0 where viscosity is implicit.
     pub pair_viscosity: f64,
@@ -101,6 +103,9 @@ impl Default for StepShares {
 const MOST_WAY: f64 = 0.05;
 /// `s λ/ω²` of sound over ν/c₀², see [`Method::damped`].
 const DAMPED_SOUND: f64 = 0.9;
+/// Fraction of the damping of sound by the viscosity of volume alone, which never falls below the reference:
+/// `1 + 2/3` of 3.
+const BY_VOLUME: f64 = 5.0 / 9.0;
 /// `s λ/ω²` of the shortest capillary wave over `µΛ/σ`, with its length Λ and the s of its undamped step.
 const DAMPED_TENSION: f64 = 0.0245;
 
@@ -161,6 +166,7 @@ impl Method {
             flow,
             reference_stress: viscosity * rate,
             implicit,
+            uniform: fluid.viscosity.constant().is_some(),
             pair_viscosity: match implicit {
                 true => 0.0,
                 false => pair_viscosity(plan, viscosity),
@@ -281,7 +287,8 @@ impl Method {
     /// `ω²Δt² < 4 + 2λΔt`. As sound is damped by `λ = 3ν k²`, `λ/ω² = 3ν/c²` for all wave numbers k.
     fn acoustic_step(&self, fastest: f64) -> f64 {
         let undamped = self.shares.courant / (1.0 + fastest);
-        self.damped(undamped, DAMPED_SOUND * self.viscosity)
+        let part = if self.uniform { 1.0 } else { BY_VOLUME };
+        self.damped(undamped, part * DAMPED_SOUND * self.viscosity)
     }
 
     /// Step that implicit viscosity allows in place of an undamped one, from the ratio `s λ/ω²` of a
@@ -293,11 +300,17 @@ impl Method {
         ratio + (ratio * ratio + undamped * undamped).sqrt()
     }
 
+    /// Same, for motion that shear viscosity damps: fluid may be thinner than the reference where that depends on
+    /// temperature or rate, so nothing is relied upon there.
+    fn damped_by_shear(&self, undamped: f64, ratio: f64) -> f64 {
+        if self.uniform { self.damped(undamped, ratio) } else { undamped }
+    }
+
     /// Limit of the time step at which no acceleration moves a particle by more than a fraction of
     /// H; implicit viscosity resists what differs between neighbours.
     fn forced_step(&self, most_accelerated: f64) -> f64 {
         let undamped = self.shares.forced / most_accelerated.sqrt();
-        self.damped(undamped, 0.5 * undamped * undamped * DAMPED_PARTICLE * self.viscosity)
+        self.damped_by_shear(undamped, 0.5 * undamped * undamped * DAMPED_PARTICLE * self.viscosity)
     }
 
     /// Diffusive limit of the time step; implicit viscosity reduces the diffusion instead.
@@ -316,8 +329,8 @@ impl Method {
         self.diffusion * (self.shares.diffusive * self.diffusive_step / dt).min(1.0)
     }
 
-    /// Viscous limit of the time step; that of implicit viscosity is its solver's. The sums of viscosity have no rate above twice their
-    /// diagonal, `(4d/m) ν`, with m the kernel's second moment. Accelerations use velocities
+    /// Viscous limit of the time step; that of implicit viscosity is its solver's. The sums of
+    /// viscosity have no rate above twice their diagonal, `(4d/m) ν`, with m the kernel's second moment. Accelerations use velocities
     /// predicted ahead, so nothing grows whose rate times the step is below 1.
     fn viscous_step(&self) -> f64 {
         if self.implicit {
@@ -332,7 +345,7 @@ impl Method {
         let Some(Setting { energy, .. }) = &self.surface else { return f64::INFINITY };
         let wave = energy.smoothing.reach;
         let undamped = self.shares.capillary * (wave.powi(3) / (16.0 * PI * self.tension)).sqrt();
-        self.damped(undamped, DAMPED_TENSION * self.viscosity * wave / self.tension)
+        self.damped_by_shear(undamped, DAMPED_TENSION * self.viscosity * wave / self.tension)
     }
 
     /// Number of steps between impulses of surface tension.

@@ -133,7 +133,9 @@ fn yielded_mass(method: &Method, cloud: &Cloud) -> f64 {
     let limit = AT_YIELD * method.flow.yield_stress();
     let stresses = cloud.stress.iter().flatten();
     let yields = |stress: &[f64; 6]| stress.iter().map(|s| s * s).sum::<f64>() >= limit * limit;
-    stresses.zip(&cloud.mass).filter(|(stress, _)| yields(stress)).map(|(_, mass)| mass).sum()
+    let yielding = stresses.zip(&cloud.mass).filter(|(stress, _)| yields(stress));
+    // A sum of no numbers is −0.
+    yielding.fold(0.0, |sum, (_, mass)| sum + mass)
 }
 
 /// Returns for each particle whether it belongs to the body of fluid.

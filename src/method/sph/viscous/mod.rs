@@ -72,8 +72,11 @@ pub fn advance(
     if !method.flow.is_newtonian() {
         return flow::advance(method, cloud, blocks, dt, team);
     }
-    let moduli =
-        team.map(cloud.len(), |i| Moduli::newtonian(method.flow.newtonian(cloud.temperature[i])));
+    let moduli = team.map(cloud.len(), |i| {
+        let viscosity = method.flow.newtonian(cloud.temperature[i]);
+        // Time steps rely on the damping of sound by the reference.
+        Moduli { volume: viscosity.max(method.viscosity), ..Moduli::newtonian(viscosity) }
+    });
     let system = System::of(method, cloud, blocks, dt, moduli, team);
     let velocity = cloud.velocity.as_flattened();
     let pairs = system.elongations(velocity);
