@@ -13,7 +13,7 @@ mod property;
 pub mod solid;
 
 pub use constants::Constants;
-pub use fluid::{Fluid, Viscosity};
+pub use fluid::{Fluid, Freezing, Frozen, Viscosity};
 pub use heat::{
     Conduction, ConductionError, Enthalpy, EnthalpyPoint, Melting, MeltingError,
     radiative_coefficient, radiative_flux, radiative_slope,

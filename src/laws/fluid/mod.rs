@@ -1,7 +1,9 @@
 //! Laws of fluids: the constants of a droplet's liquid, its viscosity, and the speeds that follow from them.
 
+mod frozen;
 pub mod viscosity;
 
+pub use frozen::Frozen;
 pub use viscosity::Viscosity;
 
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -9,6 +11,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::heat::Melting;
 use crate::limits::{plausible, temperature, within};
 
 /// A fluid that conducts heat.
@@ -46,7 +49,18 @@ pub struct Fluid {
         .otherwise("ten times the fastest flow or √(2σ/(ρΔx))")
         .condition("at least five times these"))]
     pub sound_speed: Option<f64>,
-    /// Freezing temperature, which the model ignores: a step below it warns [K].
+    /// Freezing and melting. Without it the fluid stays liquid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend(
+        "otherwise" = "none: the fluid stays liquid",
+        "condition" = "with `method = \"sph\"` and a `conductivity`; below `initial_temperature`"
+    ))]
+    pub melting: Option<Melting>,
+    /// Constants of the frozen fluid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("otherwise" = "those of the molten fluid", "condition" = "with `melting`"))]
+    pub frozen: Option<Frozen>,
+    /// Freezing temperature of a fluid without `melting`, which stays liquid: a step below it warns [K].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = temperature().plausible(&plausible::FREEZING)
         .otherwise("none: no warning")
@@ -59,10 +73,31 @@ pub struct Fluid {
     pub boils_at: Option<f64>,
 }
 
+/// Freezing of a fluid, with the constants of the frozen one.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Freezing {
+    pub melting: Melting,
+    /// Specific heat capacity of the frozen fluid [J/(kg K)].
+    pub specific_heat: f64,
+    /// Its thermal conductivity [W/(m K)].
+    pub conductivity: f64,
+}
+
 /// Pressure of a drop that viscosity stops, over µU/D.
 const VISCOUS_PRESSURE: f64 = 12.0;
 
 impl Fluid {
+    /// What becomes of the fluid where it freezes; `None` if it stays liquid.
+    pub fn freezing(&self) -> Option<Freezing> {
+        let frozen = self.frozen.unwrap_or_default();
+        self.melting.map(|melting| Freezing {
+            melting,
+            specific_heat: frozen.specific_heat.unwrap_or(self.specific_heat),
+            conductivity: frozen.conductivity.unwrap_or(self.conductivity),
+        })
+    }
+
     /// Thermal effusivity `e = √(k ρ c)` [W √s/(m² K)].
     pub fn effusivity(&self) -> f64 {
         (self.conductivity * self.density * self.specific_heat).sqrt()

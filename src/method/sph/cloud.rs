@@ -38,6 +38,9 @@ pub struct Cloud {
     pub moment: Vec<[f64; 6]>,
     /// Viscous stresses of the last step over ρ₀c₀², see [`viscous`](super::viscous); `None` for Newtonian fluids.
     pub stress: Option<Vec<[f64; 6]>>,
+    /// Heat contents, see [`Phases`](super::phases::Phases); `None` for fluids that stay liquid, whose contents are
+    /// their temperatures.
+    pub content: Option<Vec<f64>>,
 }
 
 /// Consecutive particles from number `first` on, which one thread may change; the fields are those
@@ -49,6 +52,7 @@ pub struct Part<'a> {
     pub mass: &'a [f64],
     pub density: &'a mut [f64],
     pub temperature: &'a mut [f64],
+    pub content: Option<&'a mut [f64]>,
     pub initial: &'a [f64],
     pub acceleration: &'a [[[f64; 3]; 2]],
     pub tension: &'a [[f64; 4]],
@@ -102,6 +106,8 @@ pub struct HeadNumbers {
     pub most: Option<usize>,
     /// True if the particles have viscous stresses.
     pub stressed: bool,
+    /// True if the particles have heat contents.
+    pub freezes: bool,
 }
 
 /// Numbers that a thread copies as one piece of work.
@@ -208,6 +214,9 @@ impl Fields for Cloud {
         ];
         let stress = of("stress", "viscous stress over ρc²", 6);
         fields.extend(self.stress.iter_mut().map(|list| (stress, list.as_flattened_mut())));
+        let content =
+            of("content", "heat content over the specific heat of the molten fluid [K]", 1);
+        fields.extend(self.content.iter_mut().map(|list| (content, &mut list[..])));
         fields
     }
 }
@@ -242,6 +251,11 @@ impl Cloud {
         self.mass[i] / (1.0 + self.density[i])
     }
 
+    /// Heat contents over the specific heat of the molten fluid, above the reference [K].
+    pub fn contents(&self) -> &[f64] {
+        self.content.as_ref().unwrap_or(&self.temperature)
+    }
+
     /// Splits the particles into parts of `size`; the last one holds the rest.
     pub fn parts(&mut self, size: usize) -> Vec<Part<'_>> {
         let count = self.len();
@@ -256,6 +270,7 @@ impl Cloud {
         let mut potential = self.potential.chunks(size);
         let mut gradient = self.gradient.chunks_mut(size);
         let mut moment = self.moment.chunks_mut(size);
+        let mut content = self.content.as_mut().map(|list| list.chunks_mut(size));
         let part = |first| {
             Some(Part {
                 first,
@@ -264,6 +279,7 @@ impl Cloud {
                 mass: mass.next()?,
                 density: density.next()?,
                 temperature: temperature.next()?,
+                content: content.as_mut().and_then(|chunks| chunks.next()),
                 initial: initial.next()?,
                 acceleration: acceleration.next()?,
                 tension: tension.next()?,
@@ -275,9 +291,9 @@ impl Cloud {
         (0..count).step_by(size).map_while(part).collect()
     }
 
-    /// No particles yet, with or without viscous stresses.
-    pub fn none(stressed: bool) -> Self {
-        Self { stress: stressed.then(Vec::new), ..Self::default() }
+    /// No particles yet.
+    pub fn none(head: HeadNumbers) -> Self {
+        Self::of(head, 0)
     }
 
     /// Appends a particle at rest density.
@@ -294,6 +310,7 @@ impl Cloud {
         self.gradient.push([0.0; 3]);
         self.moment.push([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]);
         self.stress.iter_mut().for_each(|list| list.push([0.0; 6]));
+        self.content.iter_mut().for_each(|list| list.push(temperature));
     }
 
     /// Reorders the particles.
@@ -311,6 +328,7 @@ impl Cloud {
         permute.apply(&mut self.gradient);
         permute.apply(&mut self.moment);
         self.stress.iter_mut().for_each(|list| permute.apply(list));
+        self.content.iter_mut().for_each(|list| permute.apply(list));
     }
 
     /// Allocates particles whose values are not yet set.
@@ -328,6 +346,7 @@ impl Cloud {
             gradient: vec![[0.0; 3]; count],
             moment: vec![[0.0; 6]; count],
             stress: head.stressed.then(|| vec![[0.0; 6]; count]),
+            content: head.freezes.then(|| vec![0.0; count]),
         }
     }
 }
@@ -398,7 +417,9 @@ mod tests {
 
     #[test]
     fn state_round_trip() {
-        let mut cloud = Cloud::none(true);
+        let head =
+            HeadNumbers { cells: 3, exponentials: 2, most: Some(2), stressed: true, freezes: true };
+        let mut cloud = Cloud::none(head);
         for i in 0..5 {
             let x = f64::from(i);
             cloud.push([x, 1.0 + x, 2.0], [3.0, 4.0, x], 0.1 * x, 300.0 + x);
@@ -408,6 +429,7 @@ mod tests {
             cloud.tension[last] = [7.0, x, 5.0, -x];
             cloud.potential[last] = 0.125 * x;
             cloud.stress.as_mut().unwrap()[last] = [x; 6];
+            cloud.content.as_mut().unwrap()[last] = 290.0 + x;
             cloud.gradient[last] = [0.5, x, 0.25];
             cloud.moment[last] = [x, 1.0, 2.0, 0.1, 0.2, 0.3];
         }
@@ -435,7 +457,6 @@ mod tests {
             creep: Some(0.5),
             ..Ledger::default()
         };
-        let head = HeadNumbers { cells: 3, exponentials: 2, most: Some(2), stressed: true };
         let team = Team::new(2);
         let mut state = vec![7.0; 3];
         flatten(&mut state, &mut ledger, &mut cloud, &team);

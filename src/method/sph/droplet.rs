@@ -101,6 +101,9 @@ impl DropletSph {
             cloud.density[i] = particles.density[i] / units.density - 1.0;
             // The particles' state equals that of the plan's fluid.
             cloud.initial[i] = 0.0;
+            if let (Some(phases), Some(content)) = (&self.method.phases, &mut cloud.content) {
+                content[i] = phases.content(cloud.temperature[i]);
+            }
         }
         let released = self.plan.releases.len() as f64;
         let mut ledger = Ledger { released, ..self.empty_ledger() };
@@ -294,19 +297,20 @@ impl DropletSph {
         (particles.round() as usize, step)
     }
 
-    /// Returns true if particles have viscous stresses.
-    fn is_stressed(&self) -> bool {
-        !self.method.flow.is_newtonian()
-    }
-
     fn no_particles(&self) -> Cloud {
-        Cloud::none(self.is_stressed())
+        Cloud::none(self.head())
     }
 
     fn head(&self) -> HeadNumbers {
         let cells = self.plan.wall.as_ref().map_or(0, |wall| wall.cells.len());
         let most = self.plan.demand.as_ref().map(|demand| demand.most);
-        HeadNumbers { cells, exponentials: self.below.len(), most, stressed: self.is_stressed() }
+        HeadNumbers {
+            cells,
+            exponentials: self.below.len(),
+            most,
+            stressed: !self.method.flow.is_newtonian(),
+            freezes: self.method.phases.is_some(),
+        }
     }
 
     fn empty_ledger(&self) -> Ledger {

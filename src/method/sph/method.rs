@@ -9,6 +9,7 @@ use super::free_surface::Setting;
 use super::images::Images;
 use super::loops::PairKind;
 use super::moment::{filled, renormalised};
+use super::phases::Phases;
 use super::plan::{DropletPlan, Viscous};
 use super::units::Units;
 use super::viscous::FlowCurves;
@@ -43,6 +44,8 @@ pub struct Method {
     /// [`Momentum`](super::momentum::Momentum); 0 where viscosity is implicit.
     pub pair_viscosity: f64,
     pub conduction: f64,
+    /// Phases of a fluid that freezes.
+    pub phases: Option<Phases>,
     pub diffusion: f64,
     /// True if density diffusion is corrected by renormalised gradients.
     pub corrects: bool,
@@ -172,6 +175,7 @@ impl Method {
                 false => pair_viscosity(plan, viscosity),
             },
             conduction: fluid.conductivity / (units.density * fluid.specific_heat * c * h),
+            phases: plan.phases(),
             diffusion: plan.density_diffusion,
             corrects: plan.corrected_diffusion && plan.density_diffusion > 0.0,
             tension,
@@ -215,7 +219,26 @@ impl Method {
             }
         }
         part.density[k] += dt * rate.density;
-        part.temperature[k] += dt * rate.temperature;
+        self.heat(part, k, dt * rate.temperature);
+    }
+
+    /// Heat potential of the k-th particle of a part, by which heat is conducted, over its conductivity [K].
+    pub fn potential(&self, part: &Part, k: usize) -> f64 {
+        match (&self.phases, &part.content) {
+            (Some(phases), Some(content)) => phases.potential(content[k]),
+            _ => part.temperature[k],
+        }
+    }
+
+    /// Changes the heat content of the k-th particle of a part.
+    pub fn heat(&self, part: &mut Part, k: usize, change: f64) {
+        match (&self.phases, &mut part.content) {
+            (Some(phases), Some(content)) => {
+                content[k] += change;
+                part.temperature[k] = phases.rise(content[k]);
+            }
+            _ => part.temperature[k] += change,
+        }
     }
 
     /// Point of the wall below a particle [m].
@@ -254,7 +277,7 @@ impl Method {
             advective,
             self.viscous_step(),
             self.diffusive_step(),
-            self.shares.conductive / self.conduction,
+            self.conductive_step(),
             self.forced_step(most_accelerated),
             self.capillary_step(),
         ]
@@ -311,6 +334,12 @@ impl Method {
     fn forced_step(&self, most_accelerated: f64) -> f64 {
         let undamped = self.shares.forced / most_accelerated.sqrt();
         self.damped_by_shear(undamped, 0.5 * undamped * undamped * DAMPED_PARTICLE * self.viscosity)
+    }
+
+    /// Conductive limit of the time step, for the phase of the larger diffusivity.
+    fn conductive_step(&self) -> f64 {
+        let fastest = self.phases.map_or(1.0, |phases| phases.fastest());
+        self.shares.conductive / (fastest * self.conduction)
     }
 
     /// Diffusive limit of the time step; implicit viscosity reduces the diffusion instead.

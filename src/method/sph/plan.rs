@@ -6,8 +6,10 @@ use serde::{Deserialize, Serialize};
 
 use super::images::copies;
 use super::method::Method;
+use super::phases::Phases;
 use crate::kernel::Kernel;
-use crate::laws::Viscosity;
+pub use crate::laws::Freezing;
+use crate::laws::{Melting, Viscosity};
 use crate::port::WallCells;
 pub use crate::scene::Placement;
 use crate::scene::Precision;
@@ -80,6 +82,9 @@ pub struct Fluid {
     /// Speed of sound c₀ of the model [m/s]: at least ten times the fastest flow keeps the density
     /// within 1 %.
     pub sound_speed: f64,
+    /// What the fluid is once frozen; `None` for a fluid that stays liquid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub freezing: Option<Freezing>,
 }
 
 /// Extent of a model along an axis: at least two support radii, if bounded.
@@ -136,6 +141,19 @@ impl DropletPlan {
     /// Number of axes in which particles are arranged: 3, or 2 (x and z).
     pub fn axes(&self) -> usize {
         if self.axisymmetric { 2 } else { self.dimension }
+    }
+
+    /// Phases of a fluid that freezes and conducts heat.
+    pub fn phases(&self) -> Option<Phases> {
+        let fluid = &self.fluid;
+        let frozen = fluid.freezing.filter(|_| fluid.conductivity > 0.0)?;
+        let Melting { solidus, liquidus, latent_heat } = frozen.melting;
+        Some(Phases {
+            melting: [solidus, liquidus].map(|point| point - self.reference_temperature()),
+            latent: latent_heat / fluid.specific_heat,
+            heat: frozen.specific_heat / fluid.specific_heat,
+            conduction: frozen.conductivity / fluid.conductivity,
+        })
     }
 
     /// Volume of a drop of a diameter [m³]; in a plane model [m²].

@@ -283,7 +283,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
             for (k, annex) in annexes.iter_mut().flat_map(|list| list.iter_mut()).enumerate() {
                 let [x, y, z] = part.gradient[k];
                 // First order in time, so that no temperature leaves the range of its neighbours.
-                *annex = [x, y, z, part.temperature[k]];
+                *annex = [x, y, z, method.potential(part, k)];
             }
         });
     }

@@ -99,7 +99,7 @@ pub fn totals(
         }
         totals.kinetic_energy += 0.5 * mass * speed * units.energy();
         totals.compression_energy += mass * compression_energy(cloud.density[i]) * units.energy();
-        totals.heat += mass * heat_unit * cloud.temperature[i];
+        totals.heat += mass * heat_unit * cloud.contents()[i];
         totals.max_speed = totals.max_speed.max(speed.sqrt() * units.speed);
         totals.max_pressure =
             totals.max_pressure.max(pressure(cloud.density[i]) * units.pressure());
@@ -110,7 +110,11 @@ pub fn totals(
         let temperature = cloud.temperature[i] + reference;
         totals.temperature_range = [low.min(temperature), high.max(temperature)];
     }
-    totals.mean_temperature = reference + totals.heat / (totals.mass * plan.fluid.specific_heat);
+    totals.mean_temperature = reference
+        + match cloud.content {
+            Some(_) => mean_by_mass(cloud, &cloud.temperature),
+            None => totals.heat / (totals.mass * plan.fluid.specific_heat),
+        };
     let body = body(plan, ledger, cloud);
     for (i, &in_body) in body.iter().enumerate() {
         if in_body {
@@ -126,6 +130,11 @@ pub fn totals(
         totals.spread_diameter = plan.spacing * spread_diameter(&places, Film::of(plan));
     }
     totals
+}
+
+fn mean_by_mass(cloud: &Cloud, values: &[f64]) -> f64 {
+    let sum: f64 = cloud.mass.iter().zip(values).map(|(mass, value)| mass * value).sum();
+    sum / cloud.mass.iter().sum::<f64>()
 }
 
 /// Mass over ρ₀H^d of particles at their yield stress.
