@@ -92,6 +92,7 @@ mod tests {
             conductivity: 0.6,
             surface_tension: 0.07,
             sound_speed: 100.0,
+            freezing: None,
         };
         let release = Release {
             time: 0.0,

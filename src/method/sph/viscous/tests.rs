@@ -18,6 +18,7 @@ fn plan() -> DropletPlan {
         conductivity: 0.0,
         surface_tension: 0.0,
         sound_speed: 100.0,
+        freezing: None,
     };
     DropletPlan {
         dimension: 3,
