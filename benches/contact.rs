@@ -97,6 +97,7 @@ fn main() {
         conductivity,
         surface_tension: 0.0,
         sound_speed: 50.0,
+        freezing: None,
     };
     let spacing = fineness * (PI * DIFFUSIVITY * TIME).sqrt();
     let (drop, mut particles, area) = layer(fluid, spacing, shear);

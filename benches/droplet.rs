@@ -22,6 +22,7 @@ fn plan(lean: bool, surface_tension: f64) -> DropletPlan {
         conductivity: if lean { 0.0 } else { 0.6 },
         surface_tension,
         sound_speed: SOUND,
+        freezing: None,
     };
     let release = Release {
         time: 0.0,

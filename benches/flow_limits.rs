@@ -191,6 +191,7 @@ impl Run {
                 conductivity: 0.0,
                 surface_tension: 0.0,
                 sound_speed: sound,
+                freezing: None,
             },
             placement: Placement::Lattice,
             precision: self.precision,

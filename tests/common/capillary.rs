@@ -36,6 +36,7 @@ pub fn plan(dimension: usize, across: f64, viscosity: f64) -> DropletPlan {
             conductivity: 0.0,
             surface_tension: TENSION,
             sound_speed: sound_speed(2.0 * RADIUS / across),
+            freezing: None,
         },
         placement: Placement::Lattice,
         precision: Precision::Single,

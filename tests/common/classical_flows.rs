@@ -97,6 +97,7 @@ impl Setup {
             conductivity: 0.0,
             surface_tension: 0.0,
             sound_speed: self.sound_speed,
+            freezing: None,
         };
         DropletPlan {
             dimension: 2,

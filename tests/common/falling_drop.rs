@@ -23,6 +23,7 @@ pub const WATER: Fluid = Fluid {
     conductivity: 0.6,
     surface_tension: 0.0,
     sound_speed: 500.0,
+    freezing: None,
 };
 
 /// Particles of a fluid in open space, as scenes have them, without any drop.

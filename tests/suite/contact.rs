@@ -262,6 +262,7 @@ impl Layer {
             conductivity: 0.6,
             surface_tension: 0.0,
             sound_speed: 50.0,
+            freezing: None,
         };
         let never = Release {
             time: 1e9,

@@ -104,6 +104,7 @@ fn ball(viscosity: f64) -> (DropletSph, ParticleFields) {
         conductivity: 0.0,
         surface_tension: 0.0,
         sound_speed: 10.0,
+        freezing: None,
     };
     let plan = DropletPlan {
         dimension: 3,

@@ -38,6 +38,7 @@ fn film_plan(cells: WallCells, effusivity: Option<f64>, mirrors: [bool; 2]) -> D
             conductivity: 0.6,
             surface_tension: 0.0,
             sound_speed: 5.0,
+            freezing: None,
         },
         placement: Placement::Lattice,
         precision: Precision::Single,
