@@ -50,7 +50,9 @@ fn contact(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Drople
     };
     let start = droplet.initial_temperature;
     let shown = format!("{temperature:.1}");
-    if droplet.fluid.freezes_at.is_some_and(|point| temperature < point && point <= start) {
+    let freezes =
+        droplet.fluid.freezing_point().filter(|_| reviewer.scene.freezing_of(name).is_none());
+    if freezes.is_some_and(|point| temperature < point && point <= start) {
         reviewer.warn(&path.key("freezes_at"), warning::freezes_on_contact(below, shown));
     } else if droplet.fluid.boils_at.is_some_and(|point| temperature > point && point >= start) {
         reviewer.warn(&path.key("boils_at"), warning::boils_on_contact(below, shown));

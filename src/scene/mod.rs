@@ -13,6 +13,7 @@ mod error;
 mod excerpt;
 mod file;
 mod footprint;
+mod freezing;
 mod grid;
 mod kinds;
 mod load;

@@ -172,7 +172,7 @@ fn of_peak(
 fn of_wall(scene: &Scene, wall: &Wall, list: &mut Vec<Variable>) {
     let body = place(scene, &wall.under);
     let is_plane = scene.body[&wall.under].is_plane();
-    let mean = "mean over the last step";
+    let mean = ", mean over the last step";
     let all = wall_quantities().iter().enumerate();
     for (quantity, kind) in all.filter(|(_, kind)| kind.is_offered(scene, wall)) {
         let Descriptor { key, words, quantity: measured, .. } = kind.descriptor;
@@ -181,7 +181,7 @@ fn of_wall(scene: &Scene, wall: &Wall, list: &mut Vec<Variable>) {
             let depth = depth(measured);
             let name = format!("{}.{key}", wall.name);
             let description =
-                format!("{words} into the wall beyond its cells{depth}, {}, {mean}", wall.name);
+                format!("{words} into the wall beyond its cells{depth}, {}{mean}", wall.name);
             let reading = Reading::Cell { quantity, cell: 0 };
             list.push(variable(name, description, measured, (body, reading)));
             continue;
@@ -189,7 +189,8 @@ fn of_wall(scene: &Scene, wall: &Wall, list: &mut Vec<Variable>) {
         let cells = cell_labels(wall.footprint.cells());
         for (cell, (label, place)) in cells.into_iter().enumerate() {
             let name = format!("{}.{key}{label}", wall.name);
-            let description = format!("{words}{place}, {}, {mean}", wall.name);
+            let mean = if kind.is_mean() { mean } else { "" };
+            let description = format!("{words}{place}, {}{mean}", wall.name);
             let reading = Reading::Cell { quantity, cell };
             list.push(variable(name, description, measured, (body, reading)));
         }

@@ -246,6 +246,7 @@ fn upper_half(drop: DropletSph) -> (DropletSph, Vec<f64>) {
         density: of(&whole.density),
         pressure: of(&whole.pressure),
         temperature: of(&whole.temperature),
+        solid_fraction: Vec::new(),
     });
     (drop, state)
 }

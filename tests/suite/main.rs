@@ -24,6 +24,7 @@ mod fine_meshes;
 mod flows;
 mod footprints;
 mod forecast;
+mod freezing;
 mod impact;
 mod impossible;
 mod joints;

@@ -20,7 +20,7 @@ const IMPACT: &str = include_str!("../scenes/impact.toml");
 /// stands there with a key that there is not, and keys that choose the section's type.
 type Section = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
-const SECTIONS: [Section; 31] = [
+const SECTIONS: [Section; 32] = [
     ("The whole", PLATE, "stop_time =", "zz = 1\nstop_time =", &[]),
     ("`fidelity`", PLATE, "level =", "zz = 1\nlevel =", &[]),
     ("`solver`", PLATE, "stop_time =", "solver = { zz = 1 }\nstop_time =", &[]),
@@ -88,6 +88,7 @@ const SECTIONS: [Section; 31] = [
     ),
     ("`[body.NAME]` of a droplet", DROP, "diameter =", "zz = 1\ndiameter =", &["kind"]),
     ("`fluid` of a droplet", DROP, "fluid = {", "fluid = { zz = 1,", &[]),
+    ("`frozen` of a fluid", DROP, "viscosity = 1e-3", "viscosity = 1e-3, frozen = { zz = 1 }", &[]),
     (
         "`arrhenius` of a viscosity",
         DROP,

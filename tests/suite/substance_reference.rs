@@ -24,13 +24,16 @@ const SOLID: [Column; 6] = [
     ("expansion", "expansion [1e-6/K]", 1e-6),
 ];
 
-const FLUID: [Column; 7] = [
+const FLUID: [Column; 10] = [
     ("density", "density [kg/m³]", 1.0),
     ("viscosity", "viscosity [Pa s]", 1.0),
     ("specific_heat", "specific heat [J/(kg K)]", 1.0),
     ("conductivity", "conductivity [W/(m K)]", 1.0),
     ("surface_tension", "surface tension [N/m]", 1.0),
     ("freezes_at", "freezes [K]", 1.0),
+    ("melting.latent_heat", "latent heat [kJ/kg]", 1e3),
+    ("frozen.specific_heat", "frozen: specific heat [J/(kg K)]", 1.0),
+    ("frozen.conductivity", "frozen: conductivity [W/(m K)]", 1.0),
     ("boils_at", "boils [K]", 1.0),
 ];
 
@@ -55,6 +58,14 @@ fn digits(value: f64, key: &str) -> String {
         number(value)
     } else {
         format!("{value:.3e}").parse::<f64>().unwrap().to_string()
+    }
+}
+
+/// The constant at a key, or at a key within a table.
+fn constant<'a>(sheet: &'a Sheet, key: &str) -> Option<&'a Value> {
+    match key.split_once('.') {
+        Some((table, key)) => sheet.constants.get(table)?.get(key),
+        None => sheet.constants.get(key),
     }
 }
 
@@ -89,9 +100,7 @@ fn table(
             format!("{} to {}", number(low), number(high)),
         ];
         cells.extend(columns.iter().map(|(key, _, unit)| {
-            sheet
-                .constants
-                .get(*key)
+            constant(&sheet, key)
                 .map_or(String::new(), |value| digits(at(value, shown) / unit, key))
         }));
         cells.extend(melts.then(|| melting(&sheet)));

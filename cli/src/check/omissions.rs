@@ -27,7 +27,9 @@ pub fn omissions(scene: &Scene, forecast: &Forecast) -> Vec<String> {
     }
     let droplets: Vec<_> = scene.droplets().collect();
     if !droplets.is_empty() {
-        list.push("freezing, boiling and evaporation of liquids, the air".to_owned());
+        let freezes = droplets.iter().all(|(name, _)| scene.freezing_of(name).is_some());
+        let freezing = if freezes { "shrinking of what freezes" } else { "freezing" };
+        list.push(format!("{freezing}, boiling and evaporation of liquids, the air"));
     }
     let heavy = |&(name, droplet): &(&str, &Droplet)| {
         let bond = bond(droplet);

@@ -23,6 +23,8 @@ pub struct DropInputs {
     why: String,
     /// The scene's droplet.
     droplet: Droplet,
+    /// Temperature above which drops are liquid, of a fluid that freezes [K].
+    liquidus: Option<f64>,
     /// A drop at the origin.
     at_origin: Release,
 }
@@ -67,6 +69,7 @@ impl DropInputs {
             reach,
             why,
             droplet: droplet.clone(),
+            liquidus: scene.freezing_of(name).map(|freezing| freezing.melting.liquidus),
             at_origin: super::plan::release_at(droplet, &Default::default()),
         })
     }
@@ -141,6 +144,14 @@ impl DropInputs {
         }
         if temperature <= 0.0 {
             return refuse(after_places + 1, format!("{temperature} K is not above absolute zero"));
+        }
+        if let Some(liquidus) = self.liquidus.filter(|&liquidus| temperature <= liquidus) {
+            let message = format!(
+                "a drop at {} K, where drops are liquid when released (allowed: above {} K)",
+                plain(temperature),
+                short(liquidus)
+            );
+            return refuse(after_places + 1, message);
         }
         Ok(())
     }

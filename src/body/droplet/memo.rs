@@ -11,6 +11,7 @@ use crate::port::WallExchange;
 pub struct DropletMemo {
     pub totals: Option<DropletTotals>,
     pub exchange: Option<WallExchange>,
+    pub frozen_on_wall: Option<Vec<f64>>,
 }
 
 impl DropletMemo {

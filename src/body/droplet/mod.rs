@@ -135,6 +135,7 @@ impl DropletBody {
         let effusivity = wall.and_then(|wall| scene.wall[wall].effusivity);
         let cells = on.map(|(cells, _)| cells).or(wall_cells);
         let mut plan = plan_of(droplet, cells, effusivity);
+        plan.fluid.freezing = scene.freezing_of(name);
         if let Some(wall) = &mut plan.wall {
             wall.conductance = scene.conductance_below(name);
         }
@@ -152,7 +153,7 @@ impl DropletBody {
                 temperature: droplet.initial_temperature,
                 effusivity: droplet.fluid.effusivity(),
             },
-            watch: Watch::of(name, &droplet.fluid),
+            watch: Watch::of(name, &droplet.fluid, scene.freezing_of(name).is_some()),
             notes,
             threads,
         }
@@ -220,8 +221,9 @@ impl DropletBody {
                     &mut fields.density,
                     &mut fields.pressure,
                     &mut fields.temperature,
+                    &mut fields.solid_fraction,
                 ] {
-                    values.push(values[i]);
+                    values.extend(values.get(i).copied());
                 }
             }
         }
@@ -298,7 +300,7 @@ impl Body for DropletBody {
                 let Below::Wall(wall) = &self.below else {
                     return Err(BodyError::NoSuchReading);
                 };
-                wall_quantities()[quantity].read(reader.exchange(), cell, &wall.areas)
+                wall_quantities()[quantity].read(&mut reader, cell, &wall.areas)
             }
             Reading::Point { .. }
             | Reading::Mean { .. }

@@ -28,7 +28,7 @@ pub fn plan_of(
             conductivity: fluid.conductivity,
             surface_tension: fluid.surface_tension,
             sound_speed: droplet.sound_speed(),
-            freezing: fluid.freezing(),
+            freezing: None,
         },
         placement: droplet.placement,
         precision: droplet.precision,

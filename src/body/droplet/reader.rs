@@ -37,6 +37,12 @@ impl DropletReader<'_> {
         memo.exchange.get_or_insert_with(|| body.droplet.exchange(state))
     }
 
+    /// Thickness of the frozen fluid above each cell of the wall [m].
+    pub fn frozen_on_wall(&mut self) -> &[f64] {
+        let Self { body, state, memo } = self;
+        memo.frozen_on_wall.get_or_insert_with(|| body.droplet.frozen_on_wall(state))
+    }
+
     /// Density at rest [kg/m³].
     pub fn rest_density(&self) -> f64 {
         let Rest { density, .. } = self.body.rest;

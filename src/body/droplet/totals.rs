@@ -28,6 +28,10 @@ enum Offered {
     OnASolid,
     /// Those of a fluid with a yield stress.
     Yielding,
+    /// Those of a fluid that freezes.
+    Freezing,
+    /// Those of a fluid that freezes above a wall or a solid.
+    FreezingOnAWall,
 }
 
 enum Read {
@@ -38,7 +42,7 @@ enum Read {
     Reader(fn(&mut DropletReader) -> f64),
 }
 
-const TOTALS: [Total; 33] = [
+const TOTALS: [Total; 37] = [
     of_all(
         "height",
         "height of the body of fluid above the wall, without strays",
@@ -181,6 +185,23 @@ const TOTALS: [Total; 33] = [
         Quantity::ShearRate,
         |totals| totals.creep,
     ),
+    freezing("solid_fraction", "frozen fraction of the mass", Quantity::Ratio, |totals| {
+        totals.frozen_mass / totals.mass
+    }),
+    freezing("frozen_mass", "frozen mass", Quantity::Mass, |totals| totals.frozen_mass),
+    freezing(
+        "latent_heat",
+        "latent heat that frozen fluid has given off, and takes to melt again",
+        Quantity::Energy,
+        |totals| totals.latent_heat,
+    ),
+    Total {
+        key: "arrest_time",
+        words: "time since which all fluid on the wall has been frozen, zero while some is liquid",
+        quantity: Quantity::Time,
+        of: Offered::FreezingOnAWall,
+        read: Read::Totals(|totals| totals.arrest_time),
+    },
     Total {
         key: "force_outside",
         words: "force beyond the edge of the solid, which does not act on it, mean over the last exchange",
@@ -234,6 +255,15 @@ const fn yielding(
     Total { key, words, quantity, of: Offered::Yielding, read: Read::Totals(read) }
 }
 
+const fn freezing(
+    key: &'static str,
+    words: &'static str,
+    quantity: Quantity,
+    read: fn(&DropletTotals) -> f64,
+) -> Total {
+    Total { key, words, quantity, of: Offered::Freezing, read: Read::Totals(read) }
+}
+
 /// Returns the totals that a droplet of a scene offers, each with its place in the table. In a plane model they are
 /// amounts per metre of depth. No total of a moving fluid follows an input without delay.
 pub fn offered_totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
@@ -243,12 +273,15 @@ pub fn offered_totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
     let on_demand = scene.droplet(name).is_some_and(Droplet::is_on_demand);
     let yields =
         scene.droplet(name).is_some_and(|droplet| droplet.fluid.viscosity.yield_stress() > 0.0);
+    let freezes = scene.freezing_of(name).is_some();
     let is_offered = |total: &Total| match total.of {
         Offered::All => true,
         Offered::AboveAWall => stands,
         Offered::OnDemand => on_demand,
         Offered::OnASolid => coupled,
         Offered::Yielding => yields,
+        Offered::Freezing => freezes,
+        Offered::FreezingOnAWall => freezes && stands,
     };
     let totals = TOTALS.iter().enumerate().filter(|(_, total)| is_offered(total));
     let described = totals.map(|(place, &Total { key, words, quantity, .. })| {

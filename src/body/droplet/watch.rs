@@ -1,7 +1,7 @@
 //! Temperatures beyond which the constants of a fluid do not hold: it would freeze or boil, as the model has no phase
 //! change of droplets, or the table of its viscosity ends.
 
-use crate::laws::{Fluid, Viscosity};
+use crate::laws::{Fluid, Melting, Viscosity};
 use crate::method::sph::WarmPlace;
 use crate::scene::{FirstContact, Scene};
 use crate::warning::{self, Warning};
@@ -26,13 +26,14 @@ pub struct Watch {
 }
 
 impl Watch {
-    pub fn of(name: &str, fluid: &Fluid) -> Self {
+    /// `freezes` is true if the model has the fluid's freezing.
+    pub fn of(name: &str, fluid: &Fluid, freezes: bool) -> Self {
         let knots = match &fluid.viscosity {
             Viscosity::Table(table) => &table.temperature[..],
             Viscosity::Constant(_) | Viscosity::Law(_) => &[],
         };
         let points = [
-            (Passage::Freezing, fluid.freezes_at),
+            (Passage::Freezing, fluid.freezing_point().filter(|_| !freezes)),
             (Passage::Boiling, fluid.boils_at),
             (Passage::ColdEnd, knots.first().copied()),
             (Passage::HotEnd, knots.last().copied()),
@@ -79,9 +80,25 @@ impl Watch {
     }
 }
 
+/// The note on a fluid that freezes.
+fn frozen_note(melting: &Melting) -> String {
+    let Melting { solidus, liquidus, .. } = melting;
+    let range = match melting.is_isothermal() {
+        true => format!("at {solidus} K"),
+        false => format!("between {liquidus} K and {solidus} K"),
+    };
+    format!(
+        "the fluid freezes {range}, without undercooling; what is frozen by half or more is rigid and sticks to what it \
+         touches, and neither shrinks nor bears thermal stress"
+    )
+}
+
 /// Returns notes on the phases that the model leaves out, and on the contact temperature predicted below a drop.
 pub fn note(scene: &Scene, (name, fluid): (&str, &Fluid)) -> String {
-    let &Fluid { freezes_at, boils_at, .. } = fluid;
+    let (freezes_at, boils_at) = (fluid.freezing_point(), fluid.boils_at);
+    if let Some(freezing) = scene.freezing_of(name) {
+        return frozen_note(&freezing.melting);
+    }
     let general = match fluid.viscosity.depends_on_temperature() {
         true => {
             "liquids neither freeze nor boil in this model, and only their viscosity changes with temperature"

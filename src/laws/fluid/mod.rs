@@ -98,6 +98,11 @@ impl Fluid {
         })
     }
 
+    /// Temperature below which the fluid begins to freeze [K].
+    pub fn freezing_point(&self) -> Option<f64> {
+        self.freezes_at.or(self.melting.map(|melting| melting.liquidus))
+    }
+
     /// Thermal effusivity `e = √(k ρ c)` [W √s/(m² K)].
     pub fn effusivity(&self) -> f64 {
         (self.conductivity * self.density * self.specific_heat).sqrt()

@@ -60,6 +60,7 @@ pub fn check(
             return Err(format!("particle {i} has {ratio} of the density at rest"));
         }
     }
+    check_contents(&cloud, method)?;
     let sizes =
         cloud.stress.iter().flatten().map(|stress| stress.iter().map(|s| s * s).sum::<f64>());
     match sizes.enumerate().find(|(_, size)| *size >= LARGEST_STRESS * LARGEST_STRESS) {
@@ -96,6 +97,7 @@ fn check_head(
         ("a way", ledger.way),
         ("a volume", ledger.surrounded),
         ("a creep", ledger.creep.unwrap_or(0.0)),
+        ("an arrest", ledger.arrest.unwrap_or(0.0)),
     ];
     match numbers.into_iter().find(|&(_, number)| number < 0.0) {
         Some((what, number)) => Err(format!("{what} of {number}, which is below zero")),
@@ -131,6 +133,20 @@ fn check_requests(
         true => Ok(()),
         false => Err(format!("more drops wait than {asked} less {released}")),
     }
+}
+
+/// Refuses temperatures that do not follow from the heat contents.
+fn check_contents(cloud: &Cloud, method: &Method) -> Result<(), String> {
+    let (Some(phases), Some(contents)) = (&method.phases, &cloud.content) else { return Ok(()) };
+    for (i, (&content, &rise)) in contents.iter().zip(&cloud.temperature).enumerate() {
+        let expected = phases.rise(content);
+        if !((expected - rise).abs() <= ROUNDING * (1.0 + expected.abs())) {
+            return Err(format!(
+                "particle {i} is {rise} K warm, where its heat makes {expected} K"
+            ));
+        }
+    }
+    Ok(())
 }
 
 fn check_masses(cloud: &Cloud, expected: Released) -> Result<(), String> {

@@ -3,6 +3,7 @@
 
 use std::slice::from_mut;
 
+use super::phases::Phases;
 use super::requests::Requests;
 use crate::port::SurfaceMemory;
 use crate::port::WallExchange;
@@ -93,6 +94,8 @@ pub struct Ledger {
     pub requests: Option<Requests>,
     /// Largest shear rate of fluid that does not yield, in the last time step, over c₀/H; `None` for Newtonian fluids.
     pub creep: Option<f64>,
+    /// Time since which all fluid on the wall is frozen [s], 0 while some is not; `None` for fluids that stay liquid.
+    pub arrest: Option<f64>,
 }
 
 /// Dimensions of the part of a state that precedes its particles.
@@ -186,6 +189,8 @@ impl Fields for Ledger {
         fields.extend(self.requests.iter_mut().flat_map(Requests::fields));
         let creep = body("creep", "largest shear rate of fluid that does not yield, over c/H", 1);
         fields.extend(self.creep.iter_mut().map(|rate| (creep, from_mut(rate))));
+        let arrest = body("arrest", "time since which all fluid on the wall is frozen [s]", 1);
+        fields.extend(self.arrest.iter_mut().map(|time| (arrest, from_mut(time))));
         fields
     }
 }
@@ -230,6 +235,7 @@ impl Ledger {
             memory: SurfaceMemory { given: zeros.clone(), reported: zeros },
             requests: head.most.map(Requests::none),
             creep: head.stressed.then_some(0.0),
+            arrest: head.freezes.then_some(0.0),
             ..Self::default()
         }
     }
@@ -254,6 +260,17 @@ impl Cloud {
     /// Heat contents over the specific heat of the molten fluid, above the reference [K].
     pub fn contents(&self) -> &[f64] {
         self.content.as_ref().unwrap_or(&self.temperature)
+    }
+
+    /// Changes the heat content of a particle of a fluid, which has phases if it freezes.
+    pub fn heat(&mut self, i: usize, change: f64, phases: Option<&Phases>) {
+        match (phases, &mut self.content) {
+            (Some(phases), Some(content)) => {
+                content[i] += change;
+                self.temperature[i] = phases.rise(content[i]);
+            }
+            _ => self.temperature[i] += change,
+        }
     }
 
     /// Splits the particles into parts of `size`; the last one holds the rest.
@@ -455,6 +472,7 @@ mod tests {
                 waiting: vec![[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], [0.0; 6]],
             }),
             creep: Some(0.5),
+            arrest: Some(0.25),
             ..Ledger::default()
         };
         let team = Team::new(2);

@@ -2,6 +2,7 @@
 
 mod demand;
 mod extremes;
+mod frozen;
 mod half_space;
 mod totals;
 
@@ -58,6 +59,8 @@ pub struct ParticleFields {
     pub pressure: Vec<f64>,
     /// [K]
     pub temperature: Vec<f64>,
+    /// Frozen fraction of each particle; empty for a fluid that stays liquid.
+    pub solid_fraction: Vec<f64>,
 }
 
 impl DropletSph {
@@ -280,6 +283,7 @@ impl DropletSph {
             density: cloud.density.iter().map(|r| (1.0 + r) * units.density).collect(),
             pressure: cloud.density.iter().map(|&r| pressure(r) * units.pressure()).collect(),
             temperature: cloud.temperature.iter().map(|t| t + reference).collect(),
+            solid_fraction: frozen::solid_fractions(&self.method, &cloud),
         }
     }
 

@@ -247,6 +247,13 @@ impl Method {
         [position[0], position[1]].map(|x| x * self.units.length)
     }
 
+    /// Signs of x and y of all images at mirrors, the original included.
+    pub fn sides(&self) -> impl Iterator<Item = [f64; 2]> + use<> {
+        let [along_x, along_y] =
+            self.mirrors.map(|mirrored| if mirrored { &[1.0, -1.0][..] } else { &[1.0] });
+        along_x.iter().flat_map(move |&x| along_y.iter().map(move |&y| [x, y]))
+    }
+
     /// Exchanges a particle that meets its image at a plane with it: two mirror images that pass
     /// through each other do exactly that.
     pub fn rebound(&self, part: &mut Part, pushes: &mut Vec<Push>) {

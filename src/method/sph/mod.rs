@@ -6,6 +6,7 @@
 //! act by images of the particles.
 
 mod acceptance;
+mod arrest;
 mod blue_noise;
 mod candidates;
 mod cloud;
@@ -18,6 +19,7 @@ mod failure;
 mod field;
 mod fractions;
 mod free_surface;
+mod freezing_law;
 mod grid;
 mod images;
 mod kick;

@@ -148,12 +148,17 @@ impl ResistiveLaw {
 }
 
 impl Resistance {
+    /// Parts of the resistance at the fluid and at the wall over δ/k, for a layer of thickness δ over Δx.
+    pub fn parts(&self, thickness: f64) -> [f64; 2] {
+        [self.fluid, self.wall].map(|inverse| inverse / thickness)
+    }
+
     /// Heat that a layer of thickness δ, over Δx, loses during a diffusion time `κΔt/δ²`.
     ///
     /// One temperature T_c within the resistance serves both sides: the fluid approaches it by the
     /// law, and at the end the flux passes the wall's part of the resistance.
     pub fn loss(&self, at: Temperatures, diffusion: f64, thickness: f64) -> Loss {
-        let [inverse, wall] = [self.fluid, self.wall].map(|inverse| inverse / thickness);
+        let [inverse, wall] = self.parts(thickness);
         let Temperatures { before, fluid, wall: far } = at;
         // `part` is (T_c − T_w)/(T − T_w); losses and fluxes are over T − T_w.
         let found = |part: f64| {

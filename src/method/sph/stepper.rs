@@ -6,6 +6,7 @@
 //! 2012, J. Comput. Phys. 231, 7057–7075, doi 10.1016/j.jcp.2012.05.005). Surface tension, which changes
 //! slowly, acts as impulses between rounds of steps.
 
+use super::arrest::note_arrest;
 use super::cloud::{Cloud, Ledger, Part, UNKNOWNS};
 use super::continuity::Continuity;
 use super::failure::Failure;
@@ -367,7 +368,8 @@ impl<'a, 'p> Stepper<'a, 'p> {
         if let Some(points) = &mut self.points {
             pushes.into_iter().for_each(|(at, impulse)| points.push(at, impulse));
             if HEAT {
-                exchange_heat(method, self.cloud, points, dt, self.team);
+                let touching = exchange_heat(method, self.cloud, points, dt, self.team);
+                note_arrest(self.ledger, self.cloud, &touching, method);
             }
         }
     }
@@ -501,15 +503,15 @@ fn conducting<const MOMENTS: bool>(method: &Method, moments: &[[f64; 6]]) -> f64
     if count > 0.0 { sum / count } else { 1.0 }
 }
 
-/// Exchanges heat with the wall for a time.
+/// Exchanges heat with the wall for a time; returns the particles that touch it.
 fn exchange_heat(
     method: &Method,
     cloud: &mut Cloud,
     points: &mut WallPoints,
     dt: f64,
     team: &Team,
-) {
-    let Some(heat) = &method.wall_heat else { return };
+) -> Vec<Touching> {
+    let Some(heat) = &method.wall_heat else { return Vec::new() };
     let near = |part: &mut Part| {
         let touching = |k: usize| {
             let share = heat.share(part.position[k][2]);
@@ -518,7 +520,7 @@ fn exchange_heat(
                 at: method.place(part.position[k]),
                 share,
                 mass: part.mass[k],
-                temperature: part.temperature[k],
+                content: part.content.as_ref().map_or(part.temperature[k], |content| content[k]),
                 initial: part.initial[k],
             })
         };
@@ -527,8 +529,9 @@ fn exchange_heat(
     let touching = team.map_each(&mut cloud.parts(PART), near).concat();
     let changes = heat.exchange(&touching, points, dt, team);
     for (touching, change) in touching.iter().zip(changes) {
-        cloud.temperature[touching.particle] += change;
+        cloud.heat(touching.particle, change, method.phases.as_ref());
     }
+    touching
 }
 
 /// Fills a list with one value per particle.

@@ -1,6 +1,8 @@
 //! Heat exchange between the particles at a wall and its points.
 
 use super::contact_law::ContactLaw;
+use super::freezing_law::{Contents, FreezingLaw, Lost};
+use super::phases::Phases;
 use super::plan::DropletPlan;
 use super::resistive_law::{Loss, Resistance, ResistiveLaw, Temperatures};
 use super::units::Units;
@@ -18,9 +20,9 @@ const AT_WALL: [f64; 2] = [0.95, 1.05];
 const COVERED: [f64; 2] = [0.25, 0.75];
 /// Number of passes that reconcile the law's relaxation with the wall temperature. Every pass keeps
 /// the latter between its value without flux and that of the fluid. Through a resistance the
-/// temperature within it is reconciled, too.
+/// temperature within it is reconciled, too; a fluid that freezes responds to more than the difference of temperatures.
 const PASSES: usize = 3;
-const RESISTIVE_PASSES: usize = 6;
+const FURTHER_PASSES: usize = 6;
 
 /// Constants of the heat of contact, from a plan.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,6 +30,8 @@ pub struct WallHeat {
     law: ContactLaw,
     /// Law of a contact that resists.
     resistive: Option<ResistiveLaw>,
+    /// Phases of a fluid that freezes, and its law.
+    freezing: Option<(Phases, FreezingLaw)>,
     /// κ over c₀H, and Δx over H.
     conduction: f64,
     spacing: f64,
@@ -49,13 +53,13 @@ pub struct Touching {
     /// Fraction of the particle that is at the wall.
     pub share: f64,
     pub mass: f64,
-    pub temperature: f64,
-    /// Temperature before contact.
+    pub content: f64,
+    /// Heat content before contact.
     pub initial: f64,
 }
 
 /// Contribution of a point to a step: heat capacity times relaxation [J/K], temperature of the
-/// fluid, and the decrease of the flux, see [`Loss`].
+/// fluid, its relaxation, and the decrease of the flux, see [`Loss`].
 #[derive(Clone, Copy, Default)]
 struct Contact {
     conductance: f64,
@@ -90,15 +94,18 @@ impl WallHeat {
         let fluid = &plan.fluid;
         let wall = plan.wall.as_ref().filter(|_| fluid.conductivity > 0.0)?;
         let capacity = fluid.density * fluid.specific_heat;
+        let lattice = (plan.kernel, plan.support, plan.dimension);
         let resistive = |conductance: f64| {
             let biot = conductance * plan.spacing / fluid.conductivity;
             let effusivity = (capacity * fluid.conductivity).sqrt();
-            let lattice = (plan.kernel, plan.support, plan.dimension);
             ResistiveLaw::of(lattice, [biot, 1.0 / conductance, effusivity])
         };
         Some(Self {
             law: ContactLaw::of(plan.kernel, plan.support, plan.dimension),
             resistive: wall.conductance.map(resistive),
+            freezing: plan
+                .phases()
+                .map(|phases| (phases, FreezingLaw::of(lattice, &phases, &starts(plan)))),
             conduction: fluid.conductivity / (capacity * units.speed * units.length),
             spacing: 1.0 / plan.support,
             layer: fluid.density * plan.spacing * area / units.mass(),
@@ -118,14 +125,14 @@ impl WallHeat {
         ((none - height / self.spacing) / (none - all)).clamp(0.0, 1.0)
     }
 
-    /// Exchanges heat for a time over H/c₀; returns the changes of temperature [K] of the particles
+    /// Exchanges heat for a time over H/c₀; returns the changes of heat content [K] of the particles
     /// at the wall.
     ///
-    /// At every point the mean temperature of the particle layer relaxes towards that of the wall
-    /// by the [`ContactLaw`], while the columns below absorb the heat. One flux applies to both
+    /// At every point the mean content of the particle layer relaxes towards that of the wall
+    /// by the [`ContactLaw`] or the [`FreezingLaw`], while the columns below absorb the heat. One flux applies to both
     /// sides, and temperatures are the columns' responses to it, so no step is too long. Each
     /// particle then approaches the wall by the same fraction of its own difference, so no
-    /// temperature leaves the initial range.
+    /// content leaves the initial range.
     pub fn exchange(
         &self,
         touching: &[Touching],
@@ -139,10 +146,10 @@ impl WallHeat {
         self.settle(points, dt, team);
         let points = &points.points;
         team.map(touching.len(), |n| {
-            let Touching { share, temperature, .. } = touching[n];
+            let Touching { share, content, .. } = touching[n];
             let change = |(point, weight): (usize, f64)| {
                 let point = &points[point];
-                weight * point.relaxation * (point.wall - temperature)
+                weight * point.relaxation * (point.wall - content)
             };
             share * stencils[n].weights().map(change).sum::<f64>()
         })
@@ -151,7 +158,7 @@ impl WallHeat {
     /// Accumulates the fluid at the wall in its points.
     fn gather(&self, touching: &[Touching], points: &mut WallPoints) -> Vec<Stencil> {
         let mut stencils = Vec::with_capacity(touching.len());
-        for Touching { at, share, mass, temperature, initial, .. } in touching {
+        for Touching { at, share, mass, content, initial, .. } in touching {
             let stencil = points.stencil(*at);
             for (index, weight) in stencil.weights() {
                 if !points.points[index].active {
@@ -160,7 +167,7 @@ impl WallHeat {
                 let point = &mut points.points[index];
                 let part = weight * share * mass;
                 point.mass += part;
-                point.temperature_sum += part * temperature;
+                point.content_sum += part * content;
                 point.initial_sum += part * initial;
             }
             stencils.push(stencil);
@@ -194,7 +201,8 @@ impl WallHeat {
         let mut walls = free.clone();
         let mut contacts = Vec::new();
         let mut above = vec![Above::default(); walls.len()];
-        let passes = if points.resistance.is_some() { RESISTIVE_PASSES } else { PASSES };
+        let is_linear = points.resistance.is_none() && self.freezing.is_none();
+        let passes = if is_linear { PASSES } else { FURTHER_PASSES };
         for _ in 0..passes {
             contacts = team.map(points.points.len(), |n| {
                 self.contact(&points.points[n], &walls, dt, points.resistance.as_ref())
@@ -222,11 +230,12 @@ impl WallHeat {
             }
         }
         for (point, contact) in points.points.iter_mut().zip(contacts) {
-            (point.mass, point.temperature_sum, point.initial_sum) = (0.0, 0.0, 0.0);
+            let wall = wall_below(point, &walls);
+            (point.relaxation, point.wall) = self.approach(point, &contact, wall);
             // Where nothing is below, as beyond the edge of a body, there is nothing to relax
             // towards.
-            point.relaxation = contact.relaxation * covered(point);
-            point.wall = wall_below(point, &walls);
+            point.relaxation *= covered(point);
+            (point.mass, point.content_sum, point.initial_sum) = (0.0, 0.0, 0.0);
             if let Some((column, part)) = point.beyond {
                 let fall = contact.fluid - walls[column as usize];
                 points.heat_beyond += part * contact.conductance * fall;
@@ -248,13 +257,23 @@ impl WallHeat {
             return Contact::default();
         }
         let cover = ((layers - bare) / (covered - bare)).min(1.0);
-        let fluid = point.temperature_sum / point.mass;
+        let content = point.content_sum / point.mass;
         // The fluid forms a layer on the part that it covers.
         let thickness = self.spacing * layers / cover;
         let diffusion = self.conduction * dt / (thickness * thickness);
         let wall = wall_below(point, walls);
         // Where drops of unequal temperature meet, the mean of the fluid at the point counts.
         let before = point.initial_sum / point.mass;
+        let capacity = self.capacity * point.mass;
+        if let Some((phases, law)) = &self.freezing {
+            let at = Contents { before, fluid: content, wall };
+            let parts = resistance.map_or([0.0; 2], |found| found.parts(thickness / self.spacing));
+            let Lost { content: lost, fall } = law.loss(at, diffusion, parts);
+            let fluid = phases.rise(content);
+            let relaxation = if fluid == wall { 0.0 } else { lost / (fluid - wall) };
+            return Contact { conductance: capacity * relaxation, fluid, relaxation, fall };
+        }
+        let fluid = content;
         let Loss { part: relaxation, fall } = if let Some(resistance) = resistance {
             let at = Temperatures { before, fluid, wall };
             resistance.loss(at, diffusion, thickness / self.spacing)
@@ -263,8 +282,29 @@ impl WallHeat {
             let deficit = Some(deficit).filter(|d| d.is_finite());
             Loss { part: self.law.relaxation(deficit, diffusion), fall: 0.0 }
         };
-        Contact { conductance: self.capacity * point.mass * relaxation, fluid, relaxation, fall }
+        Contact { conductance: capacity * relaxation, fluid, relaxation, fall }
     }
+
+    /// Fraction by which contents at a point approach that of fluid at the wall's temperature, and that content. The
+    /// loss of heat is the relaxation of the contact times the difference of temperatures.
+    fn approach(&self, point: &Point, contact: &Contact, wall: f64) -> (f64, f64) {
+        let Contact { fluid, relaxation, .. } = *contact;
+        let Some((phases, _)) = &self.freezing else { return (relaxation, wall) };
+        let (content, at_wall) = (point.content_sum / point.mass, phases.content(wall));
+        if relaxation == 0.0 || fluid == wall {
+            return (0.0, at_wall);
+        }
+        (relaxation * (fluid - wall) / (content - at_wall), at_wall)
+    }
+}
+
+/// Distinct temperatures of the drops of a plan at their releases, above its reference [K].
+fn starts(plan: &DropletPlan) -> Vec<f64> {
+    let mut all: Vec<f64> =
+        plan.drops().map(|drop| drop.temperature - plan.reference_temperature()).collect();
+    all.sort_by(f64::total_cmp);
+    all.dedup();
+    all
 }
 
 /// Mean temperature of the columns below a point.

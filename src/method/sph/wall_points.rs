@@ -63,13 +63,13 @@ pub struct Point {
     /// The fraction beyond the outermost cells of a wall that continues there, and the column whose
     /// temperature it has.
     pub beyond: Option<(u32, f64)>,
-    /// Sums over the fluid at the wall of mass, and of mass times temperature, now and at the
+    /// Sums over the fluid at the wall of mass, and of mass times heat content, now and at the
     /// release, each over their units.
     pub mass: f64,
-    pub temperature_sum: f64,
+    pub content_sum: f64,
     pub initial_sum: f64,
-    /// Mean temperature of the wall [K], and the fraction of its difference from the fluid that the
-    /// fluid loses.
+    /// Heat content of fluid at the mean temperature of the wall [K], and the fraction of its
+    /// difference from the fluid that the fluid loses.
     pub wall: f64,
     pub relaxation: f64,
     /// Impulse [N s].

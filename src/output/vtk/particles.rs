@@ -12,13 +12,16 @@ pub fn write_particles(out: impl Write, time: f64, fields: &ParticleFields) -> i
     let count = fields.position.len();
     let time = [time];
     let time = Array::scalar("TimeValue", "s", &time);
-    let points = [
+    let mut points = vec![
         Array::scalar("temperature", "K", &fields.temperature),
         Array::scalar("pressure", "Pa", &fields.pressure),
         Array::scalar("density", "kg/m3", &fields.density),
         Array::scalar("mass", "kg", &fields.mass),
         Array::vector("velocity", "m/s", &fields.velocity),
     ];
+    if !fields.solid_fraction.is_empty() {
+        points.push(Array::scalar("solid_fraction", "1", &fields.solid_fraction));
+    }
     let places = [Array::vector("position", "m", &fields.position)];
     // Viewers draw cells, so each point is one.
     let own: Vec<i64> = (0..count as i64).collect();
@@ -48,6 +51,7 @@ mod tests {
             density: vec![1000.0, 1010.5],
             pressure: vec![0.0, 2.6e6],
             temperature: vec![373.15, 300.1],
+            solid_fraction: vec![0.0, 0.75],
         };
         let mut bytes = Vec::new();
         write_particles(&mut bytes, 2e-6, &fields).unwrap();
@@ -62,6 +66,7 @@ mod tests {
             ("density", &fields.density),
             ("pressure", &fields.pressure),
             ("temperature", &fields.temperature),
+            ("solid_fraction", &fields.solid_fraction),
         ] {
             assert_eq!(&read.arrays[name].1, values, "{name}");
         }

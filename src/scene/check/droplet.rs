@@ -1,6 +1,6 @@
 //! Checks size, fluid, particles and arrivals of each droplet.
 
-use super::{Checker, fits, number, replayed, viscosity};
+use super::{Checker, fits, freezing, number, replayed, viscosity};
 use crate::scene::droplet::{
     Arrival, Droplet, DropletMethod, DropletSymmetry, LEAST_SOUND_OVER_FLOW,
 };
@@ -18,6 +18,7 @@ pub fn check(checker: &mut Checker) {
         if is_sound(checker, &path) {
             replayed::check(checker, &path, (name, droplet));
             viscosity::check(checker, &path, droplet);
+            freezing::check(checker, &path, droplet);
         }
         if is_sound(checker, &path) && droplet.has_particles() {
             resolution(checker, &path.at("spacing"), droplet);

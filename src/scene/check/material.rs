@@ -18,12 +18,16 @@ pub fn check(checker: &mut Checker, path: &Path, material: &Material) {
             table(checker, &path.key(key), values);
         }
     }
-    if let Some(Melting { solidus, liquidus, .. }) = material.heat.melting {
-        let message = "melting ends below where it begins";
-        let allowed = format!("liquidus >= {}", number(solidus));
-        checker.require(liquidus >= solidus, &path.at("melting.liquidus"), message, allowed);
+    if let Some(range) = material.heat.melting {
+        melting(checker, &path.key("melting"), range);
     }
     needs(checker, path, material, material.law.deformation().needs());
+}
+
+pub fn melting(checker: &mut Checker, path: &Path, Melting { solidus, liquidus, .. }: Melting) {
+    let message = "melting ends below where it begins";
+    let allowed = format!("liquidus >= {}", number(solidus));
+    checker.require(liquidus >= solidus, &path.key("liquidus"), message, allowed);
 }
 
 pub fn table(checker: &mut Checker, path: &Path, table: &Table) {

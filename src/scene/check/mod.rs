@@ -6,6 +6,7 @@ mod droplet;
 mod field;
 mod fidelity;
 mod field_cells;
+mod freezing;
 mod header;
 mod layers;
 mod limits;

@@ -27,7 +27,7 @@ pub struct NamedSubstance {
     pub substance: Substance,
     /// Temperatures between which the constants hold [K].
     pub valid: [f64; 2],
-    /// Temperature at which it melts [K].
+    /// Temperature at which a solid begins to melt or a fluid to freeze [K].
     pub melts: Option<f64>,
     /// Temperature at which the scene takes the constants [K].
     pub at: Option<f64>,
@@ -38,7 +38,8 @@ pub struct NamedSubstance {
 impl NamedSubstance {
     fn new(table: Path, kind: Kind, substance: Substance) -> Self {
         let sheet = substance.sheet();
-        let melting = sheet.constants.get("melting").and_then(|melting| melting.get("solidus"));
+        let end = if kind == Kind::Solid { "solidus" } else { "liquidus" };
+        let melting = sheet.constants.get("melting").and_then(|melting| melting.get(end));
         let melts = melting.and_then(toml::Value::as_float);
         Self { table, kind, substance, valid: sheet.valid, melts, at: None, taken: None }
     }
@@ -66,9 +67,32 @@ pub fn expand(source: &mut Source) -> Vec<(Path, Problem)> {
             expand_table(source, &place, Kind::Solid, free, &mut problems);
         }
         let start = number(source, &body.key("initial_temperature"));
-        expand_table(source, &body.key("fluid"), Kind::Fluid, start, &mut problems);
+        let fluid = body.key("fluid");
+        let own = source.value(&fluid.key("melting")).is_some();
+        expand_table(source, &fluid, Kind::Fluid, start, &mut problems);
+        let is_repeated = text(source, &body.key("method")).is_some_and(|method| method != "sph");
+        if !own {
+            stay_liquid(source, &fluid, (start, is_repeated));
+        }
     }
     problems
+}
+
+/// Leaves out the freezing of a substance whose drops are repeated, or liquid below its melting point: these are warned
+/// of.
+fn stay_liquid(source: &mut Source, fluid: &Path, (start, is_repeated): (Option<f64>, bool)) {
+    let Some(named) = source.substances().iter().find(|named| named.table == *fluid) else {
+        return;
+    };
+    let is_undercooled = start.zip(named.melts).is_some_and(|(start, melts)| start <= melts);
+    if !is_repeated && !is_undercooled {
+        return;
+    }
+    if let Some(DeValue::Table(mut table)) = source.value(fluid).cloned() {
+        table.remove("melting");
+        table.remove("frozen");
+        source.replace(fluid, DeValue::Table(table));
+    }
 }
 
 /// Places of the materials of a body and of its layers.
@@ -176,6 +200,9 @@ fn expand_table(
     if kind == Kind::Solid {
         known.insert(spanned("model", &span), Spanned::new(span.clone(), string("thermoelastic")));
     }
+    if kind == Kind::Solid && at.is_some() {
+        known.remove("melting");
+    }
     let mut taken = at.map(|at| take_at(&mut known, at, free)).unwrap_or_default();
     taken.retain(|(key, _)| !own.contains_key(*key));
     let mut table: DeTable = known;
@@ -223,7 +250,7 @@ fn moved(value: &DeValue<'static>, span: &Range<usize>) -> DeValue<'static> {
     }
 }
 
-/// Takes tables over the temperature at one temperature, and leaves melting out; returns the constants.
+/// Takes tables over the temperature at one temperature; returns the constants.
 fn take_at(table: &mut DeTable<'static>, at: f64, free: Option<f64>) -> Vec<(&'static str, f64)> {
     const KEYS: [&str; 7] = [
         "density",
@@ -234,7 +261,6 @@ fn take_at(table: &mut DeTable<'static>, at: f64, free: Option<f64>) -> Vec<(&'s
         "young",
         "expansion",
     ];
-    table.remove("melting");
     let reference = table.remove("expansion_reference").and_then(|value| float(value.get_ref()));
     let mut taken = Vec::new();
     for key in KEYS {

@@ -15,6 +15,7 @@ pub const SECTIONS: [(&str, &str); 33] = [
     ("`shape.disc`", "/$defs/Disc"),
     ("`material` of a solid", "/$defs/Material"),
     ("`melting` of a material", "/$defs/Melting"),
+    ("`frozen` of a fluid", "/$defs/Frozen"),
     ("`creep` of a material", "/$defs/Creep"),
     ("`layers` of a solid", "/$defs/Layer"),
     ("`sph` of a solid", "/$defs/SphSettings"),

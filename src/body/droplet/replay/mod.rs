@@ -91,7 +91,7 @@ impl ReplayBody {
             demand: DropInputs::of(scene, layout, (name, droplet), FARTHEST),
             arrivals: droplet.arrivals().iter().map(|a| (a.time, falling(droplet, a))).collect(),
             symmetric: droplet.mirrors(),
-            watch: Watch::of(name, &droplet.fluid),
+            watch: Watch::of(name, &droplet.fluid, false),
             contact_share: scene.contact_share(name),
             notes: said,
         })
@@ -224,7 +224,7 @@ impl Body for ReplayBody {
                     return Err(BodyError::NoSuchReading);
                 };
                 let exchange = memo.exchange.get_or_insert_with(exchange);
-                wall_quantities()[quantity].read(exchange, cell, &wall.areas)
+                wall_quantities()[quantity].mean(exchange, cell, &wall.areas)?
             }
             Reading::Point { .. }
             | Reading::Mean { .. }

@@ -1,5 +1,6 @@
 //! Sums over the fluid of a state.
 
+use super::frozen::solid_fractions;
 use crate::method::sph::cloud::{Cloud, Ledger};
 use crate::method::sph::images::copies;
 use crate::method::sph::lumps::body_of_fluid;
@@ -50,6 +51,11 @@ pub struct DropletTotals {
     /// fluids without a yield stress.
     pub yielded_mass: f64,
     pub creep: f64,
+    /// Mass of frozen fluid [kg], latent heat that it has given off [J], and time since which all fluid on the wall is
+    /// frozen [s], 0 while some is not; zero for fluids that stay liquid.
+    pub frozen_mass: f64,
+    pub latent_heat: f64,
+    pub arrest_time: f64,
     /// Number of time steps since time zero, and of particles, images excluded.
     pub steps: f64,
     pub particles: f64,
@@ -87,6 +93,14 @@ pub fn totals(
     if method.flow.yield_stress() > 0.0 {
         totals.creep = ledger.creep.unwrap_or(0.0) / units.time();
         totals.yielded_mass = images * units.mass() * yielded_mass(method, cloud);
+    }
+    if let Some(freezing) = plan.fluid.freezing.filter(|_| cloud.content.is_some()) {
+        let frozen = solid_fractions(method, cloud);
+        let frozen: f64 = frozen.iter().zip(&cloud.mass).map(|(part, mass)| part * mass).sum();
+        // A sum of no numbers is −0.
+        totals.frozen_mass = images * units.mass() * frozen + 0.0;
+        totals.latent_heat = totals.frozen_mass * freezing.melting.latent_heat;
+        totals.arrest_time = ledger.arrest.unwrap_or(0.0);
     }
     let reference = plan.reference_temperature();
     for i in 0..cloud.len() {

@@ -1,0 +1,287 @@
+//! Fluids that freeze on a wall: layers at rest against closed forms and a one-dimensional oracle, drops of scenes with
+//! their balances, outputs and refusals.
+
+use std::f64::consts::PI;
+
+use crate::common::{Trial, off};
+use crate::falling_drop::open_space;
+use impinge::closed_form::{Conductor, FreezingColumn, FreezingContact};
+use impinge::laws::{Freezing, Melting, Viscosity};
+use impinge::method::sph::{DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Release, Wall};
+use impinge::port::WallCells;
+use impinge::runtime::allowance::Allowance;
+
+/// Frozen and molten tin, stainless steel.
+const FROZEN: Conductor = Conductor { conductivity: 62.0, heat_capacity: 6970.0 * 244.0 };
+const MOLTEN: Conductor = Conductor { conductivity: 33.0, heat_capacity: 6970.0 * 244.0 };
+const STEEL: Conductor = Conductor { conductivity: 14.9, heat_capacity: 7900.0 * 477.0 };
+const DENSITY: f64 = 6970.0;
+const LATENT: f64 = 59e3;
+const MELTS_AT: f64 = 505.0;
+
+/// Molten tin at a temperature on steel at another [K].
+fn tin_on_steel([fluid, wall]: [f64; 2]) -> FreezingContact {
+    FreezingContact {
+        wall: STEEL,
+        frozen: FROZEN,
+        molten: MOLTEN,
+        latent: DENSITY * LATENT,
+        melts_at: MELTS_AT,
+        wall_temperature: wall,
+        fluid_temperature: fluid,
+    }
+}
+
+/// Heat given to the wall by a time, of a flux like 1/√t [J/m²].
+fn given(bodies: &FreezingContact, time: f64) -> f64 {
+    2.0 * time * bodies.flux(time)
+}
+
+/// A layer of tin at rest on a wall, periodic along it.
+struct Layer {
+    drop: DropletSph,
+    state: Vec<f64>,
+    spacing: f64,
+    wall_temperature: f64,
+    area: f64,
+}
+
+impl Layer {
+    fn of(
+        bodies: &FreezingContact,
+        (spacing, rows): (f64, usize),
+        conductance: Option<f64>,
+    ) -> Self {
+        const SIDE: usize = 6;
+        let period = SIDE as f64 * spacing;
+        let fluid = Fluid {
+            density: DENSITY,
+            viscosity: Viscosity::Constant(2e-3),
+            specific_heat: bodies.molten.heat_capacity / DENSITY,
+            conductivity: bodies.molten.conductivity,
+            surface_tension: 0.0,
+            sound_speed: 50.0,
+            freezing: Some(Freezing {
+                melting: Melting {
+                    solidus: bodies.melts_at,
+                    liquidus: bodies.melts_at,
+                    latent_heat: bodies.latent / DENSITY,
+                },
+                specific_heat: bodies.frozen.heat_capacity / DENSITY,
+                conductivity: bodies.frozen.conductivity,
+            }),
+        };
+        let never = Release {
+            time: 1e9,
+            centre: [0.0; 3],
+            diameter: 0.0,
+            velocity: [0.0; 3],
+            temperature: bodies.fluid_temperature,
+        };
+        let cells = WallCells::Tiles { count: [1, 1], size: [4.0 * period; 2] };
+        let effusivity = Some(bodies.wall.effusivity());
+        let plan = DropletPlan {
+            extents: [Extent::Periodic(period), Extent::Periodic(period), Extent::Open],
+            releases: vec![never],
+            wall: Some(Wall { cells, contact_angle: 1.5, effusivity, conductance }),
+            ..open_space(spacing, fluid)
+        };
+        let mut particles = ParticleFields::default();
+        for n in 0..SIDE * SIDE * rows {
+            let place = [n % SIDE, n / SIDE % SIDE, n / (SIDE * SIDE)];
+            particles.position.push(place.map(|i| (i as f64 + 0.5) * spacing));
+            particles.velocity.push([0.0; 3]);
+            particles.mass.push(DENSITY * spacing.powi(3));
+            particles.density.push(DENSITY);
+            particles.temperature.push(bodies.fluid_temperature);
+        }
+        let drop = DropletSph::new(plan, 1);
+        let state = drop.state_of(&particles);
+        let wall_temperature = bodies.wall_temperature;
+        Self { drop, state, spacing, wall_temperature, area: period * period }
+    }
+
+    /// Heat given to the wall in a time [J/m²].
+    fn advance(&mut self, duration: f64) -> f64 {
+        let none = Allowance::default();
+        let wall = self.wall_temperature;
+        let exchange =
+            self.drop.advance_on_half_space(&mut self.state, wall, duration, &none).unwrap();
+        exchange.heat[0] / self.area
+    }
+
+    /// Thickness of what is frozen, a particle by its part [m].
+    fn front(&self) -> f64 {
+        let particles = self.drop.particles(&self.state);
+        let frozen: f64 =
+            particles.mass.iter().zip(&particles.solid_fraction).map(|(m, part)| m * part).sum();
+        frozen / (DENSITY * self.area)
+    }
+}
+
+/// Four pairs of temperatures, and the digits of the closed form: λ and the temperature of contact [K].
+const CASES: [([f64; 2], [f64; 2]); 4] = [
+    ([505.01, 298.15], [0.269269, 468.19]),
+    ([513.0, 298.15], [0.254518, 469.79]),
+    ([505.01, 423.15], [0.124516, 497.42]),
+    ([513.0, 423.15], [0.110241, 498.21]),
+];
+
+/// Layers from which the front takes a fifth of a particle to twenty.
+#[test]
+fn layers_freeze_as_half_spaces_do() {
+    for (temperatures, [growth, _]) in CASES {
+        let exact = tin_on_steel(temperatures);
+        assert!(off(exact.growth(), growth) < 2e-3, "{} {growth}", exact.growth());
+        for (across, tolerated) in [(0.2, 0.02), (2.0, 0.01), (8.0, 5e-3), (20.0, 5e-3)] {
+            let time = 1e-4;
+            let spacing = exact.front(time) / across;
+            // Heat does not reach the top.
+            let deep = 6.0 * (exact.molten.diffusivity() * time).sqrt() / spacing;
+            let mut layer = Layer::of(&exact, (spacing, deep.max(6.0) as usize), None);
+            let mut heat = 0.0;
+            let mut found = Vec::new();
+            for part in 1..=20 {
+                heat += layer.advance(time / 20.0);
+                let now = time * f64::from(part) / 20.0;
+                found.push([
+                    heat / given(&exact, now) - 1.0,
+                    layer.front() / exact.front(now) - 1.0,
+                ]);
+            }
+            let [heats, front] = found[19];
+            println!("{temperatures:?}, {across} across: heat {heats:.4}, front {front:.4}");
+            assert!(heats.abs() < tolerated && front.abs() < 2.0 * tolerated);
+            // The front moves without stairs.
+            let stairs = found.iter().zip(1..).map(|([_, error], part)| {
+                error * exact.front(time * f64::from(part) / 20.0) / spacing
+            });
+            let jitter = stairs.fold(0.0, |most: f64, error| most.max(error.abs()));
+            println!("    jitter {jitter:.3} of a particle");
+            assert!(jitter < 0.2, "{jitter}");
+        }
+    }
+}
+
+/// The same through a resistance, against cells of a thousandth of the layer.
+#[test]
+fn layers_freeze_through_a_resistance() {
+    let time = 1e-4;
+    for (temperatures, _) in [CASES[1], CASES[3]] {
+        let bodies = tin_on_steel(temperatures);
+        let deep = |body: Conductor| 8.0 * (body.diffusivity() * time).sqrt();
+        for conductance in [1e5, 4e5, 2e6, 2e7] {
+            let column = FreezingColumn {
+                bodies,
+                solidus: bodies.melts_at,
+                conductance,
+                wall_thickness: deep(bodies.wall),
+                fluid_thickness: deep(bodies.frozen),
+                cells: 800,
+            };
+            let exact = column.run(time, 1600);
+            for across in [2.0, 8.0] {
+                let spacing = bodies.front(time) / across;
+                let rows = (6.0 * (MOLTEN.diffusivity() * time).sqrt() / spacing).max(6.0) as usize;
+                let mut layer = Layer::of(&bodies, (spacing, rows), Some(conductance));
+                let (mut heat, mut now) = (0.0, 0.0);
+                let mut errors = Vec::new();
+                for n in [160, 400, 800, 1600] {
+                    let at = exact[n - 1];
+                    heat += layer.advance(at.time - now);
+                    now = at.time;
+                    let front = layer.front() - at.front;
+                    errors
+                        .push([heat / at.heat - 1.0, front / exact[1599].front.max(0.1 * spacing)]);
+                }
+                let biot = conductance * spacing / MOLTEN.conductivity;
+                println!("{temperatures:?}, Bi {biot:.2}, {across} across: {errors:.4?}");
+                let largest =
+                    errors.as_flattened().iter().fold(0.0, |most: f64, e| most.max(e.abs()));
+                assert!(largest < 0.02, "{errors:?}");
+            }
+        }
+    }
+}
+
+const SCENE: &str = r#"
+name = "Freezing"
+stop_time = 4e-4
+step = 2e-5
+[body.drop]
+kind = "droplet"
+diameter = 1e-4
+impact_velocity = 1.0
+initial_temperature = 520.0
+spacing = 8e-6
+fluid = { density = 6970.0, viscosity = 1.9e-3, specific_heat = 244.0, conductivity = 33.0, surface_tension = 0.544, contact_angle = 2.4, melting = { solidus = 505.0, liquidus = 505.0, latent_heat = 59e3 }, frozen = { conductivity = 62.0 } }
+[[wall]]
+name = "wall"
+under = "drop"
+footprint = { rings = 10, radius = 2e-4 }
+temperature = 300.0
+"#;
+
+fn set_wall(trial: &mut Trial, temperature: f64) {
+    for ring in 1..=10 {
+        trial.set(&format!("wall.temperature[{ring}]"), temperature);
+    }
+}
+
+/// Frozen, molten and frozen again: the heat is balanced, latent heat returns, and all of it shows in the outputs.
+#[test]
+fn heat_is_balanced_through_freezing_and_melting() {
+    let mut trial = Trial::new(SCENE);
+    let mass = trial.get("drop.mass");
+    let mut frozen = Vec::new();
+    for wall in [300.0, 700.0, 300.0] {
+        set_wall(&mut trial, wall);
+        for _ in 0..20 {
+            trial.step(2e-5);
+            let [drift, heat] = ["drop.heat_drift", "drop.heat"].map(|name| trial.get(name));
+            assert!(drift.abs() < 1e-9 * (mass * LATENT), "{drift} J of {heat} J");
+        }
+        let [fraction, part, latent, arrest, stored, warmth] = [
+            "solid_fraction",
+            "frozen_mass",
+            "latent_heat",
+            "arrest_time",
+            "heat_stored",
+            "mean_temperature",
+        ]
+        .map(|name| trial.get(&format!("drop.{name}")));
+        assert!(off(part, fraction * mass) < 1e-12 || fraction == 0.0);
+        assert!(off(latent, part * LATENT) < 1e-12 || fraction == 0.0);
+        // Both phases have one specific heat.
+        assert!(off(stored, mass * 244.0 * (warmth - 520.0) - latent) < 1e-9, "{stored}");
+        let on_wall: f64 = (1..=10)
+            .map(|ring| {
+                let area = f64::from(2 * ring - 1) * PI * 4e-10;
+                area * trial.get(&format!("wall.frozen[{ring}]"))
+            })
+            .sum();
+        assert!(off(DENSITY * on_wall, part) < 1e-9 || fraction == 0.0, "{on_wall}");
+        frozen.push((fraction, arrest));
+    }
+    println!("{frozen:?}");
+    let [(first, arrest), (molten, free), (again, later)] = frozen[..] else { panic!() };
+    assert!(first > 0.999 && molten == 0.0 && again > 0.999, "{frozen:?}");
+    assert!(arrest > 0.0 && arrest < 4e-4 && free == 0.0 && later > 8e-4, "{frozen:?}");
+}
+
+/// What is frozen stays where it is, to the bit, under whatever pulls on it.
+#[test]
+fn frozen_drops_do_not_creep() {
+    let mut trial = Trial::new(&SCENE.replace("spacing = 8e-6", "spacing = 8e-6\ngravity = 98.1"));
+    (0..40).for_each(|_| trial.step(2e-5));
+    assert!(trial.get("drop.solid_fraction") == 1.0);
+    let read = |trial: &mut Trial| {
+        ["height", "spread_diameter", "max_speed"].map(|name| trial.get(&format!("drop.{name}")))
+    };
+    let before = read(&mut trial);
+    (0..20).for_each(|_| trial.step(2e-5));
+    assert_eq!(read(&mut trial), before);
+    assert_eq!(before[2], 0.0);
+    let weight = trial.get("drop.mass") * 98.1;
+    assert!(off(trial.get("drop.force"), weight) < 1e-6, "{weight}");
+}
