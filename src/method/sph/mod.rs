@@ -18,6 +18,7 @@ mod failure;
 mod field;
 mod fractions;
 mod free_surface;
+mod frozen;
 mod grid;
 mod images;
 mod kick;
