@@ -63,6 +63,11 @@ impl ContactLaw {
         Self { times, decay: 1.0 / (slowness(THICK) * (1.0 - THICK)) }
     }
 
+    /// 2C.
+    pub fn decay(&self) -> f64 {
+        self.decay
+    }
+
     /// Fraction of `T − T_w` that the layer loses during a diffusion time `κΔt/δ²`, always between
     /// 0 and 1.
     ///

@@ -1,6 +1,7 @@
 //! Changes of velocity, and measures of the motion after them.
 
 use super::cloud::Part;
+use super::frozen::Bond;
 use super::order::{BLOCK, Bounds};
 
 /// Range of density over that at rest; no weakly compressible flow leaves it.
@@ -18,7 +19,7 @@ pub struct Motion {
     /// Σ v and Σ v².
     sums: [f64; 3],
     squares: f64,
-    /// Largest v² and a².
+    /// Largest v² and a²; no a of rigid particles.
     fastest: f64,
     most_accelerated: f64,
     /// Σ m.
@@ -28,6 +29,8 @@ pub struct Motion {
     pub sound: bool,
     /// Particles that the wall pushes, in ascending order.
     pub pushed: Vec<usize>,
+    /// Particles held by the wall, in ascending order, and the velocities that they lose.
+    pub stopped: Vec<(usize, [f64; 3])>,
     /// The box of the velocities of each block.
     pub velocities: Vec<Bounds>,
 }
@@ -42,6 +45,7 @@ impl Motion {
             mass: 0.0,
             sound: true,
             pushed: Vec::new(),
+            stopped: Vec::new(),
             velocities: Vec::new(),
         }
     }
@@ -57,6 +61,7 @@ impl Motion {
             all.mass += part.mass;
             all.sound &= part.sound;
             all.pushed.extend(part.pushed);
+            all.stopped.extend(part.stopped);
             all.velocities.extend(part.velocities);
         }
         all
@@ -64,6 +69,12 @@ impl Motion {
 
     pub fn fastest(&self) -> f64 {
         self.fastest.sqrt()
+    }
+
+    /// Takes another acceleration into account.
+    pub fn accelerate(&mut self, acceleration: [f64; 3]) {
+        let square = acceleration.iter().map(|a| a * a).sum();
+        self.most_accelerated = self.most_accelerated.max(square);
     }
 
     pub fn most_accelerated(&self) -> f64 {
@@ -92,8 +103,9 @@ impl Times {
     pub const NONE: Self = Self { dt: 0.0, tension: Some(0.0) };
 }
 
-/// Changes velocities by the accelerations; gravity is the same for all.
-pub fn kick(part: &mut Part, times: Times, gravity: [f64; 3]) -> Motion {
+/// Changes velocities by the accelerations; gravity is the same for all. Stops held particles; `bonds` are those of all
+/// particles, empty where all are fluid.
+pub fn kick(part: &mut Part, times: Times, gravity: [f64; 3], bonds: &[Bond]) -> Motion {
     let mut motion = Motion::none();
     for i in 0..part.mass.len() {
         let [by_fluid, by_wall] = part.acceleration[i];
@@ -110,6 +122,16 @@ pub fn kick(part: &mut Part, times: Times, gravity: [f64; 3]) -> Motion {
             let rate = rate + pulls[a];
             speed += velocity[a] * velocity[a];
             acceleration += rate * rate;
+        }
+        let bond = bonds.get(part.first + i).copied().unwrap_or_default();
+        if bond.is_held() {
+            if bond == Bond::Wall && velocity != [0.0; 3] {
+                motion.stopped.push((part.first + i, velocity));
+            }
+            (velocity, speed) = ([0.0; 3], if speed.is_finite() { 0.0 } else { speed });
+        }
+        if bond.is_rigid() {
+            acceleration = 0.0;
         }
         part.velocity[i] = velocity;
         (0..3).for_each(|a| motion.sums[a] += velocity[a]);

@@ -11,6 +11,7 @@ use super::cloud::{Cloud, Ledger, Part, UNKNOWNS};
 use super::continuity::Continuity;
 use super::failure::Failure;
 use super::free_surface::FreeSurface;
+use super::frozen::{Moved, Pieces};
 use super::images::copies;
 use super::kick::{DENSITIES, FARTHEST, FASTEST, Motion, Times, kick};
 use super::loops::{PART, PairSum, for_all, for_parts};
@@ -49,6 +50,11 @@ pub struct Stepper<'a, 'p> {
     free_surface: FreeSurface,
     /// Kicks whose reaction the wall has not received yet.
     pending_kicks: Vec<Times>,
+    /// Frozen fluid.
+    frozen: Pieces,
+    /// Velocities that held particles have lost, and whose impulse the wall has not received yet; empty where none was
+    /// held.
+    stopped: Vec<[f64; 3]>,
 }
 
 /// Name of the loop over time steps in messages.
@@ -85,6 +91,8 @@ impl<'a, 'p> Stepper<'a, 'p> {
             accelerations: Vec::new(),
             free_surface: FreeSurface::default(),
             pending_kicks: Vec::new(),
+            frozen: Pieces::NONE,
+            stopped: Vec::new(),
         }
     }
 
@@ -100,12 +108,14 @@ impl<'a, 'p> Stepper<'a, 'p> {
     }
 
     fn sort(&mut self) {
+        self.push_wall_by_stopped();
         self.cloud.position.iter_mut().for_each(|x| self.method.images.wrap(x));
         let order = space_order(&self.cloud.position, self.team);
         self.cloud.permute(&order, self.team);
         self.neighbours = Neighbours::of(&self.cloud.position, self.team);
         self.ledger.surrounded = self.neighbours.surrounded();
         self.free_surface.forget();
+        self.frozen = Pieces::of(self.method, self.cloud);
     }
 
     /// Lists neighbours for predicted displacements of the particles.
@@ -131,8 +141,9 @@ impl<'a, 'p> Stepper<'a, 'p> {
     pub fn advance(&mut self, duration: f64, allowance: &Allowance) -> Result<(), Failure> {
         let method = self.method;
         self.neighbours = Neighbours::of(&self.cloud.position, self.team);
-        if self.needs_sorting() {
-            self.sort();
+        match self.needs_sorting() {
+            true => self.sort(),
+            false => self.frozen = Pieces::of(method, self.cloud),
         }
         if method.implicit {
             self.list(&Displacements::none(self.cloud.len()))?;
@@ -153,6 +164,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
             rest = if turn == steps { 0.0 } else { rest - turn * dt };
         }
         self.push_wall(&motion.pushed);
+        self.push_wall_by_stopped();
         Ok(())
     }
 
@@ -208,6 +220,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
         self.list(&displacements.times(dt))?;
         self.drift_to_middle(dt);
         self.change_density_and_heat(dt);
+        self.frozen.update(self.method, self.cloud);
         let times = match self.method.implicit {
             true => Times::NONE,
             false => Times { dt: 0.5 * dt, tension: ends },
@@ -242,8 +255,9 @@ impl<'a, 'p> Stepper<'a, 'p> {
     /// Changes velocities by viscosity over a step.
     fn apply_viscosity(&mut self, dt: f64) -> Result<(), Failure> {
         let (method, team) = (self.method, self.team);
-        let step = viscous::advance(method, self.cloud, &self.neighbours.blocks, dt, team)
-            .map_err(|reason| Failure::Viscosity { reason, time: self.ledger.time })?;
+        let step =
+            viscous::advance(method, self.cloud, &self.frozen, &self.neighbours.blocks, dt, team)
+                .map_err(|reason| Failure::Viscosity { reason, time: self.ledger.time })?;
         team.for_each(&mut self.cloud.velocity, |i, velocity| {
             (0..3).for_each(|a| velocity[a] += step.changes[i][a]);
         });
@@ -265,6 +279,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
         let method = self.method;
         let count = self.cloud.len();
         let annexed = self.heats || method.needs_moments();
+        let moved = self.frozen_moved(0.5 * dt);
         self.records.resize(count, [0.0; 8]);
         self.densities.resize(count, 0.0);
         self.annexes.resize(if annexed { count } else { 0 }, [0.0; 4]);
@@ -287,13 +302,35 @@ impl<'a, 'p> Stepper<'a, 'p> {
                 *annex = [x, y, z, method.potential(part, k)];
             }
         });
+        for Moved { particle, position: [x, y, z], velocity: [u, v, w] } in &moved {
+            self.records[*particle][..6].copy_from_slice(&[*x, *y, *z, *u, *v, *w]);
+        }
+        self.place_frozen(&moved);
+    }
+
+    /// Positions and velocities of free pieces after a time without forces.
+    fn frozen_moved(&self, dt: f64) -> Vec<Moved> {
+        match self.frozen.any_is_free() {
+            true => self.frozen.bodies(self.cloud).moved(dt),
+            false => Vec::new(),
+        }
+    }
+
+    fn place_frozen(&mut self, moved: &[Moved]) {
+        for Moved { particle, position, velocity } in moved {
+            self.cloud.position[*particle] = *position;
+            self.cloud.velocity[*particle] = *velocity;
+        }
     }
 
     /// Changes velocities by the accelerations; the reaction on the wall waits for [`Self::push_wall`].
     fn kick(&mut self, times: Times) -> Motion {
         let gravity = self.method.gravity;
-        let kick = |part: &mut Part| kick(part, times, gravity);
-        let motion = Motion::of(self.team.map_each(&mut self.cloud.parts(PART), kick));
+        let mut motion = self.kick_particles(times);
+        self.note_stopped(&motion);
+        if self.frozen.any_is_free() {
+            motion = self.make_rigid(times, motion);
+        }
         if times == Times::NONE {
             return motion;
         }
@@ -304,6 +341,48 @@ impl<'a, 'p> Stepper<'a, 'p> {
         }
         self.pending_kicks.push(times);
         motion
+    }
+
+    fn kick_particles(&mut self, times: Times) -> Motion {
+        let (gravity, bonds) = (self.method.gravity, self.frozen.bonds());
+        let kick = |part: &mut Part| kick(part, times, gravity, bonds);
+        Motion::of(self.team.map_each(&mut self.cloud.parts(PART), kick))
+    }
+
+    /// Projects the velocities of free pieces onto rigid motions after a kick; returns the measures of the motion then.
+    fn make_rigid(&mut self, times: Times, kicked: Motion) -> Motion {
+        let (cloud, gravity) = (&*self.cloud, self.method.gravity);
+        let bodies = self.frozen.bodies(cloud);
+        let accelerations = bodies.projected(|i| acceleration(cloud, i, times, gravity));
+        for (i, velocity) in bodies.projected(|i| cloud.velocity[i]) {
+            self.cloud.velocity[i] = velocity;
+        }
+        let mut motion =
+            self.kick_particles(Times { dt: 0.0, tension: times.tension.map(|_| 0.0) });
+        motion.sound &= kicked.sound;
+        accelerations.into_iter().for_each(|(_, acceleration)| motion.accelerate(acceleration));
+        motion
+    }
+
+    /// Adds the velocities that held particles have lost to those whose impulse the wall has not received yet.
+    fn note_stopped(&mut self, motion: &Motion) {
+        if !motion.stopped.is_empty() {
+            self.stopped.resize(self.cloud.len(), [0.0; 3]);
+        }
+        for &(i, velocity) in &motion.stopped {
+            (0..3).for_each(|a| self.stopped[i][a] += velocity[a]);
+        }
+    }
+
+    /// Transfers to the wall below them the impulses of forces on held particles; their pieces carry these there.
+    fn push_wall_by_stopped(&mut self) {
+        let momentum = self.method.units.mass() * self.method.units.speed;
+        let stopped = std::mem::take(&mut self.stopped);
+        let Some(points) = &mut self.points else { return };
+        for (i, velocity) in stopped.iter().enumerate().filter(|(_, v)| **v != [0.0; 3]) {
+            let impulse = velocity.map(|v| momentum * self.cloud.mass[i] * v);
+            points.push(self.method.place(self.cloud.position[i]), impulse);
+        }
     }
 
     /// Transfers to the wall the reaction to all pending kicks of the particles that it pushes;
@@ -325,13 +404,16 @@ impl<'a, 'p> Stepper<'a, 'p> {
         pushes.into_iter().for_each(|(at, impulse)| points.push(at, impulse));
     }
 
+    /// Advances densities and temperatures over a step, and moves the particles from its middle to its end.
     fn change_density_and_heat(&mut self, dt: f64) {
+        let moved = self.frozen_moved(0.5 * dt);
         match (self.heats, self.method.needs_moments()) {
             (false, false) => self.change_density::<false, false>(dt),
             (false, true) => self.change_density::<false, true>(dt),
             (true, false) => self.change_density::<true, false>(dt),
             (true, true) => self.change_density::<true, true>(dt),
         }
+        self.place_frozen(&moved);
     }
 
     /// Advances densities and temperatures over a step from the records at its middle, and moves
@@ -379,9 +461,14 @@ impl<'a, 'p> Stepper<'a, 'p> {
     fn accelerate(&mut self, times: Times) {
         let method = self.method;
         let cloud = &*self.cloud;
+        let frozen = &self.frozen;
+        let velocity = |i: usize| match frozen.bond(i).is_rigid() {
+            true => cloud.velocity[i],
+            false => ahead(cloud, i, times, method.gravity),
+        };
         let mut records = std::mem::take(&mut self.records);
         fill(&mut records, cloud.len(), self.team, |i| {
-            record(cloud, i, ahead(cloud, i, times, method.gravity), pressure(cloud.density[i]))
+            record(cloud, i, velocity(i), pressure(cloud.density[i]))
         });
         let pass = Momentum {
             images: &method.images,
@@ -438,7 +525,11 @@ impl<'a, 'p> Stepper<'a, 'p> {
             reference: 1.0 / value(method.spacing),
         };
         let sums = self.over_pairs(&pass, Vec::new());
-        let shifts = team.map(sums.len(), |i| displacement(&sums[i], fullness[i], way));
+        let frozen = &self.frozen;
+        let shifts = team.map(sums.len(), |i| match frozen.bond(i).is_rigid() {
+            true => [0.0; 3],
+            false => displacement(&sums[i], fullness[i], way),
+        });
         self.records = records;
         self.list(&Displacements::along(&shifts, f64::INFINITY, team))?;
         team.for_each(&mut self.cloud.position, |i, x| {
@@ -543,6 +634,13 @@ fn fill<T: Copy + Default + Send>(
 ) {
     list.resize(count, T::default());
     team.for_each(list, |i, place| *place = number(i));
+}
+
+/// Acceleration of a particle by all forces of a kick.
+fn acceleration(cloud: &Cloud, i: usize, times: Times, gravity: [f64; 3]) -> [f64; 3] {
+    let ([by_fluid, by_wall], [x, y, z, of_wall]) = (cloud.acceleration[i], cloud.tension[i]);
+    let pull = if times.tension.is_some() { [x, y, z + of_wall] } else { [0.0; 3] };
+    [0, 1, 2].map(|a| by_fluid[a] + by_wall[a] + gravity[a] + pull[a])
 }
 
 /// Velocity of a particle extrapolated over some times with the accelerations of the step before.

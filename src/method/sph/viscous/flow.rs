@@ -17,6 +17,7 @@
 //! 10.1016/S0045-7825(03)00262-7.
 
 use super::super::cloud::Cloud;
+use super::super::frozen::Pieces;
 use super::super::method::Method;
 use super::super::neighbours::Block;
 use super::ViscousStep;
@@ -47,12 +48,13 @@ const MOST_TURNS: usize = 1000;
 pub fn advance(
     method: &Method,
     cloud: &Cloud,
+    frozen: &Pieces,
     blocks: &[Block],
     dt: f64,
     team: &Team,
 ) -> Result<ViscousStep, NotConverged> {
     let moduli = vec![Moduli::newtonian(method.viscosity); cloud.len()];
-    let mut system = System::of(method, cloud, blocks, dt, moduli, team);
+    let mut system = System::of(method, cloud, frozen, blocks, dt, moduli, team);
     let mut velocity = cloud.velocity.as_flattened().to_vec();
     let pairs = system.elongations(&velocity);
     let moduli = team.map(cloud.len(), |i| moduli_at(&system, &pairs, i));
@@ -174,13 +176,15 @@ impl Turn {
     }
 }
 
-/// Residual of the step's equation of motion: `m (u* − u)` plus the impulses of forces.
+/// Residual of the step's equation of motion: `m (u* − u)` plus the impulses of forces, of those on frozen pieces what
+/// moves them.
 fn residual(system: &System, velocity: &[f64], forces: &[super::system::Forces]) -> Vec<f64> {
     let before = system.cloud.velocity.as_flattened();
     let mut load = system.load(forces);
     for (n, load) in load.iter_mut().enumerate() {
         *load += system.cloud.mass[n / 3] * (before[n] - velocity[n]);
     }
+    system.reduce(&mut load);
     load
 }
 

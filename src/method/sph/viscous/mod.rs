@@ -17,6 +17,9 @@
 //! `m (u − u*)/dt = −∂E/∂u` is a symmetric positive definite system, solved by conjugate gradients.
 //! Preconditioned by masses alone, each of their iterates conserves what the solution conserves.
 //!
+//! Frozen fluid is rigid: the step minimises among the velocities in which each of its pieces moves as a rigid body, or
+//! is at rest on the wall. Conjugate gradients remain in this space if their preconditioner projects onto it by masses.
+//!
 //! The fluid sticks to planes across z: its images there move against it, and E counts the fluid
 //! alone.
 //!
@@ -37,6 +40,7 @@ mod tensor;
 mod weights;
 
 use super::cloud::Cloud;
+use super::frozen::Pieces;
 use super::method::Method;
 use super::neighbours::Block;
 use crate::math::conjugate_gradients::{NotConverged, solve};
@@ -65,19 +69,20 @@ pub struct ViscousStep {
 pub fn advance(
     method: &Method,
     cloud: &Cloud,
+    frozen: &Pieces,
     blocks: &[Block],
     dt: f64,
     team: &Team,
 ) -> Result<ViscousStep, NotConverged> {
     if !method.flow.is_newtonian() {
-        return flow::advance(method, cloud, blocks, dt, team);
+        return flow::advance(method, cloud, frozen, blocks, dt, team);
     }
     let moduli = team.map(cloud.len(), |i| {
         let viscosity = method.flow.newtonian(cloud.temperature[i]);
         // Time steps rely on the damping of sound by the reference.
         Moduli { volume: viscosity.max(method.viscosity), ..Moduli::newtonian(viscosity) }
     });
-    let system = System::of(method, cloud, blocks, dt, moduli, team);
+    let system = System::of(method, cloud, frozen, blocks, dt, moduli, team);
     let velocity = cloud.velocity.as_flattened();
     let pairs = system.elongations(velocity);
     let forces = system.forces(&pairs, &system.forms(&pairs));

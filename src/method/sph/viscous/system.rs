@@ -1,6 +1,7 @@
 //! The linear system of a viscous step.
 
 use super::super::cloud::Cloud;
+use super::super::frozen::{Bodies, Bond, Pieces};
 use super::super::loops::{PairSum, for_all_of};
 use super::super::method::Method;
 use super::super::neighbours::Block;
@@ -41,6 +42,8 @@ pub type Forces = [[f64; 3]; 2];
 pub struct System<'a> {
     pub method: &'a Method,
     pub cloud: &'a Cloud,
+    frozen: &'a Pieces,
+    bodies: Bodies<'a>,
     blocks: &'a [Block],
     team: &'a Team,
     pub dt: f64,
@@ -56,6 +59,7 @@ impl<'a> System<'a> {
     pub fn of(
         method: &'a Method,
         cloud: &'a Cloud,
+        frozen: &'a Pieces,
         blocks: &'a [Block],
         dt: f64,
         moduli: Vec<Moduli>,
@@ -66,6 +70,8 @@ impl<'a> System<'a> {
         let mut system = Self {
             method,
             cloud,
+            frozen,
+            bodies: frozen.bodies(cloud),
             blocks,
             team,
             dt,
@@ -178,13 +184,39 @@ impl<'a> System<'a> {
         (0..forces.len()).flat_map(impulse).collect()
     }
 
-    /// Accelerations by the wall, under which velocities have changed by this much; empty without a wall.
+    /// Replaces impulses by those that move particles as pieces allow.
+    pub fn reduce(&self, load: &mut [f64]) {
+        if self.frozen.are_none() {
+            return;
+        }
+        self.respond(load);
+        let mass = &self.cloud.mass;
+        load.iter_mut().enumerate().for_each(|(n, load)| *load *= mass[n / 3]);
+    }
+
+    /// Replaces impulses by the changes of velocity that they cause.
+    fn respond(&self, load: &mut [f64]) {
+        let velocities = load.as_chunks_mut::<3>().0;
+        self.team.for_each(velocities, |i, load| {
+            (0..3).for_each(|a| load[a] /= self.cloud.mass[i]);
+        });
+        self.bodies.project(velocities, self.team);
+    }
+
+    /// Accelerations by the wall, under which velocities have changed by this much; empty without a wall. The wall
+    /// balances the forces of fluid on pieces that it holds.
     pub fn by_wall(&self, forces: &[Forces], changes: &[f64]) -> Vec<[f64; 3]> {
         if self.method.wall.is_none() {
             return Vec::new();
         }
         let mut by_wall = self.team.map(forces.len(), |i| {
-            forces[i][1].map(|force| force * self.volume(i) / self.cloud.mass[i])
+            let [fluid, wall] = forces[i];
+            let force = match self.frozen.bond(i) {
+                Bond::Wall => fluid.map(|force| -force),
+                Bond::Plane => [0.0; 3],
+                Bond::None | Bond::Piece(_) => wall,
+            };
+            force.map(|force| force * self.volume(i) / self.cloud.mass[i])
         });
         if self.method.images.are_open() {
             self.balance(&mut by_wall, changes);
@@ -237,8 +269,7 @@ impl Operator for System<'_> {
     }
 
     fn precondition(&self, residual: &[f64], out: &mut [f64]) {
-        self.team.for_each(out.as_chunks_mut::<3>().0, |i, out| {
-            (0..3).for_each(|a| out[a] = residual[3 * i + a] / self.cloud.mass[i]);
-        });
+        out.copy_from_slice(residual);
+        self.respond(out);
     }
 }

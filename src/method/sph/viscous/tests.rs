@@ -9,6 +9,8 @@ use crate::scene::Precision;
 
 const SPACING: f64 = 1e-5;
 
+static FLUID: Pieces = Pieces::NONE;
+
 /// Very viscous fluid of particles at unit distance over H = 3, without any drop.
 fn plan() -> DropletPlan {
     let fluid = Fluid {
@@ -124,7 +126,7 @@ fn newtonian<'a>(
     team: &'a Team,
 ) -> System<'a> {
     let moduli = vec![Moduli::newtonian(method.viscosity); cloud.len()];
-    System::of(method, cloud, &neighbours.blocks, dt, moduli, team)
+    System::of(method, cloud, &FLUID, &neighbours.blocks, dt, moduli, team)
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -220,7 +222,7 @@ fn momentum_and_angular_momentum_are_conserved() {
     let velocity = disordered(&plan, cloud.len(), 2);
     cloud.velocity = velocity.as_chunks().0.to_vec();
     let (method, team) = (Method::of(&plan), Team::new(2));
-    let step = advance(&method, &cloud, &neighbours.blocks, 10.0, &team).unwrap();
+    let step = advance(&method, &cloud, &FLUID, &neighbours.blocks, 10.0, &team).unwrap();
     let (mut change, mut turn, mut whole) = ([0.0; 3], [0.0; 3], 0.0);
     for (i, v) in step.changes.iter().enumerate() {
         let (m, x) = (cloud.mass[i], cloud.position[i]);
