@@ -16,6 +16,8 @@ pub enum Quantity {
     Energy,
     Density,
     SpecificHeat,
+    /// Heat per mass of a change of phase.
+    LatentHeat,
     Conductivity,
     Modulus,
     Ratio,
@@ -57,7 +59,7 @@ const fn scaled(name: &'static str, factor: f64) -> Option<DisplayUnit> {
 }
 
 impl Quantity {
-    pub const ALL: [Quantity; 33] = [
+    pub const ALL: [Quantity; 34] = [
         Quantity::Time,
         Quantity::Temperature,
         Quantity::TemperatureDifference,
@@ -68,6 +70,7 @@ impl Quantity {
         Quantity::Energy,
         Quantity::Density,
         Quantity::SpecificHeat,
+        Quantity::LatentHeat,
         Quantity::Conductivity,
         Quantity::Modulus,
         Quantity::Ratio,
@@ -123,6 +126,7 @@ impl Quantity {
             Quantity::Energy => "Energy",
             Quantity::Density => "Density",
             Quantity::SpecificHeat => "SpecificHeat",
+            Quantity::LatentHeat => "LatentHeat",
             Quantity::Conductivity => "ThermalConductivity",
             Quantity::Modulus => "ElasticModulus",
             Quantity::Ratio => "Ratio",
@@ -160,6 +164,7 @@ impl Quantity {
             Quantity::Energy => "J",
             Quantity::Density => "kg/m3",
             Quantity::SpecificHeat => "J/(kg.K)",
+            Quantity::LatentHeat => "J/kg",
             Quantity::Conductivity => "W/(m.K)",
             Quantity::Ratio | Quantity::Count => "1",
             Quantity::Angle => "rad",
@@ -195,6 +200,7 @@ impl Quantity {
             Quantity::Energy => [1, 2, -2, 0],
             Quantity::Density => [1, -3, 0, 0],
             Quantity::SpecificHeat => [0, 2, -2, -1],
+            Quantity::LatentHeat => [0, 2, -2, 0],
             Quantity::Conductivity => [1, 1, -3, -1],
             Quantity::Ratio | Quantity::Count | Quantity::Angle => [0, 0, 0, 0],
             Quantity::Expansion => [0, 0, 0, -1],
@@ -255,6 +261,7 @@ impl Quantity {
             Quantity::Energy => 1e-6,
             Quantity::Density => 1e3,
             Quantity::SpecificHeat => 1e3,
+            Quantity::LatentHeat => 1e5,
             Quantity::Conductivity => 10.0,
             Quantity::Ratio | Quantity::Count | Quantity::Angle => 1.0,
             Quantity::Expansion => 1e-5,

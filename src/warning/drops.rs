@@ -17,7 +17,8 @@ rules! {
     Check freezes_on_contact(below, temperature)
     "on `{below}` the fluid is predicted to be at {temperature} K in contact, where it freezes, and the model keeps it \
      liquid, without latent heat";
-    "do not rely on spread, later heat and forces, nor on temperatures that latent heat would raise"
+    "with `method = \"sph\"` and `melting` of the fluid it freezes; else do not rely on spread, later heat and forces, nor on \
+     temperatures that latent heat would raise"
 
     Check boils_on_contact(below, temperature)
     "on `{below}` the fluid is predicted to be at {temperature} K in contact, where it boils, and the model keeps it \

@@ -645,6 +645,8 @@ fn sample(curve: &[[f64; 2]], deficit: f64, q: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::closed_form::{Conductor, FreezingColumn, FreezingContact};
+    use crate::math::exponential;
+    use crate::port::SurfaceResponse;
 
     #[derive(Clone, Copy)]
     struct Material {
@@ -789,37 +791,151 @@ mod tests {
             }
         }
     }
-}
-#[cfg(test)]
-mod probe {
-    use super::*;
-    #[test]
-    fn decays() {
-        for support in [2.0, 2.5, 3.0, 4.0, 6.0] {
-            let lattice = (Kernel::WendlandC2, support, 3);
-            let c = couplings(lattice.0, lattice.1, lattice.2);
-            let law = ContactLaw::of(lattice.0, lattice.1, lattice.2);
-            println!("{support} {:?} eff2 {} decay {}", c, effusivity(&c).powi(2), law.decay());
-            // Steady resistance from a plane of constant flux: layers fed at the bottom, held far above.
-            let n = 40usize;
-            let mut psi = vec![0.0f64; n];
-            for _ in 0..200000 {
-                let old = psi.clone();
-                for i in 0..n {
-                    for (m, c) in c.iter().enumerate() {
-                        let d = m + 1;
+
+    fn passes() -> usize {
+        std::env::var("PASSES").map_or(6, |p| p.parse().unwrap())
+    }
+    /// Heat, front and wall's surface temperature at some times, of layers of unit thickness.
+    fn coupled(
+        phases: &Phases,
+        law: &FreezingLaw,
+        lattice: (Kernel, f64, usize),
+        [start, wall]: [f64; 2],
+        effusivity: f64,
+        resistance: f64,
+        times: &[f64],
+    ) -> Vec<[f64; 3]> {
+        let c = couplings(lattice.0, lattice.1, lattice.2);
+        let parts = if resistance > 0.0 {
+            let (mut a, mut b) = (wall, start);
+            for _ in 0..80 {
+                let m = 0.5 * (a + b);
+                let q = freezing_flux(phases, start, m) * PI.sqrt();
+                if effusivity * (m - wall) > q { b = m } else { a = m }
+            }
+            let own = match std::env::var("SPLIT") {
+                Ok(_) => effusivity * (a - wall) / (start - a),
+                _ => 1.0,
+            };
+            [effusivity, own].map(|e| resistance * e / (own + effusivity))
+        } else {
+            [0.0; 2]
+        };
+        let step = (0.2 / phases.fastest()).min(0.02).min(times[0] / 10.0);
+        let response =
+            SurfaceResponse::of_half_space(effusivity, [0.1 * step, 10.0 * times[times.len() - 1]]);
+        let weights: Vec<_> =
+            response.rates.iter().map(|rate| exponential::weights(rate * step)).collect();
+        let [held, falling] =
+            [response.of_held_flux(step), response.of_falling_flux(step)].map(|rise| rise / step);
+        let mut h = vec![start; 150];
+        let mut amplitudes = vec![0.0; response.len()];
+        let (mut heat, mut taken) = (0.0, 0);
+        let mut found = Vec::new();
+        for &time in times {
+            let mut surface = 0.0;
+            while taken < (time / step).round() as usize {
+                let free: f64 =
+                    wall + amplitudes.iter().zip(&weights).map(|(a, w)| a * w[0]).sum::<f64>();
+                surface = free;
+                let mut lost = Lost { content: 0.0, fall: 0.0 };
+                for _ in 0..passes() {
+                    let at = Contents { before: start, fluid: h[0], wall: surface };
+                    lost = law.loss(at, step, parts);
+                    let layer = phases.rise(h[0]);
+                    let rise = lost.content / (layer - surface) * (held + lost.fall * falling);
+                    surface = (free + rise * layer) / (1.0 + rise);
+                }
+                for ((amplitude, gain), w) in
+                    amplitudes.iter_mut().zip(&response.gains).zip(&weights)
+                {
+                    let mean = w[1] + lost.fall * (w[1] - 2.0 * w[2]);
+                    *amplitude = w[0] * *amplitude + gain * lost.content * mean;
+                }
+                heat += lost.content;
+                let psi: Vec<f64> = h.iter().map(|&h| phases.potential(h)).collect();
+                let now = taken as f64 * step;
+                let reach = ((8.0 * (now * phases.fastest()).sqrt()) as usize + 8).min(h.len());
+                for i in 0..reach {
+                    for (n, c) in c.iter().enumerate() {
+                        let d = n + 1;
                         let below = if i >= d { i - d } else { d - i - 1 };
-                        let above = old.get(i + d).copied().unwrap_or((i + d) as f64 / effusivity(&c_all(lattice)).powi(2));
-                        psi[i] += 0.1 * c * (old[below] + above - 2.0 * old[i]);
+                        let above = psi.get(i + d).copied().unwrap_or(start);
+                        h[i] += step * c * (psi[below] + above - 2.0 * psi[i]);
                     }
                 }
-                psi[0] -= 0.1;
+                h[0] -= lost.content;
+                taken += 1;
             }
-            // Far profile psi = x/eff² + const; surface by extrapolation of the far profile to x=-1/2.
-            let e2 = effusivity(&c).powi(2);
-            let surface = psi[n - 10] - (n as f64 - 10.0 + 0.5) / e2;
-            println!("psi0 - surface: {}  (1/2C = {})", psi[0] - surface, 1.0 / law.decay());
+            found.push([heat, h.iter().map(|&h| phases.frozen(h)).sum(), surface]);
+        }
+        found
+    }
+
+    #[test]
+    fn show_resistive() {
+        let lattice = (Kernel::WendlandC2, 3.0, 3);
+        for (name, material, start, wall) in [
+            ("tin", TIN, 505.0, 298.15),
+            ("tin", TIN, 513.0, 298.15),
+            ("tin", TIN, 513.0, 423.15),
+            ("tin", TIN, 600.0, 298.15),
+            ("tin", TIN, 540.0, 503.0),
+            ("water", WATER, 280.0, 250.0),
+            ("alumina", ALUMINA, 2500.0, 300.0),
+            ("alloy", ALLOY, 500.0, 300.0),
+        ] {
+            let phases = material.phases(start);
+            let law = FreezingLaw::of(lattice, &phases, &[0.0]);
+            let bodies = material.contact(Conductor { conductivity: 14.9, heat_capacity: 7900.0 * 477.0 }, wall, start);
+            let scale = bodies.molten.effusivity();
+            for ratio in [bodies.wall.effusivity() / scale, 1e4] {
+                for biot in [0.1, 1.0, 10.0, 100.0, f64::INFINITY] {
+                    let times = [1e-2, 1e-1, 1.0, 10.0];
+                    let clock = std::time::Instant::now();
+                    COUNT.with(|c| c.set(0));
+                    let found = coupled(&phases, &law, lattice, [0.0, wall - start], ratio, 1.0 / biot, &times);
+                    let spent = clock.elapsed();
+                    print!("{name} {start} {wall} e{ratio:.3} Bi {biot:e} {spent:.1?}/{}:", COUNT.with(|c| c.get()));
+                    for (time, [heat, front, surface]) in times.into_iter().zip(found) {
+                        let column = FreezingColumn {
+                            bodies: FreezingContact {
+                                wall: Conductor { conductivity: ratio, heat_capacity: ratio },
+                                frozen: Conductor { conductivity: phases.conduction, heat_capacity: phases.heat },
+                                molten: Conductor { conductivity: 1.0, heat_capacity: 1.0 },
+                                latent: phases.latent,
+                                melts_at: phases.melting[1],
+                                wall_temperature: wall - start,
+                                fluid_temperature: 0.0,
+                            },
+                            solidus: phases.melting[0],
+                            conductance: biot,
+                            wall_thickness: 8.0 * time.sqrt(),
+                            fluid_thickness: 12.0 * (time * phases.fastest()).sqrt(),
+                            cells: 150,
+                        };
+                        let mut exact = *column.run(time, 150).last().unwrap();
+                        let fine = *FreezingColumn { cells: 300, ..column }.run(time, 300).last().unwrap();
+                        exact.heat = 2.0 * fine.heat - exact.heat;
+                        exact.front = 2.0 * fine.front - exact.front;
+                        exact.wall_surface = 2.0 * fine.wall_surface - exact.wall_surface;
+                        print!(" {:+.2}%/{:.3}:{:+.3}/{:+.2}K", 100.0 * (heat / exact.heat - 1.0), exact.front, front - exact.front, surface - exact.wall_surface);
+                    }
+                    println!();
+                }
+            }
         }
     }
-    fn c_all(l: (Kernel, f64, usize)) -> Vec<f64> { couplings(l.0, l.1, l.2) }
+    #[test]
+    fn debug_crossing() {
+        let lattice = (Kernel::WendlandC2, 3.0, 3);
+        let phases = TIN.phases(540.0);
+        let law = FreezingLaw::of(lattice, &phases, &[0.0]);
+        for deficit in [5.0, 11.0, 17.0] {
+            for surface in [-30.0, -34.0, -34.9, -34.99, -35.0, -35.001, -35.01, -35.05, -35.1, -35.2, -35.5, -36.0, -36.5, -36.9, -37.0] {
+                let q0 = freezing_flux(&phases, 0.0, surface);
+                println!("{deficit} {surface}: flux {:.4} u0 {:.4} sim {:.4}", law.flux(0.0, deficit, surface, -37.0), law.flux(0.0, deficit, surface, surface), 2.0*q0*q0/deficit);
+            }
+        }
+    }
 }

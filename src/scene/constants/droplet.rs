@@ -68,6 +68,35 @@ impl DropletConstant {
             place: |droplet| Some(&mut droplet.fluid.surface_tension),
         },
         Self {
+            key: "heat_of_fusion",
+            description: "latent heat of melting",
+            quantity: Quantity::LatentHeat,
+            start: AtStart::Never,
+            place: |droplet| Some(&mut droplet.fluid.melting.as_mut()?.latent_heat),
+        },
+        Self {
+            key: "frozen_specific_heat",
+            description: "specific heat capacity of the frozen fluid",
+            quantity: Quantity::SpecificHeat,
+            start: AtStart::Never,
+            place: |droplet| {
+                let molten = droplet.fluid.specific_heat;
+                let frozen = droplet.fluid.frozen.get_or_insert_default();
+                Some(frozen.specific_heat.get_or_insert(molten))
+            },
+        },
+        Self {
+            key: "frozen_conductivity",
+            description: "thermal conductivity of the frozen fluid",
+            quantity: Quantity::Conductivity,
+            start: AtStart::Never,
+            place: |droplet| {
+                let molten = droplet.fluid.conductivity;
+                let frozen = droplet.fluid.frozen.get_or_insert_default();
+                Some(frozen.conductivity.get_or_insert(molten))
+            },
+        },
+        Self {
             key: "sound_speed",
             description: "speed of sound of the model",
             quantity: Quantity::Velocity,
@@ -79,12 +108,15 @@ impl DropletConstant {
         },
     ];
 
-    /// The constant's place in a droplet; `None` where the scene sets no number. A speed of sound that the scene leaves
-    /// out is filled in first.
+    /// The constant's place in a droplet; `None` where the scene sets no number. What the scene leaves out of
+    /// the speed of sound and of the frozen fluid is filled in first.
     pub(super) fn place<'a>(&self, droplet: &'a mut Droplet) -> Option<&'a mut f64> {
         (self.place)(droplet)
     }
 }
+
+/// Keys of the constants that only fluids with `melting` have.
+const OF_MELTING: [&str; 3] = ["heat_of_fusion", "frozen_specific_heat", "frozen_conductivity"];
 
 /// Keys tell constants apart.
 impl PartialEq for DropletConstant {
@@ -102,7 +134,11 @@ pub fn offered(body: &str, droplet: &Droplet) -> Vec<OfferedConstant> {
     let is_of_particles = |key: &str| !droplet.has_particles() && key == "sound_speed";
     let has_viscosity = droplet.fluid.viscosity.clone().number("viscosity").is_some();
     let is_of_law = |key: &str| !has_viscosity && key == "viscosity";
-    let is_offered = |key: &str| !is_input(key) && !is_of_particles(key) && !is_of_law(key);
+    let melts = droplet.fluid.melting.is_some();
+    let is_of_melting = |key: &str| !melts && OF_MELTING.contains(&key);
+    let is_offered = |key: &str| {
+        !is_input(key) && !is_of_particles(key) && !is_of_law(key) && !is_of_melting(key)
+    };
     let rows = DropletConstant::ALL.iter().filter(|constant| is_offered(constant.key));
     let own = rows.map(|constant| OfferedConstant {
         key: constant.key.to_owned(),
