@@ -49,6 +49,7 @@ COARSE = {
         "\nspacing = 3e-6": "\nspacing = 8e-6",
         "spacing = 3e-5, depth_spacing = 5e-6": "spacing = 6e-5, depth_spacing = 1e-5",
     },
+    "tin_drop": {"\nspacing = 60e-6": "\nspacing = 200e-6"},
 }
 # Fields of examples that have hundreds of points.
 GRIDS = {

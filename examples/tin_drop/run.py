@@ -62,7 +62,7 @@ def draw(runs: dict, folder: Path, out: Path) -> list[Path]:
         panel.set_xlabel("x / mm", color=sections.PALE)
     sections.add_bar(figure, axes, image, "temperature / °C")
     figure.suptitle(
-        "Tin of 240 °C (2.7 mm, 1 m/s) on stainless steel; hatched: frozen", color=sections.PALE
+        "Tin of 250 °C (2.7 mm, 1 m/s) on stainless steel; hatched: frozen", color=sections.PALE
     )
     pictures = [shared.save(figure, out, NAME, smooth=True)]
     figure, axes = shared.new_figure(1, 4, height=3.6)
