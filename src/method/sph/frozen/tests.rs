@@ -443,3 +443,47 @@ fn saved_states_continue_with_the_same_bits() {
         assert!(states[0] == states[1] && states[0] == state);
     }
 }
+
+#[test]
+fn zz_film() {
+    let mut fluid = plan().fluid;
+    fluid.viscosity = 1.0.into();
+    let g = 10.0;
+    for below in [3.0] {
+        for plan in both(DropletPlan { gravity: [g, 0.0, 0.0], fluid: fluid.clone(), ..channel() })
+        {
+            let drop = DropletSph::new(plan.clone(), 1);
+            let start = particles(&plan, layers(below, below + 6.0), |_| [0.0; 3]);
+            let mut state = drop.state_of(&start);
+            drop.advance(&mut state, &[FROZEN], 0.08).unwrap();
+            let end = drop.particles(&state);
+            let mut profile = [[0.0; 3]; 6];
+            for (x, v) in end.position.iter().zip(&end.velocity) {
+                let z = x[2] / SPACING - below;
+                if z > 0.0 {
+                    let p = &mut profile[(z as usize).min(5)];
+                    *p = [p[0] + z, p[1] + v[0], p[2] + 1.0];
+                }
+            }
+            println!("{below} {:?}", plan.viscous);
+            for [z, v, n] in profile {
+                let (z, v) = (z / n * SPACING, v / n);
+                let h = 6.0 * SPACING;
+                let nu = 1e-3;
+                let exact = |off: f64| g / nu * ((h + off) * (z + off) - 0.5 * (z + off).powi(2));
+                // Offset of the plane without slip that gives this velocity.
+                let (mut low, mut high) = (-SPACING, SPACING);
+                for _ in 0..60 {
+                    let mid = 0.5 * (low + high);
+                    if exact(mid) < v { low = mid } else { high = mid }
+                }
+                println!(
+                    "{:.3} {v:.5} {:.5} {n} off {:.3}",
+                    z / SPACING,
+                    exact(0.0),
+                    low / SPACING
+                );
+            }
+        }
+    }
+}
