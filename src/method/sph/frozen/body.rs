@@ -139,9 +139,10 @@ impl Body {
 
     /// Free motion of the body over a time, from its motion.
     ///
-    /// It turns at the angular velocity `ω = I⁻¹ L` that it has with its angular momentum L in the orientation at the middle. So it keeps its shape and its
-    /// angular momentum to rounding; its energy oscillates by `(ω dt)²` and does not drift, because the scheme is
-    /// symmetric in time. Bodies with equal moments of inertia keep it, too.
+    /// It turns at the angular velocity `ω = I⁻¹ L` that it has with its angular momentum L in the orientation at the
+    /// middle of that time. So it keeps its shape and its angular momentum to rounding, and its radius does not drift.
+    /// Its energy oscillates by `(ω dt)²` without drift, because the scheme is symmetric in time; bodies with equal
+    /// moments of inertia keep it, too.
     pub fn displacement(&self, motion: &RigidMotion, dt: f64) -> Displacement {
         let spin_after = |turn: &Rotation3<f64>| {
             turn.matrix() * (self.mobility * (turn.matrix().transpose() * motion.angular))

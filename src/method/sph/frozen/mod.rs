@@ -31,8 +31,8 @@ const REACH: f64 = 1.5;
 /// Distance from a plane over Δx below which rigid particles adhere to it; those nearer exchange heat with the wall.
 const ADHERING: f64 = 1.05;
 
-/// Factor of viscosity of rigid particles in sums over pairs of explicit viscosity. With it fluid has the velocity of the
-/// rigid particles at the boundary of both, not at their centres, which are twice as far: a pair of both kinds counts
+/// Factor of viscosity of rigid particles in sums over pairs of explicit viscosity. With it fluid has the velocity of
+/// the rigid particles at the boundary of both, not at their centres, which are twice as far: a pair of both kinds counts
 /// twice. In a film of six layers on a frozen one the plane without slip lies 0.02 Δx above the boundary; without the
 /// factor it lay 0.55 Δx below.
 const STICKING: f64 = 3.0;
