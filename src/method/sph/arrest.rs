@@ -1,11 +1,10 @@
 //! The time since which fluid no longer moves on the wall.
 
 use super::cloud::{Cloud, Ledger};
+use super::frozen::RIGID;
 use super::method::Method;
 use super::wall_heat::Touching;
 
-/// Frozen fraction from which on a particle is rigid, so that fronts lie in the middle of a particle.
-const RIGID: f64 = 0.5;
 /// Fraction of the fluid on the wall that counts as all of it: single particles at the edge come and go.
 const ALMOST_ALL: f64 = 0.99;
 

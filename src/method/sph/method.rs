@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 use super::cloud::Part;
 use super::continuity::ContinuityRates;
 use super::free_surface::Setting;
+use super::frozen::STICKING_PAIR;
 use super::images::Images;
 use super::loops::PairKind;
 use super::moment::{filled, renormalised};
@@ -372,7 +373,8 @@ impl Method {
         if self.implicit {
             return STIFFEST / self.viscosity;
         }
-        self.shares.viscous / (2.0 * self.pair_viscosity)
+        let sticking = if self.phases.is_some() { STICKING_PAIR } else { 1.0 };
+        self.shares.viscous / (2.0 * self.pair_viscosity * sticking)
     }
 
     /// Capillary limit of the time step, for the shortest wave that surface tension, smoothed over

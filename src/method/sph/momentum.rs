@@ -27,7 +27,7 @@ use crate::kernel::Shape;
 /// 2003, Phys. Rev. E 67, 026705, doi 10.1103/PhysRevE.67.026705). Free surfaces: Colagrossi,
 /// Antuono, Souto-Iglesias & Le Touzé (2011), Phys. Rev. E 84, 026705, doi
 /// 10.1103/PhysRevE.84.026705.
-pub struct Momentum<'a> {
+pub struct Momentum<'a, const FROZEN: bool> {
     pub images: &'a Images,
     /// Position, velocity, volume and pressure of each particle.
     pub records: &'a [[f64; 8]],
@@ -37,17 +37,30 @@ pub struct Momentum<'a> {
     pub normalisation: f64,
     /// (2d/m) ν, with ν = µ/(ρ₀ c₀ H).
     pub viscosity: f64,
+    /// Factor of viscosity of each particle, and zeros, where `FROZEN`.
+    pub annexes: &'a [[f64; 4]],
 }
 
 /// Accelerations of one particle by fluid and by the wall.
 pub type Accelerations = [[f64; 3]; 2];
 
-impl PairSum for Momentum<'_> {
+impl<const FROZEN: bool> PairSum for Momentum<'_, FROZEN> {
     type Output = Accelerations;
+    const ANNEX: bool = FROZEN;
 
     #[inline(always)]
     fn records(&self) -> &[[f64; 8]] {
         self.records
+    }
+
+    #[inline(always)]
+    fn annexes(&self) -> &[[f64; 4]] {
+        self.annexes
+    }
+
+    #[inline(always)]
+    fn annex(&self, source: Source) -> [f64; 4] {
+        self.annexes[source.particle()]
     }
 
     #[inline(always)]
@@ -81,20 +94,21 @@ impl PairSum for Momentum<'_> {
             velocity: lanes([own[3], own[4], own[5]]),
             pressure: L::constant(own[7]),
             viscosity: L::constant(self.viscosity),
+            factor: L::constant(if FROZEN { self.annexes[block.first + k][0] } else { 1.0 }),
             centre: L::constant(block.centre[0]),
         };
         let [fluid, wall] = block.neighbours(k);
         let scale = self.normalisation / (1.0 + self.densities[block.first + k]);
         [
-            flat::<F>(scaled(total::<L, S, F>(fluid, &here, local), scale)),
-            flat::<F>(scaled(total::<L, S, F>(wall, &here, local), scale)),
+            flat::<F>(scaled(total::<L, S, F, FROZEN>(fluid, &here, local), scale)),
+            flat::<F>(scaled(total::<L, S, F, FROZEN>(wall, &here, local), scale)),
         ]
     }
 }
 
 /// Sum of the forces of a list of neighbours.
 #[inline(always)]
-fn total<L: Lanes, S: Shape, F: Form>(
+fn total<L: Lanes, S: Shape, F: Form, const FROZEN: bool>(
     neighbours: &[[u16; WIDTH]],
     here: &Here<L>,
     local: &Local<L::Real>,
@@ -102,8 +116,13 @@ fn total<L: Lanes, S: Shape, F: Form>(
     let mut force = [L::constant(0.0); 3];
     for places in neighbours {
         let neighbour = local.gather(places);
+        let mut viscosity = here.viscosity;
+        if FROZEN {
+            let [theirs, ..] = local.gather_annex::<L>(places);
+            viscosity = L::constant(0.5) * viscosity * (here.factor + theirs);
+        }
         if !F::ROUND {
-            add::<L, S>(&mut force, here, neighbour);
+            add::<L, S>(&mut force, here, neighbour, viscosity);
             continue;
         }
         let [x, _, z, ..] = neighbour;
@@ -111,7 +130,7 @@ fn total<L: Lanes, S: Shape, F: Form>(
         let radii = [here.position[0] + here.centre, x + here.centre];
         let arc = Arc::about(radii[0], radii[1], d[0] * d[0] + d[1] * d[1]);
         for place in 0..PLACES {
-            add::<L, S>(&mut force, here, arc.turn(place).record(neighbour));
+            add::<L, S>(&mut force, here, arc.turn(place).record(neighbour), viscosity);
         }
     }
     force
@@ -123,20 +142,22 @@ struct Here<L> {
     velocity: [L; 3],
     pressure: L,
     viscosity: L,
+    /// Factor of its viscosity.
+    factor: L,
     /// x of the origin of the positions.
     centre: L,
 }
 
 /// Adds the forces of sixteen neighbours.
 #[inline(always)]
-fn add<L: Lanes, S: Shape>(force: &mut [L; 3], here: &Here<L>, neighbour: [L; 8]) {
+fn add<L: Lanes, S: Shape>(force: &mut [L; 3], here: &Here<L>, neighbour: [L; 8], viscosity: L) {
     let [x, y, z, vx, vy, vz, volume, pressure] = neighbour;
     let d = [here.position[0] - x, here.position[1] - y, here.position[2] - z];
     let u = [here.velocity[0] - vx, here.velocity[1] - vy, here.velocity[2] - vz];
     let q = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
     let slope = volume * S::slope_over_q(q);
     let closing = u[0] * d[0] + u[1] * d[1] + u[2] * d[2];
-    let along = slope * (here.viscosity * closing - (here.pressure + pressure));
+    let along = slope * (viscosity * closing - (here.pressure + pressure));
     for n in 0..3 {
         force[n] = force[n] + along * d[n];
     }

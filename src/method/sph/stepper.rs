@@ -470,17 +470,22 @@ impl<'a, 'p> Stepper<'a, 'p> {
         fill(&mut records, cloud.len(), self.team, |i| {
             record(cloud, i, velocity(i), pressure(cloud.density[i]))
         });
-        let pass = Momentum {
-            images: &method.images,
-            records: &records,
-            densities: &cloud.density,
-            normalisation: method.normalisation,
-            viscosity: method.pair_viscosity,
-        };
+        let factors = self.viscous_factors();
         let memory = std::mem::take(&mut self.accelerations);
-        let acceleration = self.over_pairs(&pass, memory);
+        let acceleration = match factors.is_empty() {
+            true => self.over_pairs(&momentum::<false>(method, cloud, &records, &[]), memory),
+            false => self.over_pairs(&momentum::<true>(method, cloud, &records, &factors), memory),
+        };
         self.accelerations = std::mem::replace(&mut self.cloud.acceleration, acceleration);
         self.records = records;
+    }
+
+    /// Factors of viscosity of all particles in sums over pairs; empty where all are 1.
+    fn viscous_factors(&self) -> Vec<[f64; 4]> {
+        if self.frozen.are_none() || self.method.pair_viscosity == 0.0 {
+            return Vec::new();
+        }
+        self.team.map(self.cloud.len(), |i| [self.frozen.bond(i).sticking(), 0.0, 0.0, 0.0])
     }
 
     /// Computes accelerations by surface tension.
@@ -651,6 +656,23 @@ fn ahead(cloud: &Cloud, i: usize, times: Times, gravity: [f64; 3]) -> [f64; 3] {
     let Some(turn) = times.tension else { return velocity };
     let [x, y, z, by_wall] = cloud.tension[i];
     [velocity[0] + turn * x, velocity[1] + turn * y, velocity[2] + turn * (z + by_wall)]
+}
+
+/// Sums of the momentum of particles.
+fn momentum<'a, const FROZEN: bool>(
+    method: &'a Method,
+    cloud: &'a Cloud,
+    records: &'a [[f64; 8]],
+    annexes: &'a [[f64; 4]],
+) -> Momentum<'a, FROZEN> {
+    Momentum {
+        images: &method.images,
+        records,
+        densities: &cloud.density,
+        normalisation: method.normalisation,
+        viscosity: method.pair_viscosity,
+        annexes,
+    }
 }
 
 /// Returns true if some numbers differ.

@@ -59,7 +59,8 @@ pub struct Touching {
 }
 
 /// Contribution of a point to a step: heat capacity times relaxation [J/K], temperature of the
-/// fluid, its relaxation, and the decrease of the flux, see [`Loss`].
+/// fluid, its relaxation, and the decrease of the flux, see [`Loss`]. A fluid that freezes has the
+/// tangent of its loss at the wall's temperature, and the temperature of a wall that would end it.
 #[derive(Clone, Copy, Default)]
 struct Contact {
     conductance: f64,
@@ -268,9 +269,12 @@ impl WallHeat {
         if let Some((phases, law)) = &self.freezing {
             let at = Contents { before, fluid: content, wall };
             let parts = resistance.map_or([0.0; 2], |found| found.parts(thickness / self.spacing));
-            let Lost { content: lost, fall } = law.loss(at, diffusion, parts);
-            let fluid = phases.rise(content);
-            let relaxation = if fluid == wall { 0.0 } else { lost / (fluid - wall) };
+            let Lost { content: lost, slope, fall } = law.loss(at, diffusion, parts);
+            if lost == 0.0 {
+                return Contact::default();
+            }
+            let relaxation = if slope > 0.0 { slope } else { lost / (phases.rise(content) - wall) };
+            let fluid = wall + lost / relaxation;
             return Contact { conductance: capacity * relaxation, fluid, relaxation, fall };
         }
         let fluid = content;
@@ -291,10 +295,11 @@ impl WallHeat {
         let Contact { fluid, relaxation, .. } = *contact;
         let Some((phases, _)) = &self.freezing else { return (relaxation, wall) };
         let (content, at_wall) = (point.content_sum / point.mass, phases.content(wall));
-        if relaxation == 0.0 || fluid == wall {
+        let lost = relaxation * (fluid - wall);
+        if lost == 0.0 || content == at_wall {
             return (0.0, at_wall);
         }
-        (relaxation * (fluid - wall) / (content - at_wall), at_wall)
+        (lost / (content - at_wall), at_wall)
     }
 }
 

@@ -42,7 +42,9 @@ impl Freedom {
 pub struct Body {
     slides: [bool; 3],
     mass: f64,
-    pub centre: [f64; 3],
+    centre: [f64; 3],
+    /// Rounding error of the centre: in long runs it would change momentum.
+    rest: [f64; 3],
     mobility: Matrix3<f64>,
 }
 
@@ -67,30 +69,63 @@ pub struct Displacement {
 impl Body {
     /// Body of points with these masses and positions.
     pub fn of(freedom: Freedom, points: impl Iterator<Item = (f64, [f64; 3])> + Clone) -> Self {
-        let (mut mass, mut centre) = (0.0, [0.0; 3]);
-        for (m, x) in points.clone() {
-            mass += m;
-            (0..3).for_each(|a| centre[a] += m * x[a]);
-        }
-        let centre = centre.map(|sum| sum / mass);
+        let mass = points.clone().map(|(m, _)| m).sum();
+        let mean = |from: [f64; 3]| {
+            let mut sum = [0.0; 3];
+            for (m, x) in points.clone() {
+                (0..3).for_each(|a| sum[a] += m * (x[a] - from[a]));
+            }
+            sum.map(|sum| sum / mass)
+        };
+        let centre = mean([0.0; 3]);
+        let mut body = Self {
+            slides: freedom.slides,
+            mass,
+            centre,
+            rest: mean(centre),
+            mobility: Matrix3::zeros(),
+        };
         let mut inertia = Matrix3::zeros();
         if freedom.turns != [false; 3] {
             for (m, x) in points {
-                let arm = Vector3::from(arm(x, centre));
+                let arm = body.arm(x);
                 inertia += m
                     * (Matrix3::from_diagonal_element(arm.norm_squared()) - arm * arm.transpose());
             }
         }
-        Self { slides: freedom.slides, mass, centre, mobility: mobility(inertia, freedom.turns) }
+        body.mobility = mobility(inertia, freedom.turns);
+        body
+    }
+
+    /// Position relative to the centre.
+    pub fn arm(&self, x: [f64; 3]) -> Vector3<f64> {
+        Vector3::from([0, 1, 2].map(|a| x[a] - self.centre[a] - self.rest[a]))
     }
 
     /// The rigid motion with momentum and angular momentum of points with these masses, positions and velocities; of
     /// all rigid motions it is the nearest by kinetic energy.
-    pub fn fit(&self, points: impl Iterator<Item = (f64, [f64; 3], [f64; 3])>) -> RigidMotion {
+    pub fn fit(
+        &self,
+        points: impl Iterator<Item = (f64, [f64; 3], [f64; 3])> + Clone,
+    ) -> RigidMotion {
+        let first = self.fit_once(points.clone());
+        // Rounding errors of the sums of many equal velocities have one sign.
+        let rest = self.fit_once(points.map(|(m, x, v)| {
+            let velocity = self.velocity(&first, x);
+            (m, x, [0, 1, 2].map(|a| v[a] - velocity[a]))
+        }));
+        RigidMotion {
+            velocity: [0, 1, 2].map(|a| first.velocity[a] + rest.velocity[a]),
+            spin: first.spin + rest.spin,
+            angular: first.angular + rest.angular,
+        }
+    }
+
+    fn fit_once(&self, points: impl Iterator<Item = (f64, [f64; 3], [f64; 3])>) -> RigidMotion {
         let (mut momentum, mut angular) = ([0.0; 3], Vector3::zeros());
         for (m, x, v) in points {
             (0..3).for_each(|a| momentum[a] += m * v[a]);
-            angular += m * Vector3::from(arm(x, self.centre)).cross(&Vector3::from(v));
+            angular += m * self.arm(x).cross(&Vector3::from(v));
         }
         let along = |a: usize| if self.slides[a] { momentum[a] / self.mass } else { 0.0 };
         RigidMotion { velocity: [0, 1, 2].map(along), spin: self.mobility * angular, angular }
@@ -98,15 +133,16 @@ impl Body {
 
     /// Velocity of a point that moves with the body.
     pub fn velocity(&self, motion: &RigidMotion, at: [f64; 3]) -> [f64; 3] {
-        let turning = motion.spin.cross(&Vector3::from(arm(at, self.centre)));
+        let turning = motion.spin.cross(&self.arm(at));
         [0, 1, 2].map(|a| motion.velocity[a] + turning[a])
     }
 
     /// Free motion of the body over a time, from its motion.
     ///
-    /// It turns at the angular velocity `ω = I⁻¹ L` that it has with its angular momentum L in the orientation at the middle. So it keeps its shape and its
-    /// angular momentum to rounding; its energy oscillates by `(ω dt)²` and does not drift, because the scheme is
-    /// symmetric in time. Bodies with equal moments of inertia keep it, too.
+    /// It turns at the angular velocity `ω = I⁻¹ L` that it has with its angular momentum L in the orientation at the
+    /// middle of that time. So it keeps its shape and its angular momentum to rounding, and its radius does not drift.
+    /// Its energy oscillates by `(ω dt)²` without drift, because the scheme is symmetric in time; bodies with equal
+    /// moments of inertia keep it, too.
     pub fn displacement(&self, motion: &RigidMotion, dt: f64) -> Displacement {
         let spin_after = |turn: &Rotation3<f64>| {
             turn.matrix() * (self.mobility * (turn.matrix().transpose() * motion.angular))
@@ -131,19 +167,13 @@ impl Body {
 }
 
 impl Displacement {
-    /// Displacement and new velocity of a point of the body by its position relative to the centre.
-    pub fn of(&self, arm: [f64; 3]) -> ([f64; 3], [f64; 3]) {
-        let before = Vector3::from(arm);
+    /// Displacement and new velocity of a point of the body, from its position relative to the centre.
+    pub fn of(&self, before: Vector3<f64>) -> ([f64; 3], [f64; 3]) {
         let after = self.turn * before;
         let turning = self.spin_after.cross(&after);
         let way = [0, 1, 2].map(|a| self.way[a] + (after[a] - before[a]));
         (way, [0, 1, 2].map(|a| self.velocity_after[a] + turning[a]))
     }
-}
-
-/// Position relative to the centre.
-pub fn arm(x: [f64; 3], centre: [f64; 3]) -> [f64; 3] {
-    [x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]]
 }
 
 /// Inverse of a tensor of inertia about the axes on which a body turns; zero about an axis on which all of its

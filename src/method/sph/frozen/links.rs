@@ -182,7 +182,7 @@ mod tests {
     #[test]
     fn gaps_separate_sets() {
         let images = Images::new([OPEN; 3], false, [0.0; 3]);
-        let places: Vec<_> = row(-3.0, 4).chain(row(1.6, 3)).chain(row(5.0, 1)).collect();
+        let places: Vec<_> = row(-3.0, 4).chain(row(1.6, 3)).chain(row(5.2, 1)).collect();
         let sets = connected(&places, &images, 1.5);
         let sizes: Vec<usize> = sets.iter().map(|set| set.members.len()).collect();
         assert_eq!(sizes, [4, 3, 1]);

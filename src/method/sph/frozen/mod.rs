@@ -7,6 +7,8 @@
 //! onto the nearest rigid motion by kinetic energy, which has the same momentum and angular momentum. A piece that
 //! freezes onto another, or onto the wall, collides inelastically.
 //!
+//! Fluid sticks to pieces: where it touches them, viscosity counts more, see `STICKING`.
+//!
 //! Pieces follow from positions and heat contents alone. Rigid particles keep density and pressure, by which they carry
 //! fluid.
 
@@ -19,15 +21,27 @@ use super::cloud::Cloud;
 use super::images::Ends;
 use super::method::Method;
 use crate::runtime::parallel::Team;
-use body::{Body, Displacement, Freedom, RigidMotion, arm};
+use body::{Body, Displacement, Freedom, RigidMotion};
 use links::connected;
 
 /// Frozen fraction from which on a particle is rigid.
-const RIGID: f64 = 0.5;
+pub const RIGID: f64 = 0.5;
 /// Largest distance over Δx of bonded particles: it exceeds the diagonal of a square of the lattice.
 const REACH: f64 = 1.5;
 /// Distance from a plane over Δx below which rigid particles adhere to it; those nearer exchange heat with the wall.
 const ADHERING: f64 = 1.05;
+
+/// Factor of viscosity of rigid particles in sums over pairs of explicit viscosity. With it fluid has the velocity of
+/// the rigid particles at the boundary of both, not at their centres, which are twice as far: a pair of both kinds counts
+/// twice. In a film of six layers on a frozen one the plane without slip lies 0.02 Δx above the boundary; without the
+/// factor it lay 0.55 Δx below.
+const STICKING: f64 = 3.0;
+/// Weight of rigid particles in the dissipation of implicit viscosity, for the same reason: the plane without slip lies
+/// at the boundary to 0.01 Δx; without the factor it lay 0.41 Δx below.
+const DISSIPATION: f64 = 2.5;
+
+/// Largest factor of viscosity of a pair.
+pub const STICKING_PAIR: f64 = 0.5 * (1.0 + STICKING);
 
 /// Bond of a particle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -46,6 +60,16 @@ pub enum Bond {
 impl Bond {
     pub fn is_rigid(self) -> bool {
         self != Self::None
+    }
+
+    /// Factor of viscosity of a particle in sums over pairs of explicit viscosity.
+    pub fn sticking(self) -> f64 {
+        if self.is_rigid() { STICKING } else { 1.0 }
+    }
+
+    /// Weight of a particle in the dissipation of implicit viscosity.
+    pub fn dissipation(self) -> f64 {
+        if self.is_rigid() { DISSIPATION } else { 1.0 }
     }
 
     pub fn is_held(self) -> bool {
@@ -231,7 +255,7 @@ impl Bodies<'_> {
             let body = &self.bodies[n];
             let displacement: Displacement = body.displacement(motion, dt);
             all.extend(self.pieces.free[n].places(self.cloud).map(|(particle, place)| {
-                let (way, velocity) = displacement.of(arm(place, body.centre));
+                let (way, velocity) = displacement.of(body.arm(place));
                 let x = self.cloud.position[particle];
                 Moved { particle, position: [0, 1, 2].map(|a| x[a] + way[a]), velocity }
             }));

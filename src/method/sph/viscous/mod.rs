@@ -18,7 +18,8 @@
 //! Preconditioned by masses alone, each of their iterates conserves what the solution conserves.
 //!
 //! Frozen fluid is rigid: the step minimises among the velocities in which each of its pieces moves as a rigid body, or
-//! is at rest on the wall. Conjugate gradients remain in this space if their preconditioner projects onto it by masses.
+//! is at rest on the wall. Conjugate gradients remain in this space, as loads and products are reduced to the
+//! impulses that move it.
 //!
 //! The fluid sticks to planes across z: its images there move against it, and E counts the fluid
 //! alone.
@@ -86,7 +87,9 @@ pub fn advance(
     let velocity = cloud.velocity.as_flattened();
     let pairs = system.elongations(velocity);
     let forces = system.forces(&pairs, &system.forms(&pairs));
-    let (changes, _) = solve(&system, &system.load(&forces), TOLERANCE, team)?;
+    let mut load = system.load(&forces);
+    system.reduce(&mut load);
+    let (changes, _) = solve(&system, &load, TOLERANCE, team)?;
     let after: Vec<f64> = velocity.iter().zip(&changes).map(|(v, change)| v + change).collect();
     let pairs = system.elongations(&after);
     let by_wall = system.by_wall(&system.forces(&pairs, &system.forms(&pairs)), &changes);

@@ -100,13 +100,20 @@ impl<'a> System<'a> {
     fn response(&self, i: usize) -> Square<6> {
         let (Fit { rates, pairs }, Moduli { shear, volume, pairs: rest }) =
             (&self.fits[i], self.moduli[i]);
+        let weight = self.weight(i);
         let mut response = [[0.0; 6]; 6];
         for b in 0..6 {
             let column = self.axes.scaled(&std::array::from_fn(|a| rates[a][b]), shear, volume);
             let column = transposed_times(rates, &column);
-            (0..6).for_each(|a| response[a][b] = column[a] - PAIRS * rest * pairs[a][b]);
+            let form = |a: usize| column[a] - PAIRS * rest * pairs[a][b];
+            (0..6).for_each(|a| response[a][b] = weight * form(a));
         }
         response
+    }
+
+    /// Weight of a particle in the dissipation.
+    fn weight(&self, i: usize) -> f64 {
+        self.frozen.bond(i).dissipation()
     }
 
     pub fn volume(&self, i: usize) -> f64 {
@@ -118,7 +125,7 @@ impl<'a> System<'a> {
         self.team.map(self.cloud.len(), |i| {
             let [x, y, z] = self.cloud.position[i];
             let [u, v, w] = [0, 1, 2].map(|a| velocity[3 * i + a]);
-            [x, y, z, u, v, w, self.volume(i), self.moduli[i].pairs]
+            [x, y, z, u, v, w, self.volume(i), self.weight(i) * self.moduli[i].pairs]
         })
     }
 
@@ -152,7 +159,7 @@ impl<'a> System<'a> {
             let form = transposed_times(&self.fits[i].rates, &stresses[i]);
             let explained = times(&self.fits[i].pairs, &pairs[i].rates);
             let rest = PAIRS * self.moduli[i].pairs;
-            std::array::from_fn(|n| form[n] - rest * explained[n])
+            std::array::from_fn(|n| self.weight(i) * (form[n] - rest * explained[n]))
         })
     }
 
@@ -266,6 +273,7 @@ impl Operator for System<'_> {
                 out[a] = self.cloud.mass[i] * x[3 * i + a] - self.dt * force;
             }
         });
+        self.reduce(out);
     }
 
     fn precondition(&self, residual: &[f64], out: &mut [f64]) {
