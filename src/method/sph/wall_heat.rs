@@ -150,7 +150,7 @@ impl WallHeat {
             let Touching { share, content, .. } = touching[n];
             let change = |(point, weight): (usize, f64)| {
                 let point = &points[point];
-                weight * point.relaxation * (point.wall - content)
+                weight * (point.relaxation * (point.wall - content) - point.even_loss)
             };
             share * stencils[n].weights().map(change).sum::<f64>()
         })
@@ -232,10 +232,7 @@ impl WallHeat {
         }
         for (point, contact) in points.points.iter_mut().zip(contacts) {
             let wall = wall_below(point, &walls);
-            (point.relaxation, point.wall) = self.approach(point, &contact, wall);
-            // Where nothing is below, as beyond the edge of a body, there is nothing to relax
-            // towards.
-            point.relaxation *= covered(point);
+            self.approach(point, &contact, wall);
             (point.mass, point.content_sum, point.initial_sum) = (0.0, 0.0, 0.0);
             if let Some((column, part)) = point.beyond {
                 let fall = contact.fluid - walls[column as usize];
@@ -289,17 +286,22 @@ impl WallHeat {
         Contact { conductance: capacity * relaxation, fluid, relaxation, fall }
     }
 
-    /// Fraction by which contents at a point approach that of fluid at the wall's temperature, and that content. The
-    /// loss of heat is the relaxation of the contact times the difference of temperatures.
-    fn approach(&self, point: &Point, contact: &Contact, wall: f64) -> (f64, f64) {
+    /// Sets how the fluid at a point loses the heat of its contact with a wall of a temperature: relaxation times the
+    /// difference of temperatures.
+    fn approach(&self, point: &mut Point, contact: &Contact, wall: f64) {
         let Contact { fluid, relaxation, .. } = *contact;
-        let Some((phases, _)) = &self.freezing else { return (relaxation, wall) };
-        let (content, at_wall) = (point.content_sum / point.mass, phases.content(wall));
-        let lost = relaxation * (fluid - wall);
-        if lost == 0.0 || content == at_wall {
-            return (0.0, at_wall);
-        }
-        (lost / (content - at_wall), at_wall)
+        // Where nothing is below, as beyond the edge of a body, there is nothing to relax towards.
+        let covered = covered(point);
+        (point.relaxation, point.wall, point.even_loss) = (relaxation * covered, wall, 0.0);
+        let Some((phases, _)) = &self.freezing else { return };
+        let lost = relaxation * (fluid - wall) * covered;
+        point.wall = phases.content(wall);
+        let part = lost / (point.content_sum / point.mass - point.wall);
+        // Contents that differ within the layer approach that of the wall, but where rounding or the linear response to
+        // the wall's temperature would carry some beyond.
+        let approaches = (0.0..=1.0).contains(&part);
+        point.relaxation = if approaches { part } else { 0.0 };
+        point.even_loss = if approaches || lost == 0.0 { 0.0 } else { lost };
     }
 }
 

@@ -72,6 +72,8 @@ pub struct Point {
     /// difference from the fluid that the fluid loses.
     pub wall: f64,
     pub relaxation: f64,
+    /// Heat content that all fluid at the point loses alike [K].
+    pub even_loss: f64,
     /// Impulse [N s].
     pub impulse: [f64; 3],
 }
