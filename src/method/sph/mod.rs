@@ -19,6 +19,7 @@ mod failure;
 mod field;
 mod fractions;
 mod free_surface;
+mod freezing_curve;
 mod freezing_flux;
 mod freezing_law;
 mod frozen;

@@ -268,7 +268,7 @@ impl WallHeat {
         if let Some((phases, law)) = &self.freezing {
             let at = Contents { before, fluid: content, wall };
             let parts = resistance.map_or([0.0; 2], |found| found.parts(thickness / self.spacing));
-            let Lost { content: lost, fall } = law.loss(at, diffusion, parts);
+            let Lost { content: lost, fall, .. } = law.loss(at, diffusion, parts);
             let fluid = phases.rise(content);
             let relaxation = if fluid == wall { 0.0 } else { lost / (fluid - wall) };
             return Contact { conductance: capacity * relaxation, fluid, relaxation, fall };
