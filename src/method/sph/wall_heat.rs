@@ -68,6 +68,15 @@ struct Contact {
     fall: f64,
 }
 
+/// Line that replaces the heat of a freezing fluid as a function of the wall's temperature.
+#[derive(Clone, Copy)]
+enum Line {
+    /// The tangent at the wall's present temperature.
+    Tangent,
+    /// The secant to the temperature of the layer, where no heat flows.
+    Secant,
+}
+
 /// Conductance of the fluid above a column [J/K], its product with the fluid's temperature, and the
 /// products of both with the decrease of the flux.
 #[derive(Clone, Copy, Default)]
@@ -203,9 +212,12 @@ impl WallHeat {
         let mut above = vec![Above::default(); walls.len()];
         let is_linear = points.resistance.is_none() && self.freezing.is_none();
         let passes = if is_linear { PASSES } else { FURTHER_PASSES };
-        for _ in 0..passes {
+        for pass in 1..=passes {
+            // Tangents converge quickly; a secant at the end ends at the temperature of the layer.
+            let line = if pass < passes { Line::Tangent } else { Line::Secant };
             contacts = team.map(points.points.len(), |n| {
-                self.contact(&points.points[n], &walls, dt, points.resistance.as_ref())
+                let resistance = points.resistance.as_ref();
+                self.contact(&points.points[n], &walls, dt, resistance, line)
             });
             above.fill(Above::default());
             for (point, contact) in points.points.iter().zip(&contacts) {
@@ -250,6 +262,7 @@ impl WallHeat {
         walls: &[f64],
         dt: f64,
         resistance: Option<&Resistance>,
+        line: Line,
     ) -> Contact {
         let [bare, covered] = COVERED;
         let layers = point.mass / (self.layer * point.extent);
@@ -268,9 +281,13 @@ impl WallHeat {
         if let Some((phases, law)) = &self.freezing {
             let at = Contents { before, fluid: content, wall };
             let parts = resistance.map_or([0.0; 2], |found| found.parts(thickness / self.spacing));
-            let Lost { content: lost, fall, .. } = law.loss(at, diffusion, parts);
-            let fluid = phases.rise(content);
-            let relaxation = if fluid == wall { 0.0 } else { lost / (fluid - wall) };
+            let Lost { content: lost, slope, fall } = law.loss(at, diffusion, parts);
+            let gap = phases.rise(content) - wall;
+            let secant = if gap == 0.0 { 0.0 } else { lost / gap };
+            let (relaxation, fluid) = match line {
+                Line::Tangent if slope > 0.0 => (slope, wall + lost / slope),
+                _ => (secant, wall + gap),
+            };
             return Contact { conductance: capacity * relaxation, fluid, relaxation, fall };
         }
         let fluid = content;
