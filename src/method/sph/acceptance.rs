@@ -140,7 +140,7 @@ fn check_contents(cloud: &Cloud, method: &Method) -> Result<(), String> {
     let (Some(phases), Some(contents)) = (&method.phases, &cloud.content) else { return Ok(()) };
     for (i, (&content, &rise)) in contents.iter().zip(&cloud.temperature).enumerate() {
         let expected = phases.rise(content);
-        if !((expected - rise).abs() <= ROUNDING * (1.0 + expected.abs())) {
+        if (expected - rise).abs() > ROUNDING * (1.0 + expected.abs()) {
             return Err(format!(
                 "particle {i} is {rise} K warm, where its heat makes {expected} K"
             ));

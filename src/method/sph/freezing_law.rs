@@ -62,8 +62,6 @@ pub struct Contents {
 pub struct Lost {
     /// Content that the layer loses [K].
     pub content: f64,
-    /// Decrease of that per rise of the wall's temperature: its slope, or its secant to the temperature of the layer.
-    pub slope: f64,
     /// Linear decrease of the flux, see [`Loss`](super::resistive_law::Loss).
     pub fall: f64,
 }
@@ -129,17 +127,27 @@ impl FreezingLaw {
     /// they are in the ratio of the effusivities of wall and fluid.
     pub fn loss(&self, at: Contents, diffusion: f64, resistances: [f64; 2]) -> Lost {
         let (content, fall) = self.step(at, diffusion, resistances);
+        Lost { content, fall }
+    }
+
+    /// Decrease of the content lost in such a step per rise of the wall's temperature; 0 at equal temperatures.
+    pub fn slope(
+        &self,
+        at: Contents,
+        diffusion: f64,
+        resistances: [f64; 2],
+        Lost { content, .. }: Lost,
+    ) -> f64 {
         let gap = self.phases.rise(at.fluid) - at.wall;
         if content == 0.0 || gap == 0.0 {
-            return Lost { content, slope: 0.0, fall };
+            return 0.0;
         }
-        let secant = content / gap;
         if gap < 0.0 || at.wall >= self.phases.melting[1] {
-            return Lost { content, slope: secant, fall };
+            return content / gap;
         }
         let colder = Contents { wall: at.wall - NUDGE * gap, ..at };
         let more = self.step(colder, diffusion, resistances).0 - content;
-        Lost { content, slope: (more / (NUDGE * gap)).max(0.0), fall }
+        (more / (NUDGE * gap)).max(0.0)
     }
 
     /// Content lost and decrease of the flux.
@@ -597,9 +605,10 @@ mod tests {
             for _ in 0..6 {
                 let at = Contents { before: 0.0, fluid: layers.contents[0], wall: surface };
                 lost = law.loss(at, self.step, self.parts);
+                let slope = law.slope(at, self.step, self.parts, lost);
                 let rise = held + lost.fall * falling;
-                let fixed = lost.content + lost.slope * surface;
-                surface = (free + rise * fixed) / (1.0 + rise * lost.slope);
+                let fixed = lost.content + slope * surface;
+                surface = (free + rise * fixed) / (1.0 + rise * slope);
             }
             let terms = self.amplitudes.iter_mut().zip(&self.response.gains).zip(&self.weights);
             for ((amplitude, gain), w) in terms {

@@ -20,9 +20,10 @@ const AT_WALL: [f64; 2] = [0.95, 1.05];
 const COVERED: [f64; 2] = [0.25, 0.75];
 /// Number of passes that reconcile the law's relaxation with the wall temperature. Every pass keeps
 /// the latter between its value without flux and that of the fluid. Through a resistance the
-/// temperature within it is reconciled, too; a fluid that freezes responds to more than the difference of temperatures.
+/// temperature within it is reconciled, too. Tangents reconcile a fluid that freezes.
 const PASSES: usize = 3;
-const FURTHER_PASSES: usize = 6;
+const RESISTIVE_PASSES: usize = 6;
+const FREEZING_PASSES: usize = 4;
 
 /// Constants of the heat of contact, from a plan.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,6 +68,15 @@ struct Contact {
     fluid: f64,
     relaxation: f64,
     fall: f64,
+}
+
+/// Line that replaces the heat of a freezing fluid as a function of the wall's temperature.
+#[derive(Clone, Copy)]
+enum Line {
+    /// The tangent at the wall's present temperature.
+    Tangent,
+    /// The secant to the temperature of the layer, where no heat flows.
+    Secant,
 }
 
 /// Conductance of the fluid above a column [J/K], its product with the fluid's temperature, and the
@@ -202,11 +212,17 @@ impl WallHeat {
         let mut walls = free.clone();
         let mut contacts = Vec::new();
         let mut above = vec![Above::default(); walls.len()];
-        let is_linear = points.resistance.is_none() && self.freezing.is_none();
-        let passes = if is_linear { PASSES } else { FURTHER_PASSES };
-        for _ in 0..passes {
+        let passes = match (&self.freezing, &points.resistance) {
+            (Some(_), _) => FREEZING_PASSES,
+            (None, Some(_)) => RESISTIVE_PASSES,
+            (None, None) => PASSES,
+        };
+        for pass in 1..=passes {
+            // Tangents converge quickly; a secant at the end ends at the temperature of the layer.
+            let line = if pass < passes { Line::Tangent } else { Line::Secant };
             contacts = team.map(points.points.len(), |n| {
-                self.contact(&points.points[n], &walls, dt, points.resistance.as_ref())
+                let resistance = points.resistance.as_ref();
+                self.contact(&points.points[n], &walls, dt, resistance, line)
             });
             above.fill(Above::default());
             for (point, contact) in points.points.iter().zip(&contacts) {
@@ -248,6 +264,7 @@ impl WallHeat {
         walls: &[f64],
         dt: f64,
         resistance: Option<&Resistance>,
+        line: Line,
     ) -> Contact {
         let [bare, covered] = COVERED;
         let layers = point.mass / (self.layer * point.extent);
@@ -266,12 +283,16 @@ impl WallHeat {
         if let Some((phases, law)) = &self.freezing {
             let at = Contents { before, fluid: content, wall };
             let parts = resistance.map_or([0.0; 2], |found| found.parts(thickness / self.spacing));
-            let Lost { content: lost, slope, fall } = law.loss(at, diffusion, parts);
-            if lost == 0.0 {
-                return Contact::default();
-            }
-            let relaxation = if slope > 0.0 { slope } else { lost / (phases.rise(content) - wall) };
-            let fluid = wall + lost / relaxation;
+            let loss = law.loss(at, diffusion, parts);
+            let Lost { content: lost, fall } = loss;
+            let gap = phases.rise(content) - wall;
+            let secant = if gap == 0.0 { 0.0 } else { lost / gap };
+            let slope = match line {
+                Line::Tangent => law.slope(at, diffusion, parts, loss),
+                Line::Secant => 0.0,
+            };
+            let (relaxation, fluid) =
+                if slope > 0.0 { (slope, wall + lost / slope) } else { (secant, wall + gap) };
             return Contact { conductance: capacity * relaxation, fluid, relaxation, fall };
         }
         let fluid = content;
