@@ -25,6 +25,7 @@ mod flows;
 mod footprints;
 mod forecast;
 mod freezing;
+mod frozen;
 mod impact;
 mod impossible;
 mod joints;

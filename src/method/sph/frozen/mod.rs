@@ -14,8 +14,6 @@
 
 mod body;
 mod links;
-#[cfg(test)]
-mod tests;
 
 use super::cloud::Cloud;
 use super::images::Ends;
