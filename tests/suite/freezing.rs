@@ -41,7 +41,6 @@ fn given(bodies: &FreezingContact, time: f64) -> f64 {
 struct Layer {
     drop: DropletSph,
     state: Vec<f64>,
-    spacing: f64,
     wall_temperature: f64,
     area: f64,
 }
@@ -98,7 +97,7 @@ impl Layer {
         let drop = DropletSph::new(plan, 1);
         let state = drop.state_of(&particles);
         let wall_temperature = bodies.wall_temperature;
-        Self { drop, state, spacing, wall_temperature, area: period * period }
+        Self { drop, state, wall_temperature, area: period * period }
     }
 
     /// Heat given to the wall in a time [J/m²].
@@ -127,38 +126,35 @@ const CASES: [([f64; 2], [f64; 2]); 4] = [
     ([513.0, 423.15], [0.110241, 498.21]),
 ];
 
-/// Layers from which the front takes a fifth of a particle to twenty.
+/// Layers of which the front crosses a fifth, two, eight and twenty: errors of the heat at any of twenty times, and the
+/// distance of the front from that of the closed form over a particle.
 #[test]
 fn layers_freeze_as_half_spaces_do() {
     for (temperatures, [growth, _]) in CASES {
         let exact = tin_on_steel(temperatures);
         assert!(off(exact.growth(), growth) < 2e-3, "{} {growth}", exact.growth());
-        for (across, tolerated) in [(0.2, 0.02), (2.0, 0.01), (8.0, 5e-3), (20.0, 5e-3)] {
+        for (across, tolerated) in [(0.2, 0.005), (2.0, 0.03), (8.0, 0.02), (20.0, 0.01)] {
             let time = 1e-4;
             let spacing = exact.front(time) / across;
             // Heat does not reach the top.
-            let deep = 6.0 * (exact.molten.diffusivity() * time).sqrt() / spacing;
-            let mut layer = Layer::of(&exact, (spacing, deep.max(6.0) as usize), None);
-            let mut heat = 0.0;
-            let mut found = Vec::new();
+            let rows = 6.0 * (MOLTEN.diffusivity() * time).sqrt() / spacing;
+            let mut layer = Layer::of(&exact, (spacing, rows.max(6.0) as usize), None);
+            let (mut heat, mut worst) = (0.0, [0.0_f64; 2]);
             for part in 1..=20 {
                 heat += layer.advance(time / 20.0);
                 let now = time * f64::from(part) / 20.0;
-                found.push([
-                    heat / given(&exact, now) - 1.0,
-                    layer.front() / exact.front(now) - 1.0,
-                ]);
+                let errors =
+                    [heat / given(&exact, now) - 1.0, (layer.front() - exact.front(now)) / spacing];
+                worst = [0, 1].map(|n| worst[n].max(errors[n].abs()));
             }
-            let [heats, front] = found[19];
-            println!("{temperatures:?}, {across} across: heat {heats:.4}, front {front:.4}");
-            assert!(heats.abs() < tolerated && front.abs() < 2.0 * tolerated);
-            // The front moves without stairs.
-            let stairs = found.iter().zip(1..).map(|([_, error], part)| {
-                error * exact.front(time * f64::from(part) / 20.0) / spacing
-            });
-            let jitter = stairs.fold(0.0, |most: f64, error| most.max(error.abs()));
-            println!("    jitter {jitter:.3} of a particle");
-            assert!(jitter < 0.2, "{jitter}");
+            println!(
+                "{temperatures:?}, {across} across: heat {:.4}, front {:.3} of a particle",
+                worst[0], worst[1]
+            );
+            assert!(
+                worst[0] < tolerated && worst[1] < 0.4,
+                "{temperatures:?}, {across}: {worst:?}"
+            );
         }
     }
 }
@@ -191,14 +187,13 @@ fn layers_freeze_through_a_resistance() {
                     heat += layer.advance(at.time - now);
                     now = at.time;
                     let front = layer.front() - at.front;
-                    errors
-                        .push([heat / at.heat - 1.0, front / exact[1599].front.max(0.1 * spacing)]);
+                    errors.push([heat / at.heat - 1.0, front / spacing]);
                 }
                 let biot = conductance * spacing / MOLTEN.conductivity;
                 println!("{temperatures:?}, Bi {biot:.2}, {across} across: {errors:.4?}");
-                let largest =
-                    errors.as_flattened().iter().fold(0.0, |most: f64, e| most.max(e.abs()));
-                assert!(largest < 0.02, "{errors:?}");
+                for [heat, front] in &errors {
+                    assert!(heat.abs() < 0.03 && front.abs() < 0.4, "{errors:?}");
+                }
             }
         }
     }
@@ -218,8 +213,8 @@ fluid = { density = 6970.0, viscosity = 1.9e-3, specific_heat = 244.0, conductiv
 [[wall]]
 name = "wall"
 under = "drop"
-footprint = { rings = 10, radius = 2e-4 }
-temperature = 300.0
+footprint = { rings = { count = 10, radius = 2e-4 } }
+start = { temperature = 300.0 }
 "#;
 
 fn set_wall(trial: &mut Trial, temperature: f64) {
