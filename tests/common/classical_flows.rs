@@ -39,20 +39,51 @@ impl Flow {
         velocity: impl Fn([f64; 2]) -> [f64; 2],
         pressure: impl Fn([f64; 2]) -> f64,
     ) -> Self {
-        let Setup { density, sound_speed, spacing, .. } = setup;
+        Self::start_plan(setup.plan(), points, velocity, pressure)
+    }
+
+    /// Starts from rest with a ring at each point [r, z], of the pressure there.
+    pub fn start_rings(
+        setup: Setup,
+        points: &[[f64; 2]],
+        pressure: impl Fn([f64; 2]) -> f64,
+    ) -> Self {
+        let plan = DropletPlan { dimension: 3, axisymmetric: true, ..setup.plan() };
+        Self::start_plan(plan, points, |_| [0.0; 2], pressure)
+    }
+
+    /// Starts from rest with a particle at each point [x, z] of the half that the plane x = 0 mirrors.
+    pub fn start_half(
+        setup: Setup,
+        points: &[[f64; 2]],
+        pressure: impl Fn([f64; 2]) -> f64,
+    ) -> Self {
+        let plan = DropletPlan { mirrors: [true, false], ..setup.plan() };
+        Self::start_plan(plan, points, |_| [0.0; 2], pressure)
+    }
+
+    fn start_plan(
+        plan: DropletPlan,
+        points: &[[f64; 2]],
+        velocity: impl Fn([f64; 2]) -> [f64; 2],
+        pressure: impl Fn([f64; 2]) -> f64,
+    ) -> Self {
+        let Fluid { density, sound_speed, .. } = plan.fluid;
+        let area = plan.spacing * plan.spacing;
         let mut particles = ParticleFields::default();
         for &[x, z] in points {
             let [u, w] = velocity([x, z]);
             // Tait's equation of state.
             let stiffness = density * sound_speed * sound_speed / 7.0;
             let here = density * (1.0 + pressure([x, z]) / stiffness).powf(1.0 / 7.0);
+            let around = if plan.axisymmetric { 2.0 * PI * x } else { 1.0 };
             particles.position.push([x, 0.0, z]);
             particles.velocity.push([u, 0.0, w]);
-            particles.mass.push(here * spacing * spacing);
+            particles.mass.push(here * area * around);
             particles.density.push(here);
             particles.temperature.push(300.0);
         }
-        let drop = DropletSph::new(setup.plan(), 1);
+        let drop = DropletSph::new(plan, 1);
         let state = drop.state_of(&particles);
         Self { drop, state }
     }
@@ -237,6 +268,10 @@ impl TaylorGreen {
     }
 
     pub fn start_on(spacing: f64, points: &[[f64; 2]], support: f64) -> Flow {
+        Self::start_with(Viscous::Explicit, spacing, points, support)
+    }
+
+    pub fn start_with(viscous: Viscous, spacing: f64, points: &[[f64; 2]], support: f64) -> Flow {
         let setup = Setup {
             spacing,
             support,
@@ -244,7 +279,7 @@ impl TaylorGreen {
             viscosity: (1000.0 * Self::VISCOSITY).into(),
             sound_speed: 10.0,
             shifting: true,
-            viscous: Viscous::Explicit,
+            viscous,
             gravity: [0.0; 3],
             extents: [Extent::Periodic(1.0), Extent::Open, Extent::Periodic(1.0)],
             cells: None,
@@ -277,15 +312,20 @@ impl Column {
     pub const SCALE: f64 = Self::DENSITY * Self::GRAVITY;
 
     pub fn start(rows: usize) -> Flow {
+        Self::start_with(rows, 1e-3, Viscous::Explicit)
+    }
+
+    /// A column of a fluid of some viscosity [Pa s].
+    pub fn start_with(rows: usize, viscosity: f64, viscous: Viscous) -> Flow {
         let spacing = 1.0 / rows as f64;
         let setup = Setup {
             spacing,
             support: 3.0,
             density: Self::DENSITY,
-            viscosity: 1e-3.into(),
+            viscosity: viscosity.into(),
             sound_speed: Self::SOUND_SPEED,
             shifting: true,
-            viscous: Viscous::Explicit,
+            viscous,
             gravity: [0.0, 0.0, -Self::GRAVITY],
             extents: [Extent::Closed(1.0), Extent::Open, Extent::Open],
             cells: Some(WallCells::Tiles { count: [1, 1], size: [4.0, 1.0] }),

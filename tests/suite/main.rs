@@ -11,6 +11,9 @@ mod common;
 mod falling_drop;
 #[path = "../common/forecast_cases.rs"]
 mod forecast_cases;
+#[path = "../common/thick_flows.rs"]
+#[allow(dead_code)]
+mod thick_flows;
 
 mod adversarial;
 mod architecture;

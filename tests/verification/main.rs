@@ -26,5 +26,9 @@ mod spread;
 mod study;
 mod tension;
 mod thermal_stress;
+#[path = "../common/thick_flows.rs"]
+#[allow(dead_code)]
+mod thick_flows;
 mod time;
 mod tolerance;
+mod viscous;

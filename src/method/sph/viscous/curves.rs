@@ -4,10 +4,6 @@ use super::super::plan::DropletPlan;
 use super::super::units::Units;
 use crate::laws::Viscosity;
 
-/// Relative accuracy of rates, and a bound of the iterations that find them.
-const CLOSE: f64 = 1e-6;
-const MOST_ITERATIONS: usize = 60;
-
 /// Flow curves of a fluid: rates over c₀/H, stresses over ρ₀c₀², temperatures above the model's reference [K].
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlowCurves {
@@ -44,47 +40,20 @@ impl FlowCurves {
         curve.viscosity(rate * self.rate) * self.rate / self.stress
     }
 
-    /// Shear rate q at which `(µ(γ̇) + p) q` equals a load, for `γ̇² = q² + R²` with the rest R² of the rate.
-    pub fn rate_beyond(&self, temperature: f64, load: f64, penalty: f64, rest: f64) -> f64 {
+    /// Slope of the stress over the shear rate; infinite at rest where the fluid thins without a plateau.
+    pub fn tangent(&self, temperature: f64, rate: f64) -> f64 {
+        let curve = self.law.at(self.reference_temperature + temperature);
+        curve.tangent(rate * self.rate) * self.rate / self.stress
+    }
+
+    /// Shear rate q at which `τ(q) + p q` equals a load.
+    pub fn rate_beyond(&self, temperature: f64, load: f64, penalty: f64) -> f64 {
         let curve = self.law.at(self.reference_temperature + temperature);
         let (load, penalty) = (load * self.stress, penalty * self.stress / self.rate);
-        let rest = rest * self.rate * self.rate;
-        if rest == 0.0 {
-            return curve.rate_beyond(load, penalty) / self.rate;
-        }
-        // Increasing in q; the bracket's ends are those of infinite and of no viscosity.
-        let excess = |q: f64| (curve.viscosity((q * q + rest).sqrt()) + penalty) * q - load;
-        false_position(excess, load / penalty) / self.rate
+        curve.rate_beyond(load, penalty) / self.rate
     }
 
     pub fn yield_stress(&self) -> f64 {
         self.law.yield_stress() / self.stress
     }
-}
-
-/// Root between 0 and `high` of an increasing function that is negative at 0, by false position with halved weights
-/// (Dowell & Jarratt 1971, BIT 11, 168–174, doi 10.1007/BF01934364).
-fn false_position(f: impl Fn(f64) -> f64, high: f64) -> f64 {
-    let ([mut low, mut high], mut root) = ([0.0, high], high);
-    let (mut below, mut above) = (f(low), f(high));
-    let mut last = 0.0;
-    for _ in 0..MOST_ITERATIONS {
-        if high - low <= CLOSE * high || above <= 0.0 || below >= 0.0 {
-            break;
-        }
-        root = (low * above - high * below) / (above - below);
-        let value = f(root);
-        if value > 0.0 {
-            (high, above) = (root, value);
-            below *= if last > 0.0 { 0.5 } else { 1.0 };
-        } else {
-            (low, below) = (root, value);
-            above *= if last < 0.0 { 0.5 } else { 1.0 };
-        }
-        last = value;
-        if value.abs() <= CLOSE * f(0.0).abs() {
-            break;
-        }
-    }
-    root
 }
