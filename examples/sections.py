@@ -14,7 +14,7 @@ DARK, PALE = "#111116", "#e8e6e3"
 
 @dataclass
 class View:
-    """What a panel shows [mm], and the colours of its temperatures [°C]."""
+    """The section of a panel [mm] and the colours of its temperatures [°C]."""
 
     reach: float
     height: float

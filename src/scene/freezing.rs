@@ -1,11 +1,11 @@
-//! Whether the fluid of a droplet may freeze in a scene.
+//! Freezing of droplets in a scene.
 
 use super::Scene;
 use super::droplet::DropletMethod;
 use crate::laws::Freezing;
 
 impl Scene {
-    /// What becomes of a droplet's fluid where it freezes; `None` if it stays liquid: it does not melt, conducts no heat,
+    /// Returns the freezing of a droplet's fluid; `None` if it stays liquid: it does not melt, conducts no heat,
     /// is repeated from a record or a film, or nothing in the scene is colder than its liquidus.
     pub fn freezing_of(&self, name: &str) -> Option<Freezing> {
         let droplet = self.droplet(name)?;

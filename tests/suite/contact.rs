@@ -3,12 +3,10 @@
 use std::f64::consts::PI;
 
 use crate::common::{Trial, off};
-use crate::falling_drop::open_space;
+use crate::resting_layer::{Below, RestingLayer};
 use impinge::closed_form::{Conductor, Contact, ResistiveContact};
 use impinge::laws::Viscosity;
-use impinge::method::sph::{DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Release, Wall};
-use impinge::port::WallCells;
-use impinge::runtime::allowance::Allowance;
+use impinge::method::sph::Fluid;
 
 /// Density, specific heat, conductivity, surface tension, viscosity in SI units.
 const FLUIDS: [(&str, [f64; 5]); 8] = [
@@ -242,64 +240,18 @@ fn take_turns(symmetry: &str, is_compared: bool) {
     }
 }
 
-/// A layer of fluid at rest on a wall, periodic along it, which cools through a resistance.
-struct Layer {
-    drop: DropletSph,
-    state: Vec<f64>,
-    area: f64,
-}
-
 const WATER: Conductor = Conductor { conductivity: 0.6, heat_capacity: 4e6 };
 
-impl Layer {
-    fn of(spacing: f64, rows: usize, effusivity: Option<f64>, conductance: Option<f64>) -> Self {
-        const SIDE: usize = 6;
-        let period = SIDE as f64 * spacing;
-        let fluid = Fluid {
-            density: 1000.0,
-            viscosity: Viscosity::Constant(3e-4),
-            specific_heat: 4000.0,
-            conductivity: 0.6,
-            surface_tension: 0.0,
-            sound_speed: 50.0,
-            freezing: None,
-        };
-        let never = Release {
-            time: 1e9,
-            centre: [0.0; 3],
-            diameter: 0.0,
-            velocity: [0.0; 3],
-            temperature: HOT,
-        };
-        let cells = WallCells::Tiles { count: [1, 1], size: [4.0 * period; 2] };
-        let plan = DropletPlan {
-            extents: [Extent::Periodic(period), Extent::Periodic(period), Extent::Open],
-            releases: vec![never],
-            wall: Some(Wall { cells, contact_angle: 1.5, effusivity, conductance }),
-            ..open_space(spacing, fluid)
-        };
-        let mut particles = ParticleFields::default();
-        for n in 0..SIDE * SIDE * rows {
-            let place = [n % SIDE, n / SIDE % SIDE, n / (SIDE * SIDE)];
-            particles.position.push(place.map(|i| (i as f64 + 0.5) * spacing));
-            particles.velocity.push([0.0; 3]);
-            particles.mass.push(1000.0 * spacing.powi(3));
-            particles.density.push(1000.0);
-            particles.temperature.push(HOT);
-        }
-        let drop = DropletSph::new(plan, 1);
-        let state = drop.state_of(&particles);
-        Self { drop, state, area: period * period }
-    }
-
-    /// Heat given to a half space in a time [J/m²].
-    fn advance(&mut self, duration: f64) -> f64 {
-        let none = Allowance::default();
-        let exchange =
-            self.drop.advance_on_half_space(&mut self.state, COLD, duration, &none).unwrap();
-        exchange.heat[0] / self.area
-    }
-}
+/// Water of [`WATER`]'s constants.
+const FLUID: Fluid = Fluid {
+    density: 1000.0,
+    viscosity: Viscosity::Constant(3e-4),
+    specific_heat: 4000.0,
+    conductivity: 0.6,
+    surface_tension: 0.0,
+    sound_speed: 50.0,
+    freezing: None,
+};
 
 /// Largest error of the heat, at any of the times and spacings.
 const RESISTED: f64 = 0.01;
@@ -319,11 +271,12 @@ fn layers_cool_through_a_resistance() {
             for resisting in [0.03, 0.3, 1.0, 3.0, 30.0, 1e3] {
                 let conductance = resisting * WATER.effusivity() / time.sqrt();
                 let rows = (6.0 * fineness).ceil().max(6.0) as usize;
-                let mut layer = Layer::of(spacing, rows, wall, Some(conductance));
+                let below = Below { effusivity: wall, conductance: Some(conductance) };
+                let mut layer = RestingLayer::of(FLUID, (spacing, rows), HOT, below);
                 let exact = ResistiveContact { bodies, conductance };
                 let (mut heat, mut now) = (0.0, 0.0);
                 let mut error = |next: f64| {
-                    heat += layer.advance(next - now);
+                    heat += layer.advance(COLD, next - now);
                     now = next;
                     heat / exact.heat(now) - 1.0
                 };

@@ -4,12 +4,10 @@
 use std::f64::consts::PI;
 
 use crate::common::{Trial, off};
-use crate::falling_drop::open_space;
+use crate::resting_layer::{Below, RestingLayer};
 use impinge::closed_form::{Conductor, FreezingColumn, FreezingContact};
 use impinge::laws::{Freezing, Melting, Viscosity};
-use impinge::method::sph::{DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Release, Wall};
-use impinge::port::WallCells;
-use impinge::runtime::allowance::Allowance;
+use impinge::method::sph::Fluid;
 
 /// Frozen and molten tin, stainless steel.
 const FROZEN: Conductor = Conductor { conductivity: 62.0, heat_capacity: 6970.0 * 244.0 };
@@ -37,85 +35,45 @@ fn given(bodies: &FreezingContact, time: f64) -> f64 {
     2.0 * time * bodies.flux(time)
 }
 
-/// A layer of tin at rest on a wall, periodic along it.
-struct Layer {
-    drop: DropletSph,
-    state: Vec<f64>,
-    wall_temperature: f64,
-    area: f64,
+/// Tin of a closed form's constants.
+fn fluid(bodies: &FreezingContact) -> Fluid {
+    Fluid {
+        density: DENSITY,
+        viscosity: Viscosity::Constant(2e-3),
+        specific_heat: bodies.molten.heat_capacity / DENSITY,
+        conductivity: bodies.molten.conductivity,
+        surface_tension: 0.0,
+        sound_speed: 50.0,
+        freezing: Some(Freezing {
+            melting: Melting {
+                solidus: bodies.melts_at,
+                liquidus: bodies.melts_at,
+                latent_heat: bodies.latent / DENSITY,
+            },
+            specific_heat: bodies.frozen.heat_capacity / DENSITY,
+            conductivity: bodies.frozen.conductivity,
+        }),
+    }
 }
 
-impl Layer {
-    fn of(
-        bodies: &FreezingContact,
-        (spacing, rows): (f64, usize),
-        conductance: Option<f64>,
-    ) -> Self {
-        const SIDE: usize = 6;
-        let period = SIDE as f64 * spacing;
-        let fluid = Fluid {
-            density: DENSITY,
-            viscosity: Viscosity::Constant(2e-3),
-            specific_heat: bodies.molten.heat_capacity / DENSITY,
-            conductivity: bodies.molten.conductivity,
-            surface_tension: 0.0,
-            sound_speed: 50.0,
-            freezing: Some(Freezing {
-                melting: Melting {
-                    solidus: bodies.melts_at,
-                    liquidus: bodies.melts_at,
-                    latent_heat: bodies.latent / DENSITY,
-                },
-                specific_heat: bodies.frozen.heat_capacity / DENSITY,
-                conductivity: bodies.frozen.conductivity,
-            }),
-        };
-        let never = Release {
-            time: 1e9,
-            centre: [0.0; 3],
-            diameter: 0.0,
-            velocity: [0.0; 3],
-            temperature: bodies.fluid_temperature,
-        };
-        let cells = WallCells::Tiles { count: [1, 1], size: [4.0 * period; 2] };
-        let effusivity = Some(bodies.wall.effusivity());
-        let plan = DropletPlan {
-            extents: [Extent::Periodic(period), Extent::Periodic(period), Extent::Open],
-            releases: vec![never],
-            wall: Some(Wall { cells, contact_angle: 1.5, effusivity, conductance }),
-            ..open_space(spacing, fluid)
-        };
-        let mut particles = ParticleFields::default();
-        for n in 0..SIDE * SIDE * rows {
-            let place = [n % SIDE, n / SIDE % SIDE, n / (SIDE * SIDE)];
-            particles.position.push(place.map(|i| (i as f64 + 0.5) * spacing));
-            particles.velocity.push([0.0; 3]);
-            particles.mass.push(DENSITY * spacing.powi(3));
-            particles.density.push(DENSITY);
-            particles.temperature.push(bodies.fluid_temperature);
-        }
-        let drop = DropletSph::new(plan, 1);
-        let state = drop.state_of(&particles);
-        let wall_temperature = bodies.wall_temperature;
-        Self { drop, state, wall_temperature, area: period * period }
-    }
+/// A layer of tin on a half space, which heat does not pass through in a time.
+fn layer(
+    bodies: &FreezingContact,
+    (spacing, time): (f64, f64),
+    conductance: Option<f64>,
+) -> RestingLayer {
+    let rows = 6.0 * (bodies.molten.diffusivity() * time).sqrt() / spacing;
+    let below = Below { effusivity: Some(bodies.wall.effusivity()), conductance };
+    let arranged = (spacing, rows.max(6.0) as usize);
+    RestingLayer::of(fluid(bodies), arranged, bodies.fluid_temperature, below)
+}
 
-    /// Heat given to the wall in a time [J/m²].
-    fn advance(&mut self, duration: f64) -> f64 {
-        let none = Allowance::default();
-        let wall = self.wall_temperature;
-        let exchange =
-            self.drop.advance_on_half_space(&mut self.state, wall, duration, &none).unwrap();
-        exchange.heat[0] / self.area
-    }
-
-    /// Thickness of what is frozen, a particle by its part [m].
-    fn front(&self) -> f64 {
-        let particles = self.drop.particles(&self.state);
-        let frozen: f64 =
-            particles.mass.iter().zip(&particles.solid_fraction).map(|(m, part)| m * part).sum();
-        frozen / (DENSITY * self.area)
-    }
+/// Thickness of what is frozen, a particle by its part [m].
+fn front(layer: &RestingLayer) -> f64 {
+    let particles = layer.drop.particles(&layer.state);
+    let frozen: f64 =
+        particles.mass.iter().zip(&particles.solid_fraction).map(|(m, part)| m * part).sum();
+    frozen / (DENSITY * layer.area)
 }
 
 /// Four pairs of temperatures, and the digits of the closed form: λ and the temperature of contact [K].
@@ -136,15 +94,13 @@ fn layers_freeze_as_half_spaces_do() {
         for (across, tolerated) in [(0.2, 0.005), (2.0, 0.03), (8.0, 0.02), (20.0, 0.01)] {
             let time = 1e-4;
             let spacing = exact.front(time) / across;
-            // Heat does not reach the top.
-            let rows = 6.0 * (MOLTEN.diffusivity() * time).sqrt() / spacing;
-            let mut layer = Layer::of(&exact, (spacing, rows.max(6.0) as usize), None);
+            let mut layer = layer(&exact, (spacing, time), None);
             let (mut heat, mut worst) = (0.0, [0.0_f64; 2]);
             for part in 1..=20 {
-                heat += layer.advance(time / 20.0);
+                heat += layer.advance(exact.wall_temperature, time / 20.0);
                 let now = time * f64::from(part) / 20.0;
                 let errors =
-                    [heat / given(&exact, now) - 1.0, (layer.front() - exact.front(now)) / spacing];
+                    [heat / given(&exact, now) - 1.0, (front(&layer) - exact.front(now)) / spacing];
                 worst = [0, 1].map(|n| worst[n].max(errors[n].abs()));
             }
             println!(
@@ -178,15 +134,14 @@ fn layers_freeze_through_a_resistance() {
             let exact = column.run(time, 1600);
             for across in [2.0, 8.0] {
                 let spacing = bodies.front(time) / across;
-                let rows = (6.0 * (MOLTEN.diffusivity() * time).sqrt() / spacing).max(6.0) as usize;
-                let mut layer = Layer::of(&bodies, (spacing, rows), Some(conductance));
+                let mut layer = layer(&bodies, (spacing, time), Some(conductance));
                 let (mut heat, mut now) = (0.0, 0.0);
                 let mut errors = Vec::new();
                 for n in [160, 400, 800, 1600] {
                     let at = exact[n - 1];
-                    heat += layer.advance(at.time - now);
+                    heat += layer.advance(bodies.wall_temperature, at.time - now);
                     now = at.time;
-                    let front = layer.front() - at.front;
+                    let front = front(&layer) - at.front;
                     errors.push([heat / at.heat - 1.0, front / spacing]);
                 }
                 let biot = conductance * spacing / MOLTEN.conductivity;
@@ -264,7 +219,7 @@ fn heat_is_balanced_through_freezing_and_melting() {
     assert!(arrest > 0.0 && arrest < 4e-4 && free == 0.0 && later > 8e-4, "{frozen:?}");
 }
 
-/// What is frozen stays where it is, to the bit, under whatever pulls on it.
+/// Frozen drops rest to the bit under gravity, and press with their weight.
 #[test]
 fn frozen_drops_do_not_creep() {
     let mut trial = Trial::new(&SCENE.replace("spacing = 8e-6", "spacing = 8e-6\ngravity = 98.1"));

@@ -11,6 +11,8 @@ mod common;
 mod falling_drop;
 #[path = "../common/forecast_cases.rs"]
 mod forecast_cases;
+#[path = "../common/resting_layer.rs"]
+mod resting_layer;
 #[path = "../common/thick_flows.rs"]
 #[allow(dead_code)]
 mod thick_flows;

@@ -88,7 +88,7 @@ pub struct Freezing {
 const VISCOUS_PRESSURE: f64 = 12.0;
 
 impl Fluid {
-    /// What becomes of the fluid where it freezes; `None` if it stays liquid.
+    /// Returns the freezing of the fluid; `None` if it stays liquid.
     pub fn freezing(&self) -> Option<Freezing> {
         let frozen = self.frozen.unwrap_or_default();
         self.melting.map(|melting| Freezing {

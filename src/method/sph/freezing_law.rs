@@ -742,7 +742,7 @@ mod tests {
     }
 
     #[test]
-    fn no_step_passes_the_content_at_the_wall() {
+    fn steps_end_at_the_content_at_the_wall_at_most() {
         for phases in [&TIN, &WARM_TIN, &WATER, &ALLOY] {
             let law = law(phases);
             for wall in [-300.0, -46.0, -20.0, -8.0, -1.0, 20.0] {

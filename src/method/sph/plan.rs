@@ -82,7 +82,7 @@ pub struct Fluid {
     /// Speed of sound c₀ of the model [m/s]: at least ten times the fastest flow keeps the density
     /// within 1 %.
     pub sound_speed: f64,
-    /// What the fluid is once frozen; `None` for a fluid that stays liquid.
+    /// Freezing of the fluid; `None` if it stays liquid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub freezing: Option<Freezing>,
 }

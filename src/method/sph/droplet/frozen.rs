@@ -1,4 +1,4 @@
-//! What of the fluid is frozen, and where.
+//! The frozen part of a fluid and its thickness on the wall.
 
 use super::DropletSph;
 use crate::method::sph::cloud::Cloud;
