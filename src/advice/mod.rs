@@ -4,6 +4,7 @@
 mod arrangement;
 mod cold;
 mod films;
+mod freezing;
 mod moved;
 mod particles;
 mod phases;
@@ -15,7 +16,7 @@ mod values;
 mod viscosity;
 
 use crate::limits::number;
-use crate::limits::plausible::{self, BESIDE_WARM, CRYOGENIC, Cold, Range};
+use crate::limits::plausible::{self, BESIDE_WARM, CRYOGENIC, Cold, MELTS_BESIDE_WARM, Range};
 use crate::scene::locate::{Path, Source};
 use crate::scene::schema::Schema;
 use crate::scene::{self, Scene, SceneError};
@@ -54,6 +55,7 @@ fn found(scene: &Scene, (source, names_lines): (&Source, bool), schema: &Schema)
     arrangement::review(&mut reviewer);
     particles::review(&mut reviewer);
     films::review(&mut reviewer);
+    freezing::review(&mut reviewer);
     reviewer.found.sort_by_key(|(line, _)| *line);
     reviewer.found.into_iter().map(|(_, warning)| warning).collect()
 }
@@ -86,7 +88,11 @@ fn implausible(range: &Range, value: f64) -> Option<Finding> {
     let (low, high) = (number(*lowest), number(*highest));
     let meant = range.meant(value);
     if *unit == "K" && value < *lowest {
-        let beside = if *lowest == BESIDE_WARM { " beside warmer ones" } else { "" };
+        let beside = if [BESIDE_WARM, MELTS_BESIDE_WARM].contains(lowest) {
+            " beside warmer ones"
+        } else {
+            ""
+        };
         let (high, permit) = (format!("{high} K{beside}"), value >= CRYOGENIC);
         let (value, celsius) = (number(value), celsius(value));
         return Some(match meant {

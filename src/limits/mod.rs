@@ -248,7 +248,12 @@ impl Limits {
 
     /// As [`Self::cold`], and restricts it to [`plausible::BESIDE_WARM`] in scenes that also contain something warmer.
     pub const fn guarded(self) -> Self {
-        Self { beside_warm: Some(plausible::BESIDE_WARM), ..self.cold() }
+        self.guarded_from(plausible::BESIDE_WARM)
+    }
+
+    /// As [`Self::guarded`], with another lower end.
+    pub const fn guarded_from(self, lowest: f64) -> Self {
+        Self { beside_warm: Some(lowest), ..self.cold() }
     }
 
     /// Writes the limits of a number into its schema.

@@ -299,6 +299,8 @@ pub static TIME: Range<'static> =
 pub const CRYOGENIC: f64 = 1.0;
 /// Lowest plausible temperature in scenes that also contain something warmer than this [K].
 pub const BESIDE_WARM: f64 = 250.0;
+/// The same for melting points: above that of tin in °C, 231.9, and below that of mercury, 234.3 K.
+pub const MELTS_BESIDE_WARM: f64 = 233.0;
 
 /// Coldness of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -8,14 +8,19 @@ impl Scene {
     /// Returns the freezing of a droplet's fluid; `None` if it stays liquid: it does not melt, conducts no heat,
     /// is repeated from a record or a film, or nothing in the scene is colder than its liquidus.
     pub fn freezing_of(&self, name: &str) -> Option<Freezing> {
-        let droplet = self.droplet(name)?;
-        let freezing = droplet.fluid.freezing()?;
-        let conducts = droplet.fluid.conductivity > 0.0 && droplet.method == DropletMethod::Sph;
         // The temperatures of a wall are inputs, which may become anything.
-        let has_wall = self.wall_under(name).is_some();
-        let has_solid = self.coupling_from(name).is_some();
-        let is_cold = has_wall || (has_solid && self.coldest() < freezing.melting.liquidus);
-        Some(freezing).filter(|_| conducts && is_cold)
+        let may_be_cold = self.wall_under(name).is_some();
+        let is_cold = |freezing: &Freezing| self.coldest() < freezing.melting.liquidus;
+        self.possible_freezing_of(name).filter(|freezing| may_be_cold || is_cold(freezing))
+    }
+
+    /// Returns the freezing of a droplet's fluid at temperatures that parameters may set; `None` if it stays liquid at
+    /// any.
+    pub fn possible_freezing_of(&self, name: &str) -> Option<Freezing> {
+        let droplet = self.droplet(name)?;
+        let conducts = droplet.fluid.conductivity > 0.0 && droplet.method == DropletMethod::Sph;
+        let stands = self.wall_under(name).is_some() || self.coupling_from(name).is_some();
+        droplet.fluid.freezing().filter(|_| conducts && stands)
     }
 
     /// Lowest temperature of solids, reservoirs and what acts on them at time zero [K].

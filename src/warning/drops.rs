@@ -25,6 +25,11 @@ rules! {
      liquid";
     "do not rely on heat and forces from first contact on"
 
+    Check skin_thinner_than_particles(thickness, finer_spacing)
+    "when the drop has spread, some {thickness} m of it are frozen, less than half a distance of particles, and hold nothing \
+     fast: it recoils farther than it would, and ends smaller";
+    "did you mean a `spacing` of {finer_spacing} m or less?"
+
     Check viscosity_beyond_table(what, temperature, low, high)
     "{what} is at {temperature} K, and the table of viscosity spans {low} K to {high} K: beyond it the viscosity is that \
      of the nearer end";

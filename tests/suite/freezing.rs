@@ -84,14 +84,14 @@ const CASES: [([f64; 2], [f64; 2]); 4] = [
     ([513.0, 423.15], [0.110241, 498.21]),
 ];
 
-/// Layers of which the front crosses a fifth, two, eight and twenty: errors of the heat at any of twenty times, and the
+/// Layers of which the front crosses a fifth, two and eight: errors of the heat at any of twenty times, and the
 /// distance of the front from that of the closed form over a particle.
 #[test]
 fn layers_freeze_as_half_spaces_do() {
     for (temperatures, [growth, _]) in CASES {
         let exact = tin_on_steel(temperatures);
         assert!(off(exact.growth(), growth) < 2e-3, "{} {growth}", exact.growth());
-        for (across, tolerated) in [(0.2, 0.005), (2.0, 0.03), (8.0, 0.02), (20.0, 0.01)] {
+        for (across, tolerated) in [(0.2, 0.01), (2.0, 0.03), (8.0, 0.012)] {
             let time = 1e-4;
             let spacing = exact.front(time) / across;
             let mut layer = layer(&exact, (spacing, time), None);
@@ -108,7 +108,7 @@ fn layers_freeze_as_half_spaces_do() {
                 worst[0], worst[1]
             );
             assert!(
-                worst[0] < tolerated && worst[1] < 0.4,
+                worst[0] < tolerated && worst[1] < 0.2,
                 "{temperatures:?}, {across}: {worst:?}"
             );
         }
@@ -122,7 +122,7 @@ fn layers_freeze_through_a_resistance() {
     for (temperatures, _) in [CASES[1], CASES[3]] {
         let bodies = tin_on_steel(temperatures);
         let deep = |body: Conductor| 8.0 * (body.diffusivity() * time).sqrt();
-        for conductance in [1e5, 4e5, 2e6, 2e7] {
+        for conductance in [1e5, 1e6, 2e7] {
             let column = FreezingColumn {
                 bodies,
                 solidus: bodies.melts_at,
@@ -147,7 +147,7 @@ fn layers_freeze_through_a_resistance() {
                 let biot = conductance * spacing / MOLTEN.conductivity;
                 println!("{temperatures:?}, Bi {biot:.2}, {across} across: {errors:.4?}");
                 for [heat, front] in &errors {
-                    assert!(heat.abs() < 0.03 && front.abs() < 0.4, "{errors:?}");
+                    assert!(heat.abs() < 0.015 && front.abs() < 0.1, "{errors:?}");
                 }
             }
         }
@@ -164,7 +164,8 @@ diameter = 1e-4
 impact_velocity = 1.0
 initial_temperature = 520.0
 spacing = 8e-6
-fluid = { density = 6970.0, viscosity = 1.9e-3, specific_heat = 244.0, conductivity = 33.0, surface_tension = 0.544, contact_angle = 2.4, melting = { solidus = 505.0, liquidus = 505.0, latent_heat = 59e3 }, frozen = { conductivity = 62.0 } }
+precision = "double"
+fluid = { density = 6970.0, viscosity = 1.9e-3, specific_heat = 244.0, conductivity = 33.0, surface_tension = 0.544, contact_angle = 1.0, melting = { solidus = 505.0, liquidus = 505.0, latent_heat = 59e3 }, frozen = { conductivity = 62.0 } }
 [[wall]]
 name = "wall"
 under = "drop"
@@ -224,7 +225,8 @@ fn heat_is_balanced_through_freezing_and_melting() {
 fn frozen_drops_do_not_creep() {
     let mut trial = Trial::new(&SCENE.replace("spacing = 8e-6", "spacing = 8e-6\ngravity = 98.1"));
     (0..40).for_each(|_| trial.step(2e-5));
-    assert!(trial.get("drop.solid_fraction") == 1.0);
+    let frozen = trial.get("drop.solid_fraction");
+    assert!((frozen - 1.0).abs() < 1e-12, "{frozen}");
     let read = |trial: &mut Trial| {
         ["height", "spread_diameter", "max_speed"].map(|name| trial.get(&format!("drop.{name}")))
     };

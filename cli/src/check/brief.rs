@@ -35,7 +35,7 @@ pub fn brief(scene: &Scene, findings: &Findings) -> String {
             let _ = writeln!(text, "  {topic:TOPICS$}{line}");
         }
     };
-    add("models", &[models(findings.forecast)]);
+    add("models", &[models(scene, findings.forecast)]);
     add("takes", &[findings.preparation.cost(findings.forecast, findings.files.table_time)]);
     add("writes", &[writes(&findings.files, scene)]);
     add("not modelled", &omissions(scene, findings.forecast));
@@ -70,7 +70,7 @@ fn head(scene: &Scene) -> String {
     text
 }
 
-fn models(forecast: &Forecast) -> String {
+fn models(scene: &Scene, forecast: &Forecast) -> String {
     let solids = forecast.bodies.iter().map(|body| {
         let nodes = body.nodes.iter().filter(|count| **count > 1);
         let nodes: Vec<_> = nodes.map(usize::to_string).collect();
@@ -79,7 +79,10 @@ fn models(forecast: &Forecast) -> String {
     });
     let droplets = forecast.droplets.iter().map(|body| match body.particles {
         0 => format!("{}: closed forms", body.name),
-        particles => format!("{}: {particles} particles", body.name),
+        particles => {
+            let freezes = scene.freezing_of(&body.name).map_or("", |_| ", freezing");
+            format!("{}: {particles} particles{freezes}", body.name)
+        }
     });
     let all: Vec<_> = solids.chain(droplets).collect();
     if all.is_empty() { "nothing with an extent".to_owned() } else { all.join("; ") }

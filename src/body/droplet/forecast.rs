@@ -39,7 +39,8 @@ impl DropletForecast {
         if droplet.is_replayed() {
             return replay::forecast(scene, name, droplet);
         }
-        let sph = plan_of(droplet, None, None);
+        let mut sph = plan_of(droplet, None, None);
+        sph.fluid.freezing = scene.freezing_of(name);
         let (particles, time_step) = DropletSph::forecast(&sph);
         let threads = threads_for(scene.solver.threads, is_large(particles)) as f64;
         let contact = scene.coupling_from(name).and_then(|index| {

@@ -139,8 +139,7 @@ impl DropletBody {
         if let Some(wall) = &mut plan.wall {
             wall.conductance = scene.conductance_below(name);
         }
-        let (particles, _) = DropletSph::forecast(&plan);
-        let threads = threads(is_large(particles));
+        let threads = threads(is_large(plan.particles()));
         let sph = DropletSph::new(plan, threads);
         Self {
             name: name.to_owned(),
@@ -199,7 +198,7 @@ impl DropletBody {
 
     /// Smallest number of time steps in `dt` [s], and number of particles at the end.
     fn expected_steps(&self, dt: f64) -> (f64, usize) {
-        let (particles, time_step) = DropletSph::forecast(self.droplet.plan());
+        let (particles, time_step) = self.droplet.expected();
         // Fluid at rest allows longer steps than an arriving drop.
         (0.5 * dt / time_step, particles)
     }

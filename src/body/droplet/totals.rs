@@ -28,10 +28,8 @@ enum Offered {
     OnASolid,
     /// Those of a fluid with a yield stress.
     Yielding,
-    /// Those of a fluid that freezes.
+    /// Those of a fluid that may freeze above a wall or a solid.
     Freezing,
-    /// Those of a fluid that freezes above a wall or a solid.
-    FreezingOnAWall,
 }
 
 enum Read {
@@ -186,7 +184,7 @@ const TOTALS: [Total; 37] = [
         |totals| totals.creep,
     ),
     freezing("solid_fraction", "frozen fraction of the mass", Quantity::Ratio, |totals| {
-        totals.frozen_mass / totals.mass
+        totals.solid_fraction
     }),
     freezing("frozen_mass", "frozen mass", Quantity::Mass, |totals| totals.frozen_mass),
     freezing(
@@ -195,13 +193,13 @@ const TOTALS: [Total; 37] = [
         Quantity::Energy,
         |totals| totals.latent_heat,
     ),
-    Total {
-        key: "arrest_time",
-        words: "time since which all fluid on the wall has been frozen, zero while some is liquid",
-        quantity: Quantity::Time,
-        of: Offered::FreezingOnAWall,
-        read: Read::Totals(|totals| totals.arrest_time),
-    },
+    freezing(
+        "arrest_time",
+        "time since which the layer of fluid at the wall has been frozen, so that its edge rests, zero while some of it is \
+         liquid",
+        Quantity::Time,
+        |totals| totals.arrest_time,
+    ),
     Total {
         key: "force_outside",
         words: "force beyond the edge of the solid, which does not act on it, mean over the last exchange",
@@ -273,7 +271,7 @@ pub fn offered_totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
     let on_demand = scene.droplet(name).is_some_and(Droplet::is_on_demand);
     let yields =
         scene.droplet(name).is_some_and(|droplet| droplet.fluid.viscosity.yield_stress() > 0.0);
-    let freezes = scene.freezing_of(name).is_some();
+    let freezes = scene.possible_freezing_of(name).is_some();
     let is_offered = |total: &Total| match total.of {
         Offered::All => true,
         Offered::AboveAWall => stands,
@@ -281,7 +279,6 @@ pub fn offered_totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
         Offered::OnASolid => coupled,
         Offered::Yielding => yields,
         Offered::Freezing => freezes,
-        Offered::FreezingOnAWall => freezes && stands,
     };
     let totals = TOTALS.iter().enumerate().filter(|(_, total)| is_offered(total));
     let described = totals.map(|(place, &Total { key, words, quantity, .. })| {

@@ -10,10 +10,11 @@ use crate::limits::{plausible, positive, temperature};
 #[serde(deny_unknown_fields)]
 pub struct Melting {
     /// Temperature at which melting begins [K].
-    #[schemars(transform = temperature().plausible(&plausible::MELTING).guarded())]
+    #[schemars(transform = temperature().plausible(&plausible::MELTING).guarded_from(plausible::MELTS_BESIDE_WARM))]
     pub solidus: f64,
     /// Temperature at which it is over [K]; it may be the solidus.
-    #[schemars(transform = temperature().plausible(&plausible::MELTING).guarded().condition("from the solidus on"))]
+    #[schemars(transform = temperature().plausible(&plausible::MELTING).guarded_from(plausible::MELTS_BESIDE_WARM)
+        .condition("from the solidus on"))]
     pub liquidus: f64,
     /// Heat that it takes, L [J/kg].
     #[schemars(transform = positive("J/kg", "the latent heat").plausible(&plausible::LATENT_HEAT))]

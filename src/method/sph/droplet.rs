@@ -290,15 +290,22 @@ impl DropletSph {
     /// Number of particles of the whole plan, and its time step at the speed of the fastest droplet
     /// [s].
     pub fn forecast(plan: &DropletPlan) -> (usize, f64) {
-        let particles: f64 = plan.drops().map(|r| plan.particles_of(r.diameter)).sum();
+        Self::expected_of(plan, &Method::of(plan))
+    }
+
+    /// As [`Self::forecast`], for the own plan.
+    pub fn expected(&self) -> (usize, f64) {
+        Self::expected_of(&self.plan, &self.method)
+    }
+
+    fn expected_of(plan: &DropletPlan, method: &Method) -> (usize, f64) {
         let speed = |r: Release| r.velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
         let fastest = plan.drops().map(speed).fold(0.0, f64::max);
-        let method = Method::of(plan);
         let gravity = plan.gravity.iter().map(|g| g * g).sum::<f64>().sqrt();
         let units = &method.units;
         let gravity = gravity * units.length / units.speed.powi(2);
         let step = method.stable_step(fastest / units.speed, gravity) * units.time();
-        (particles.round() as usize, step)
+        (plan.particles(), step)
     }
 
     fn no_particles(&self) -> Cloud {

@@ -114,7 +114,7 @@ impl Lattice {
         let (mut contents, mut time) = ([start; LAYERS], 0.0_f64);
         let mut known: Vec<[f64; 2]> = Vec::new();
         while time < SETTLED {
-            let step = (SHARE * time).clamp(SHORTEST, longest);
+            let step = (SHARE * time).max(SHORTEST).min(longest);
             let reach = REACH[0] * (time * fastest).sqrt() + REACH[1];
             self.conduct(&mut contents, start, (reach as usize).min(LAYERS), step);
             contents[0] -= 2.0 * factor * ((time + step).sqrt() - time.sqrt());

@@ -172,6 +172,11 @@ impl DropletPlan {
         self.volume(diameter) / self.spacing.powi(self.dimension as i32) / copies(self.mirrors)
     }
 
+    /// Number of particles once all drops are released, images excluded.
+    pub fn particles(&self) -> usize {
+        self.drops().map(|drop| self.particles_of(drop.diameter)).sum::<f64>().round() as usize
+    }
+
     /// All possible drops; those on demand as if all were requested at once.
     pub fn drops(&self) -> impl Iterator<Item = Release> + '_ {
         let asked = self.demand.iter().flat_map(|demand| (0..demand.most).map(|_| demand.expected));

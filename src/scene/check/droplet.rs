@@ -144,7 +144,13 @@ fn arrivals(checker: &mut Checker, path: &Path, name: &str, droplet: &Droplet) {
         if let Some(other) = list[..i].iter().position(|other| meets(droplet, other, arrival, free))
         {
             let message = format!("the drop is released into that of arrivals[{other}]");
-            let allowed = "a place or time apart, or a larger `height`";
+            let allowed = match free {
+                true => "a place or time apart".to_owned(),
+                false => format!(
+                    "a place apart, or a larger `height` of the body: from {} m on above drops that have landed",
+                    number(0.5 * droplet.diameter)
+                ),
+            };
             checker.refuse(&path, message, allowed);
         }
     }

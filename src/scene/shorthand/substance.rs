@@ -206,13 +206,29 @@ fn expand_table(
     let mut taken = at.map(|at| take_at(&mut known, at, free)).unwrap_or_default();
     taken.retain(|(key, _)| !own.contains_key(*key));
     let mut table: DeTable = known;
-    table.extend(own.into_iter().filter(|(key, _)| !matches!(key.get_ref().as_ref(), KEY | AT)));
+    for (key, value) in
+        own.into_iter().filter(|(key, _)| !matches!(key.get_ref().as_ref(), KEY | AT))
+    {
+        replace(&mut table, key, value);
+    }
     source.replace(place, DeValue::Table(table));
     for (key, value) in taken {
         source.set_number(place.key(key), value);
     }
     let named = NamedSubstance::new(place.clone(), kind, substance);
     source.add_substance(NamedSubstance { at: given, taken: at, ..named });
+}
+
+/// Replaces a constant; of tables within the substance's, such as `frozen`, single keys.
+fn replace<'a>(table: &mut DeTable<'a>, key: Spanned<Cow<'a, str>>, value: Spanned<DeValue<'a>>) {
+    let is_of_phases = matches!(key.get_ref().as_ref(), "melting" | "frozen");
+    let known = if is_of_phases { table.get_mut(key.get_ref().as_ref()) } else { None };
+    match (known.map(Spanned::get_mut), value.get_ref()) {
+        (Some(DeValue::Table(known)), DeValue::Table(own)) => known.extend(own.clone()),
+        _ => {
+            table.insert(key, value);
+        }
+    }
 }
 
 fn unknown(source: &Source, place: &Path, name: &str, kind: Kind) -> Problem {

@@ -51,8 +51,9 @@ pub struct DropletTotals {
     /// fluids without a yield stress.
     pub yielded_mass: f64,
     pub creep: f64,
-    /// Mass of frozen fluid [kg], latent heat that it has given off [J], and time since which all fluid on the wall is
+    /// Frozen fraction of the mass, mass of frozen fluid [kg], latent heat that it has given off [J], and time since which all fluid on the wall is
     /// frozen [s], 0 while some is not; zero for fluids that stay liquid.
+    pub solid_fraction: f64,
     pub frozen_mass: f64,
     pub latent_heat: f64,
     pub arrest_time: f64,
@@ -95,10 +96,11 @@ pub fn totals(
         totals.yielded_mass = images * units.mass() * yielded_mass(method, cloud);
     }
     if let Some(freezing) = plan.fluid.freezing.filter(|_| cloud.content.is_some()) {
-        let frozen = solid_fractions(method, cloud);
-        let frozen: f64 = frozen.iter().zip(&cloud.mass).map(|(part, mass)| part * mass).sum();
-        // A sum of no numbers is −0.
-        totals.frozen_mass = images * units.mass() * frozen + 0.0;
+        if !cloud.mass.is_empty() {
+            totals.solid_fraction = mean_by_mass(cloud, &solid_fractions(method, cloud));
+        }
+        let mass: f64 = cloud.mass.iter().sum();
+        totals.frozen_mass = totals.solid_fraction * images * units.mass() * mass;
         totals.latent_heat = totals.frozen_mass * freezing.melting.latent_heat;
         totals.arrest_time = ledger.arrest.unwrap_or(0.0);
     }

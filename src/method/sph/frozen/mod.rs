@@ -24,8 +24,9 @@ use links::connected;
 
 /// Frozen fraction from which on a particle is rigid.
 pub const RIGID: f64 = 0.5;
-/// Largest distance over Δx of bonded particles: it exceeds the diagonal of a square of the lattice.
-const REACH: f64 = 1.5;
+/// Largest distance over Δx of bonded particles: it exceeds the diagonals of the lattice, and pieces next to each other do
+/// not hover.
+const REACH: f64 = 1.75;
 /// Distance from a plane over Δx below which rigid particles adhere to it; those nearer exchange heat with the wall.
 const ADHERING: f64 = 1.05;
 
