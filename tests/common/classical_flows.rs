@@ -42,6 +42,16 @@ impl Flow {
         Self::start_plan(setup.plan(), points, velocity, pressure)
     }
 
+    /// The same with pair interactions in double precision, at zero pressure.
+    pub fn start_in_double(
+        setup: Setup,
+        points: &[[f64; 2]],
+        velocity: impl Fn([f64; 2]) -> [f64; 2],
+    ) -> Self {
+        let plan = DropletPlan { precision: Precision::Double, ..setup.plan() };
+        Self::start_plan(plan, points, velocity, |_| 0.0)
+    }
+
     /// Starts from rest with a ring at each point [r, z], of the pressure there.
     pub fn start_rings(
         setup: Setup,

@@ -46,6 +46,17 @@ impl Channel {
 
     /// Starts with rows of particles between the plates at some velocity over the height, under a gradient [Pa/m].
     pub fn start(&self, rows: usize, gradient: f64, velocity: impl Fn(f64) -> f64) -> Flow {
+        let (setup, points) = self.setup(rows, gradient);
+        Flow::start(setup, &points, |[_, z]| [velocity(z), 0.0], |_| 0.0)
+    }
+
+    /// The steady flow, in double precision.
+    pub fn start_steady(&self, rows: usize) -> Flow {
+        let (setup, points) = self.setup(rows, self.gradient);
+        Flow::start_in_double(setup, &points, |[_, z]| [self.exact().velocity(z), 0.0])
+    }
+
+    fn setup(&self, rows: usize, gradient: f64) -> (Setup, Vec<[f64; 2]>) {
         let spacing = self.width / rows as f64;
         let setup = Setup {
             spacing,
@@ -59,14 +70,19 @@ impl Channel {
             extents: [Extent::Periodic(8.0 * spacing), Extent::Open, Extent::Closed(self.width)],
             cells: Some(WallCells::Tiles { count: [1, 1], size: [10.0; 2] }),
         };
-        Flow::start(setup, &lattice(8, rows, spacing), |[_, z]| [velocity(z), 0.0], |_| 0.0)
+        (setup, lattice(8, rows, spacing))
     }
 
-    /// Relative error of the velocities (norm) of the steady flow, reached from rest.
+    /// Relative error of the velocities (norm) of the steady flow.
+    pub fn error_of(&self, flow: &Flow) -> f64 {
+        flow.norm(|p, i| [p.velocity[i][0]], |[_, z]| [self.exact().velocity(z)])
+    }
+
+    /// The same, reached from rest.
     pub fn error(&self, rows: usize) -> f64 {
         let mut flow = self.start(rows, self.gradient, |_| 0.0);
         flow.advance(2.0);
-        flow.norm(|p, i| [p.velocity[i][0]], |[_, z]| [self.exact().velocity(z)])
+        self.error_of(&flow)
     }
 }
 

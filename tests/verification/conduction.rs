@@ -20,6 +20,7 @@ const FLUID: Fluid = Fluid {
     conductivity: 0.6,
     surface_tension: 0.0,
     sound_speed: 2.0,
+    freezing: None,
 };
 const DIFFUSIVITY: f64 = 0.6 / 4e6;
 /// Thickness of slabs and diameter of drops [m].

@@ -22,6 +22,7 @@ const WATER: Fluid = Fluid {
     conductivity: 0.6,
     surface_tension: 0.0,
     sound_speed: 50.0,
+    freezing: None,
 };
 const FLUID: Conductor = Conductor { conductivity: 0.6, heat_capacity: 4e6 };
 const SOLID: Conductor = Conductor { conductivity: 10.0, heat_capacity: 3950.0 * 900.0 };

@@ -79,6 +79,7 @@ pub fn drop_of(weber: f64, reynolds: f64, resolution: usize) -> DropletSph {
         conductivity: 0.0,
         surface_tension: DENSITY * SPEED * SPEED * DIAMETER / weber,
         sound_speed: sound_speed(weber, resolution),
+        freezing: None,
     };
     let cells = WallCells::Rings { count: 1, radius: 5.0 * DIAMETER };
     let plan = above_wall([DIAMETER, resolution as f64, SPEED], 293.15, fluid, cells);
