@@ -144,12 +144,11 @@ fn arrivals(checker: &mut Checker, path: &Path, name: &str, droplet: &Droplet) {
         if let Some(other) = list[..i].iter().position(|other| meets(droplet, other, arrival, free))
         {
             let message = format!("the drop is released into that of arrivals[{other}]");
-            let allowed = match free {
-                true => "a place or time apart".to_owned(),
-                false => format!(
-                    "a place apart, or a larger `height` of the body: from {} m on above drops that have landed",
-                    number(0.5 * droplet.diameter)
-                ),
+            // Above one that has landed it has room from half a diameter on.
+            let height = 0.5 * droplet.diameter;
+            let allowed = match free || droplet.gap() >= height {
+                true => "a place or time apart, or a larger `height`".to_owned(),
+                false => format!("a place apart, or a `height` of the body >= {}", number(height)),
             };
             checker.refuse(&path, message, allowed);
         }

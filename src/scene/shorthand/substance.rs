@@ -71,21 +71,22 @@ pub fn expand(source: &mut Source) -> Vec<(Path, Problem)> {
         let own = source.value(&fluid.key("melting")).is_some();
         expand_table(source, &fluid, Kind::Fluid, start, &mut problems);
         let is_repeated = text(source, &body.key("method")).is_some_and(|method| method != "sph");
+        let insulates = number(source, &fluid.key("conductivity")) == Some(0.0);
         if !own {
-            stay_liquid(source, &fluid, (start, is_repeated));
+            stay_liquid(source, &fluid, (start, is_repeated || insulates));
         }
     }
     problems
 }
 
-/// Leaves out the freezing of a substance whose drops are repeated, or liquid below its melting point: these are warned
-/// of.
-fn stay_liquid(source: &mut Source, fluid: &Path, (start, is_repeated): (Option<f64>, bool)) {
+/// Leaves out the freezing of a substance that never freezes, as its drops are repeated or conduct no heat, or that is
+/// liquid below its melting point: these are warned of.
+fn stay_liquid(source: &mut Source, fluid: &Path, (start, is_never_frozen): (Option<f64>, bool)) {
     let Some(named) = source.substances().iter().find(|named| named.table == *fluid) else {
         return;
     };
     let is_undercooled = start.zip(named.melts).is_some_and(|(start, melts)| start <= melts);
-    if !is_repeated && !is_undercooled {
+    if !is_never_frozen && !is_undercooled {
         return;
     }
     if let Some(DeValue::Table(mut table)) = source.value(fluid).cloned() {
