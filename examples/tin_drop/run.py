@@ -87,7 +87,7 @@ def main(given: list[str] | None = None) -> dict:
     runs = {name: simulate(options.fmu, folder / name, plate) for name, plate in PLATES.items()}
     print(f"both runs took {time.perf_counter() - started:.1f} s")
     shared.print_table(
-        ["plate", "largest spread", "frozen", "all on the plate frozen", "heat", "hottest"],
+        ["plate", "largest spread", "frozen", "layer on the plate frozen", "heat", "hottest"],
         [
             [
                 f"{PLATES[name]:.0f} °C",
