@@ -7,7 +7,7 @@ use impinge::port::WallCells;
 /// Particles along each side of a period.
 const SIDE: usize = 6;
 
-/// What is below a layer: effusivity of a half space [W √s/(m² K)], and conductance of the contact [W/(m² K)].
+/// The wall below a layer: effusivity of a half space [W √s/(m² K)], and conductance of the contact [W/(m² K)].
 #[derive(Clone, Copy, Default)]
 pub struct Below {
     pub effusivity: Option<f64>,

@@ -266,8 +266,7 @@ impl Cloud {
     pub fn heat(&mut self, i: usize, change: f64, phases: Option<&Phases>) {
         match (phases, &mut self.content) {
             (Some(phases), Some(content)) => {
-                content[i] += change;
-                self.temperature[i] = phases.rise(content[i]);
+                phases.heat(&mut content[i], &mut self.temperature[i], change);
             }
             _ => self.temperature[i] += change,
         }

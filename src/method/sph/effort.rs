@@ -58,9 +58,9 @@ const LAYERS: f64 = 1.0;
 const ADVANCE: f64 = 1.0e-6;
 const ADVANCE_ABOVE_HEAT: f64 = 4.0e-6;
 const READING: f64 = 2.5e-6;
-/// Time of a time step for each particle at the wall of a fluid that freezes [s], measured on tin (rings, with a
-/// conductance; half as much without).
-const STEP_OF_FREEZING: f64 = 20e-6;
+/// Time of a time step for each particle at the wall of a fluid that freezes [s], between that with and without a
+/// conductance.
+const STEP_OF_FREEZING: f64 = 10e-6;
 /// Exponent of growth with the number of neighbours, the usual support radius over Δx, and the
 /// factor of double precision.
 const BY_NEIGHBOURS: f64 = 0.7;

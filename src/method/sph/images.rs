@@ -110,6 +110,13 @@ pub fn copies(mirrors: [bool; 2]) -> f64 {
     mirrors.iter().map(|&mirrored| if mirrored { 2.0 } else { 1.0 }).product()
 }
 
+/// Signs of x and y of these copies.
+pub fn sides(mirrors: [bool; 2]) -> impl Iterator<Item = [f64; 2]> + use<> {
+    let [along_x, along_y] =
+        mirrors.map(|mirrored| if mirrored { &[1.0, -1.0][..] } else { &[1.0][..] });
+    along_x.iter().flat_map(move |&x| along_y.iter().map(move |&y| [x, y]))
+}
+
 /// Ends of a model along an axis. Lengths over H.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ends {

@@ -235,8 +235,7 @@ impl Method {
     pub fn heat(&self, part: &mut Part, k: usize, change: f64) {
         match (&self.phases, &mut part.content) {
             (Some(phases), Some(content)) => {
-                content[k] += change;
-                part.temperature[k] = phases.rise(content[k]);
+                phases.heat(&mut content[k], &mut part.temperature[k], change);
             }
             _ => part.temperature[k] += change,
         }
@@ -246,13 +245,6 @@ impl Method {
     pub fn place(&self, mut position: [f64; 3]) -> [f64; 2] {
         self.images.wrap(&mut position);
         [position[0], position[1]].map(|x| x * self.units.length)
-    }
-
-    /// Signs of x and y of all images at mirrors, the original included.
-    pub fn sides(&self) -> impl Iterator<Item = [f64; 2]> + use<> {
-        let [along_x, along_y] =
-            self.mirrors.map(|mirrored| if mirrored { &[1.0, -1.0][..] } else { &[1.0] });
-        along_x.iter().flat_map(move |&x| along_y.iter().map(move |&y| [x, y]))
     }
 
     /// Exchanges a particle that meets its image at a plane with it: two mirror images that pass

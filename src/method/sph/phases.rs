@@ -60,6 +60,12 @@ impl Phases {
         rise.max(liquidus) + 0.5 * (1.0 + self.conduction) * mushy + self.conduction * frozen
     }
 
+    /// Changes a content, and the temperature that follows from it.
+    pub fn heat(&self, content: &mut f64, temperature: &mut f64, change: f64) {
+        *content += change;
+        *temperature = self.rise(*content);
+    }
+
     /// Frozen fraction of the mass at a content.
     pub fn frozen(&self, content: f64) -> f64 {
         let [frozen, molten] = self.contents();

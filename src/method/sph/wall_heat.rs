@@ -116,7 +116,7 @@ impl WallHeat {
             resistive: wall.conductance.map(resistive),
             freezing: plan
                 .phases()
-                .map(|phases| (phases, FreezingLaw::of(lattice, &phases, &starts(plan)))),
+                .map(|phases| (phases, FreezingLaw::of(lattice, &phases, &starts(plan, &phases)))),
             conduction: fluid.conductivity / (capacity * units.speed * units.length),
             spacing: 1.0 / plan.support,
             layer: fluid.density * plan.spacing * area / units.mass(),
@@ -326,13 +326,17 @@ impl WallHeat {
     }
 }
 
-/// Distinct temperatures of the drops of a plan at their releases, above its reference [K].
-fn starts(plan: &DropletPlan) -> Vec<f64> {
-    let mut all: Vec<f64> =
-        plan.drops().map(|drop| drop.temperature - plan.reference_temperature()).collect();
-    all.sort_by(f64::total_cmp);
-    all.dedup();
-    all
+/// Hottest drop on demand with a table of its own, over the expected one's temperature.
+const HOTTER: f64 = 1.5;
+
+/// Temperatures of release, above the reference of a plan [K], for which the law of freezing is tabulated: those of its
+/// drops. Inputs may set others of drops on demand, between which the law interpolates.
+fn starts(plan: &DropletPlan, phases: &Phases) -> Vec<f64> {
+    let reference = plan.reference_temperature();
+    let drops = plan.drops().map(|drop| drop.temperature - reference);
+    let [_, liquidus] = phases.melting;
+    let asked = plan.demand.iter().flat_map(|_| [liquidus, (HOTTER - 1.0) * reference]);
+    drops.chain(asked).collect()
 }
 
 /// Mean temperature of the columns below a point.

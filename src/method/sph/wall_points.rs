@@ -7,7 +7,7 @@
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-use super::images::copies;
+use super::images::{copies, sides};
 use super::plan::{DropletPlan, Extent};
 use super::resistive_law::Resistance;
 use crate::port::Cover;
@@ -358,10 +358,7 @@ impl<'a> WallPoints<'a> {
 
     /// Signs of x and y of the images' individual contributions.
     fn images(&self) -> impl Iterator<Item = [f64; 2]> + use<> {
-        let sides = |mirrored: bool| if mirrored { &[1.0, -1.0][..] } else { &[1.0][..] };
-        let apart = self.lattice.mirrors.map(|mirrored| mirrored && !self.cells.are_radial());
-        let [along_x, along_y] = apart.map(sides);
-        along_x.iter().flat_map(move |&x| along_y.iter().map(move |&y| [x, y]))
+        sides(self.lattice.mirrors.map(|mirrored| mirrored && !self.cells.are_radial()))
     }
 
     fn settle_heat(&self, exchange: &mut WallExchange) -> Vec<f64> {

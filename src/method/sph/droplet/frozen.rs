@@ -2,6 +2,7 @@
 
 use super::DropletSph;
 use crate::method::sph::cloud::Cloud;
+use crate::method::sph::images::sides;
 use crate::method::sph::method::Method;
 use crate::port::{Cover, Domain, WallCells};
 
@@ -22,7 +23,7 @@ impl DropletSph {
         for (i, fraction) in fractions.iter().enumerate().filter(|(_, part)| **part > 0.0) {
             let volume = unit * cloud.mass[i] * fraction;
             for (cell, part) in self.above(cells, method.place(cloud.position[i])).cells {
-                for signs in method.sides() {
+                for signs in sides(method.mirrors) {
                     for (image, share) in cells.image(cell, signs) {
                         volumes[image] += share * part * volume;
                     }

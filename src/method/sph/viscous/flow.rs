@@ -10,8 +10,8 @@
 //! with the viscosity r. No viscosity is regularised: where a fluid does not yield, q is zero, and s is any stress up to
 //! the yield stress. What creeps there is the remainder y′, which the iteration reduces below its tolerance.
 //!
-//! What the fits leave over is resisted by the slope dτ/dγ̇ of the flow curve before the step, not by τ/γ̇. Where a shear
-//! flow has the curvature u″, the fits lose `Δx²/6 (dτ/dγ̇) u″²` of Φ, and pairs of the same slope make up for it. With
+//! The slope dτ/dγ̇ of the flow curve before the step, not τ/γ̇, resists the remainder of the fits. Where a shear
+//! flow has the curvature u″, the fits lose `Δx²/6 (dτ/dγ̇) u″²` of Φ, and pairs of the same slope compensate for it. With
 //! τ/γ̇ the shear at a wall would have five times the error in a fluid of exponent ½.
 //!
 //! Stresses are kept from step to step, as a first guess of the next.
