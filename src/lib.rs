@@ -86,11 +86,12 @@
 //! | [`laws`] | Constitutive laws of solids, fluids and heat, each with its keys, limits and parameters. |
 //! | [`kernel`] | Smoothing kernels of particle methods. |
 //! | [`state`] | Named fields of the flat vectors that hold the states of bodies. |
+//! | [`space`] | Functions of nodes and their gradients at points, as sparse rows: finite elements. |
 //! | [`scene`] | Types, parser, checks and JSON schema of `scene.toml`. |
 //! | [`advice`] | Warnings about plausible mistakes in a scene, before it runs. |
 //! | [`inputs`] | Layout of the inputs, and their polynomials in time over a step. |
 //! | [`port`] | Exchange between bodies: cells of faces, fluxes through them, responses of surfaces. |
-//! | [`method`] | Numerical methods: finite elements, enthalpy, plasticity, particles, recorded drops, reduction. |
+//! | [`method`] | Numerical methods: finite elements, enthalpy, plasticity, large strain, particles, recorded drops, reduction. |
 //! | [`coupling`] | Conservative transfer of loads between faces, cells and rings. |
 //! | [`body`] | The bodies of a scene behind one trait: solids, droplets, reservoirs. |
 //! | [`variables`] | The registry of a unit's variables: names, units, bounds, start values. |
@@ -136,6 +137,8 @@ pub mod laws;
 pub mod kernel;
 
 pub mod state;
+
+pub mod space;
 
 pub mod scene;
 

@@ -37,6 +37,8 @@
 //! | [`disc_pressure`] | half space under uniform pressure on a disc |
 //! | [`thick_cylinder`] | thick cylinder under internal pressure, plane strain |
 //! | [`yielding_cylinder`] | the same of incompressible material that yields |
+//! | [`drawn_rubber`] | neo-Hookean bar, sheet and block that are drawn (numerical) |
+//! | [`bouncing_ball`] | elastic ball that bounces off a rigid plane |
 //! | [`bilinear`] | bar or film that yields, strained to and fro |
 //! | [`circular_plate`], [`square_plate`] | clamped plates under uniform pressure |
 //! | [`cantilever`] | beam under an end load, with shear |
@@ -47,6 +49,7 @@
 
 pub mod bilinear;
 pub mod bonded_plate;
+pub mod bouncing_ball;
 pub mod cantilever;
 pub mod ceasing_flow;
 pub mod circular_plate;
@@ -56,6 +59,7 @@ pub mod contact;
 pub mod convective_slab;
 pub mod cooling_film;
 pub mod disc_pressure;
+pub mod drawn_rubber;
 pub mod drop_impact;
 pub mod fitted_range;
 pub mod free_plate;
@@ -95,6 +99,7 @@ mod checks;
 
 pub use bilinear::Bilinear;
 pub use bonded_plate::{BondedLayer, BondedPlate};
+pub use bouncing_ball::ElasticBall;
 pub use cantilever::Cantilever;
 pub use ceasing_flow::{Bingham, CeasingFlow};
 pub use circular_plate::CircularPlate;
@@ -102,6 +107,7 @@ pub use composite_slab::{Back, CompositeSlab, SlabLayer};
 pub use contact::Contact;
 pub use convective_slab::ConvectiveSlab;
 pub use disc_pressure::DiscPressure;
+pub use drawn_rubber::{Rubber, Sides};
 pub use drop_impact::DropImpact;
 pub use fitted_range::FittedRange;
 pub use free_plate::FreePlate;

@@ -3,6 +3,7 @@
 use super::contract::Body;
 use super::droplet::{DropletBody, ReplayBody};
 use super::error::BodyError;
+use super::large_strain::{MovingBody, RestingBody};
 use super::link::{self, Joint, Link};
 use super::reduced::ReducedBody;
 use super::reservoir::ReservoirBody;
@@ -69,6 +70,19 @@ pub fn build(
                     let named = |failure| BodyError::Droplet { name: name.clone(), failure };
                     Box::new(body.map_err(named)?)
                 }
+            });
+        }
+    }
+    for (index, (name, body)) in scene.body.iter().enumerate() {
+        if let scene::Body::LargeStrain(solid) = body {
+            let link = links.iter().find(|link| link.from == index);
+            let cells = link.and_then(|link| {
+                let below = built[link.to].as_ref()?.conductor()?;
+                Some((below.cells(link.face)?, link))
+            });
+            built[index] = Some(match solid.inertia {
+                true => Box::new(MovingBody::new((name, solid), cells, threads)),
+                false => Box::new(RestingBody::new(layout, (name, solid), threads)?),
             });
         }
     }

@@ -3,6 +3,7 @@
 use crate::math::cholesky::SolverError;
 use crate::method::fem::NonlinearFailure;
 use crate::method::inelastic::InelasticError;
+use crate::method::large_strain;
 use crate::method::sph::Failure;
 use crate::quantity::kelvin;
 use crate::runtime::address_space::TooLittle;
@@ -55,6 +56,9 @@ pub enum BodyError {
     /// A step of a droplet has no physical meaning.
     #[error("{name}: {failure}")]
     Droplet { name: String, failure: Failure },
+    /// A step of a solid of large strain has no physical meaning.
+    #[error("{body}: {failure}")]
+    LargeStrain { body: String, failure: large_strain::Failure },
     /// A reduced model could not be made.
     #[error("the body cannot be reduced: {message} (allowed: fidelity full)")]
     Reduction { message: String },

@@ -1,6 +1,7 @@
 //! Cost of a scene.
 
 pub use super::droplet::DropletForecast;
+use super::large_strain::LargeStrainForecast;
 use super::solid::forecast_solid;
 pub use super::solid::{BodyForecast, ParticleForecast};
 use super::{link, reduced};
@@ -12,6 +13,7 @@ pub struct Forecast {
     /// Costs of the solids.
     pub bodies: Vec<BodyForecast>,
     pub droplets: Vec<DropletForecast>,
+    pub large_strains: Vec<LargeStrainForecast>,
     /// Number of communication steps of the default experiment.
     pub steps: f64,
     /// Time to solve for the heat between touching solids in one communication step [s].
@@ -23,7 +25,9 @@ impl Forecast {
     pub fn run_time(&self) -> f64 {
         let of_solid = |body: &BodyForecast| body.build_time + (self.steps + 1.0) * body.step_time;
         let of_bodies = self.bodies.iter().map(of_solid);
+        let of_large_strains = self.large_strains.iter().map(|body| body.run_time);
         let all = of_bodies.chain(self.droplets.iter().map(|body| body.run_time));
+        let all = all.chain(of_large_strains);
         // From zero: a sum of nothing is negative zero.
         all.fold(0.0, |sum, time| sum + time) + self.steps * self.contact_time
     }
@@ -39,7 +43,10 @@ pub fn forecast(scene: &Scene) -> Forecast {
     let steps = (scene.stop_time / scene.step).ceil();
     let bodies: Vec<BodyForecast> = solids.collect();
     let contact_time = contact_time(scene, &bodies);
-    Forecast { bodies, droplets: droplets.collect(), steps, contact_time }
+    let large_strains = scene.large_strains();
+    let large_strains =
+        large_strains.map(|(name, solid)| LargeStrainForecast::of(scene, name, solid)).collect();
+    Forecast { bodies, droplets: droplets.collect(), large_strains, steps, contact_time }
 }
 
 /// Time of an exchange between solids per node of both [s]: some eight iterations of two stages each, measured on pairs

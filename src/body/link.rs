@@ -2,6 +2,7 @@
 
 use super::Body;
 use super::droplet;
+use super::large_strain::contact_interval;
 use super::solid::plan;
 use crate::laws::Constants;
 use crate::method::fem::Plan;
@@ -180,13 +181,19 @@ const LEAST_ALONG: f64 = 0.01;
 /// Returns the links of a scene; `place` returns the place of a body.
 pub fn links(scene: &Scene, place: impl Fn(&str) -> Option<usize>) -> Vec<Link> {
     let link = |coupling: &Coupling| {
-        let (solid, droplet) = (coupling.solid()?, scene.droplet(&coupling.from)?);
-        let plan = plan(scene, solid, scene.solid(solid)?);
+        let solid = coupling.solid()?;
+        let interval = match scene.large_strain(&coupling.from) {
+            Some(body) => contact_interval(coupling, body),
+            None => {
+                let plan = plan(scene, solid, scene.solid(solid)?);
+                interval(coupling, scene.droplet(&coupling.from)?, &plan)
+            }
+        };
         Some(Link {
             from: place(&coupling.from)?,
             to: place(solid)?,
             face: FaceName::Top,
-            interval: interval(coupling, droplet, &plan),
+            interval,
             traction: coupling.traction,
         })
     };

@@ -7,6 +7,7 @@ mod contract;
 mod droplet;
 mod error;
 mod forecast;
+mod large_strain;
 mod link;
 mod read;
 mod reduced;
@@ -24,6 +25,7 @@ pub use droplet::{
 };
 pub use error::BodyError;
 pub use forecast::{BodyForecast, DropletForecast, Forecast, ParticleForecast, forecast};
+pub use large_strain::LargeStrainForecast;
 pub use link::{Joint, Link, MOST_PARTS, Side};
 pub use read::{Descriptor, Direct, PeakPart, Reading, peaks, totals};
 pub use reduced::{KeptReduction, forget_unused_reductions, keep_reduction};

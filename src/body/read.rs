@@ -1,6 +1,6 @@
 //! Readings of bodies: each quantity is listed once, in a table beside the body that has it.
 
-use super::{droplet, reduced, reservoir, solid};
+use super::{droplet, large_strain, reduced, reservoir, solid};
 use crate::quantity::Quantity;
 use crate::scene::{Body, Scene};
 
@@ -66,5 +66,8 @@ pub fn totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
         Body::Solid(solid) => solid::offered_totals(scene, (name, solid)),
         Body::Droplet(_) => droplet::offered_totals(scene, name),
         Body::Reservoir(_) => reservoir::offered_totals(),
+        Body::LargeStrain(solid) => {
+            large_strain::offered_totals(solid, scene.coupling_from(name).is_some())
+        }
     }
 }

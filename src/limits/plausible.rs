@@ -213,7 +213,7 @@ pub static GRAVITY: Range<'static> = Range {
     mistakes: Cow::Borrowed(&[scaled("mm/s²", 1e-3)]),
 };
 pub static HEIGHT: Range<'static> =
-    Range { what: "the gap below a drop", unit: "m", lowest: 0.0, highest: 1.0, mistakes: LENGTHS };
+    Range { what: "the gap below a body", unit: "m", lowest: 0.0, highest: 1.0, mistakes: LENGTHS };
 pub static FLUID_DENSITY: Range<'static> = Range {
     what: "the density of a liquid",
     unit: "kg/m³",

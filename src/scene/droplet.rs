@@ -301,8 +301,8 @@ pub struct WallStart {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Coupling {
-    /// The droplet, or the top face of the lower solid.
-    #[schemars(extend("condition" = "a droplet without wall; `SOLID.top`"))]
+    /// The droplet or solid of large strain that falls, or the top face of the lower solid.
+    #[schemars(extend("condition" = "a droplet without wall, a solid of large strain with inertia; `SOLID.top`"))]
     pub from: String,
     /// The face.
     #[schemars(extend(

@@ -2,6 +2,7 @@
 
 use super::droplet::{Coupling, Droplet, Wall};
 use super::lookup::BodyInput;
+use super::materials::MaterialChoice;
 use super::sampling::Sampling;
 use super::types::*;
 
@@ -20,6 +21,7 @@ impl Body {
             Body::Solid(solid) => solid.initial_temperature,
             Body::Droplet(droplet) => droplet.initial_temperature,
             Body::Reservoir(reservoir) => reservoir.initial_temperature,
+            Body::LargeStrain(solid) => solid.initial_temperature,
         }
     }
 
@@ -29,6 +31,7 @@ impl Body {
             Body::Solid(solid) => &mut solid.initial_temperature,
             Body::Droplet(droplet) => &mut droplet.initial_temperature,
             Body::Reservoir(reservoir) => &mut reservoir.initial_temperature,
+            Body::LargeStrain(solid) => &mut solid.initial_temperature,
         }
     }
 
@@ -38,13 +41,14 @@ impl Body {
             Body::Solid(_) => Vec::new(),
             Body::Droplet(droplet) => droplet.inputs(),
             Body::Reservoir(reservoir) => reservoir.inputs(),
+            Body::LargeStrain(solid) => solid.inputs(),
         }
     }
 
     /// A description of a body that has no extent.
     pub(super) fn lump(&self) -> Option<String> {
         match self {
-            Body::Solid(_) | Body::Droplet(_) => None,
+            Body::Solid(_) | Body::Droplet(_) | Body::LargeStrain(_) => None,
             Body::Reservoir(reservoir) => Some(reservoir.words()),
         }
     }
@@ -58,7 +62,7 @@ impl Body {
     pub fn drawn_as(&self) -> Option<Drawn> {
         match self {
             Body::Solid(_) => Some(Drawn::Grid),
-            Body::Droplet(_) => Some(Drawn::Particles),
+            Body::Droplet(_) | Body::LargeStrain(_) => Some(Drawn::Particles),
             Body::Reservoir(_) => None,
         }
     }
@@ -70,7 +74,11 @@ impl Body {
 
     /// Returns true if the model of the body is plane, per metre of depth.
     pub fn is_plane(&self) -> bool {
-        matches!(self, Body::Droplet(droplet) if droplet.dimension == 2)
+        match self {
+            Body::Droplet(droplet) => droplet.dimension == 2,
+            Body::LargeStrain(solid) => solid.dimension == 2,
+            Body::Solid(_) | Body::Reservoir(_) => false,
+        }
     }
 
     /// Conditions that the scene sets on faces of the body.
@@ -86,7 +94,7 @@ impl Body {
     pub fn temperatures(&self) -> Vec<f64> {
         let own = match self {
             Body::Solid(solid) => solid.stress_free_temperature,
-            Body::Droplet(_) => None,
+            Body::Droplet(_) | Body::LargeStrain(_) => None,
             Body::Reservoir(reservoir) => reservoir.ambient,
         };
         let of_faces = self.faces().flat_map(|(_, face)| {
@@ -95,6 +103,19 @@ impl Body {
             [face.temperature, ambient, around].into_iter().flatten()
         });
         of_faces.chain(own).chain([self.initial_temperature()]).collect()
+    }
+
+    /// The materials of the body, each with the number of its layer.
+    pub(super) fn materials_mut(&mut self) -> Vec<(Option<usize>, &mut MaterialChoice)> {
+        match self {
+            Body::Solid(solid) => {
+                let layers = solid.layers.iter_mut().flatten().enumerate();
+                let layers = layers.map(|(i, layer)| (Some(i), &mut layer.material));
+                solid.material.iter_mut().map(|own| (None, own)).chain(layers).collect()
+            }
+            Body::LargeStrain(solid) => vec![(None, &mut solid.material)],
+            Body::Droplet(_) | Body::Reservoir(_) => Vec::new(),
+        }
     }
 
     /// The solid whose heat finite elements conduct, on a mesh that can be refined.
@@ -151,6 +172,7 @@ impl Scene {
         let is_filled = |body: &Body| match body {
             Body::Solid(solid) => solid.heat == HeatMethod::Sph,
             Body::Droplet(_) => true,
+            Body::LargeStrain(solid) => solid.inertia,
             Body::Reservoir(_) => false,
         };
         self.body.values().any(is_filled)

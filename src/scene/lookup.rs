@@ -1,6 +1,7 @@
 //! Look-ups in a checked scene.
 
 use super::droplet::{Coupling, Droplet};
+use super::large_strain::LargeStrain;
 use super::reservoir::Reservoir;
 use super::types::*;
 use crate::limits::Bounds;
@@ -53,6 +54,19 @@ impl Scene {
             Body::Reservoir(reservoir) => Some(reservoir),
             _ => None,
         }
+    }
+
+    /// The solid of large strain of that name.
+    pub fn large_strain(&self, name: &str) -> Option<&LargeStrain> {
+        match self.body.get(name)? {
+            Body::LargeStrain(solid) => Some(solid),
+            _ => None,
+        }
+    }
+
+    /// The solids of large strain, in the order of their names.
+    pub fn large_strains(&self) -> impl Iterator<Item = (&str, &LargeStrain)> {
+        self.body.keys().filter_map(|name| Some((name.as_str(), self.large_strain(name)?)))
     }
 
     /// The solids, in the order of their names.
@@ -132,10 +146,16 @@ impl Scene {
         }
     }
 
-    /// Returns true if axisymmetric drops stand on a box and exchange with it over rings.
+    /// Returns true if axisymmetric bodies stand on a box and exchange with it over rings.
     pub fn meets_rings(&self, solid: &str) -> bool {
         let is_box = self.solid(solid).is_some_and(|solid| matches!(solid.shape, Shape::Box(_)));
-        is_box && self.drops_on(solid).any(|(_, drop)| drop.is_axisymmetric())
+        let falls_round = |coupling: &Coupling| {
+            let body = self.large_strain(&coupling.from);
+            body.is_some_and(LargeStrain::is_axisymmetric)
+        };
+        is_box
+            && (self.drops_on(solid).any(|(_, drop)| drop.is_axisymmetric())
+                || self.couplings_to(solid).any(falls_round))
     }
 
     /// The couplings that act on a solid.

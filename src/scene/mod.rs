@@ -16,6 +16,8 @@ mod footprint;
 mod freezing;
 mod grid;
 mod kinds;
+mod large_strain;
+mod large_strain_kind;
 mod load;
 pub(crate) mod locate;
 mod lookup;
@@ -48,6 +50,7 @@ pub use file::{bytes_of, open_file};
 pub use footprint::Profile;
 pub use grid::{Grid, lateral_extents};
 pub use kinds::Drawn;
+pub use large_strain::{HeldFace, LargeStrain, SmallStrain, SolidShape};
 pub use lookup::{BodyInput, Place};
 pub use materials::{MaterialChoice, Stratum};
 pub use recording::Recording;
@@ -114,6 +117,7 @@ pub fn parse(text: &str, file: &str) -> Result<Scene, SceneError> {
 /// Parses and checks a scene whose positions are known.
 pub(crate) fn parse_located(source: &mut Source, schema: &Schema) -> Result<Scene, SceneError> {
     let misread = shorthand::expand(source, schema);
+    large_strain_kind::name_kinds(source);
     let mut scene = decode::decode(source, schema, misread)?;
     scene.substances = source.substances().to_vec();
     scene.store_surfaces_below();

@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::droplet::{Coupling, Droplet, Wall};
+use super::large_strain::{LargeStrain, SmallStrain, name_kind};
 use super::materials::MaterialChoice;
 use super::refinement::MeshFactors;
 use super::reservoir::Reservoir;
@@ -139,7 +140,7 @@ impl Naming {
 /// A body by kind.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
-#[schemars(transform = tag("kind", "What the body is"))]
+#[schemars(transform = tag("kind", "What the body is"), transform = name_kind)]
 pub enum Body {
     /// A solid that conducts heat and deforms elastically.
     Solid(Box<Solid>),
@@ -147,12 +148,18 @@ pub enum Body {
     Droplet(Box<Droplet>),
     /// A body of one temperature.
     Reservoir(Reservoir),
+    /// A solid whose strains and rotations may be of any size.
+    #[serde(rename(serialize = "solid", deserialize = "solid of large strain"))]
+    LargeStrain(Box<LargeStrain>),
 }
 
 /// A solid body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Solid {
+    /// Measure of deformation; solids of large strain have other keys.
+    #[serde(default)]
+    pub strain: SmallStrain,
     /// `{ box = [LX, LY, LZ] }` or `{ disc = { radius = R, thickness = T } }`.
     pub shape: Shape,
     /// Material of the body: a table, or the name of a `[material.NAME]`.

@@ -34,6 +34,7 @@ mod frozen;
 mod impact;
 mod impossible;
 mod joints;
+mod large_strain;
 mod layered_mechanics;
 mod layers;
 mod levels;

@@ -20,7 +20,7 @@ const IMPACT: &str = include_str!("../scenes/impact.toml");
 /// stands there with a key that there is not, and keys that choose the section's type.
 type Section = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
-const SECTIONS: [Section; 32] = [
+const SECTIONS: [Section; 37] = [
     ("The whole", PLATE, "stop_time =", "zz = 1\nstop_time =", &[]),
     ("`fidelity`", PLATE, "level =", "zz = 1\nlevel =", &[]),
     ("`solver`", PLATE, "stop_time =", "solver = { zz = 1 }\nstop_time =", &[]),
@@ -84,6 +84,41 @@ const SECTIONS: [Section; 32] = [
         PLATE,
         "[body.plate.faces]",
         "[body.plate.faces]\ntop = { radiation = { zz = 1 } }",
+        &[],
+    ),
+    (
+        "`[body.NAME]` of a solid of large strain",
+        PLATE,
+        "[body.plate]",
+        "[body.gel]\nkind = \"solid\"\nstrain = \"finite\"\nzz = 1\n[body.plate]",
+        &["kind"],
+    ),
+    (
+        "`start` of a solid of large strain",
+        PLATE,
+        "[body.plate]",
+        "[body.gel]\nkind = \"solid\"\nstrain = \"finite\"\nstart = { zz = 1 }\n[body.plate]",
+        &[],
+    ),
+    (
+        "`mesh` of a solid of large strain",
+        PLATE,
+        "[body.plate]",
+        "[body.gel]\nkind = \"solid\"\nstrain = \"finite\"\nmesh = { zz = 1 }\n[body.plate]",
+        &[],
+    ),
+    (
+        "`shape.ball`",
+        PLATE,
+        "[body.plate]",
+        "[body.gel]\nkind = \"solid\"\nstrain = \"finite\"\nshape = { ball = { zz = 1 } }\n[body.plate]",
+        &[],
+    ),
+    (
+        "`faces.FACE` of a solid of large strain",
+        PLATE,
+        "[body.plate]",
+        "[body.gel]\nkind = \"solid\"\nstrain = \"finite\"\nfaces = { top = { zz = 1 } }\n[body.plate]",
         &[],
     ),
     ("`[body.NAME]` of a droplet", DROP, "diameter =", "zz = 1\ndiameter =", &["kind"]),

@@ -11,8 +11,15 @@ const DISC: &str = include_str!("../scenes/disc.toml");
 const TILES: &str = include_str!("../scenes/tiles.toml");
 const DROP: &str = include_str!("../scenes/drop.toml");
 const IMPACT: &str = include_str!("../scenes/impact.toml");
-const SCENES: [(&str, &str); 5] =
-    [("plate", PLATE), ("disc", DISC), ("tiles", TILES), ("drop", DROP), ("impact", IMPACT)];
+const GEL: &str = include_str!("../scenes/gel.toml");
+const SCENES: [(&str, &str); 6] = [
+    ("plate", PLATE),
+    ("disc", DISC),
+    ("tiles", TILES),
+    ("drop", DROP),
+    ("impact", IMPACT),
+    ("gel", GEL),
+];
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -1,6 +1,6 @@
 //! Tables of a scene's bodies.
 
-use impinge::scene::{Droplet, MaterialChoice, Scene, Shape, Solid};
+use impinge::scene::{Droplet, MaterialChoice, Scene, Shape, Solid, SolidShape};
 
 use super::words::{key, metres};
 use crate::table::table;
@@ -21,6 +21,27 @@ pub fn bodies(scene: &Scene) -> String {
         })
         .collect();
     table(["body", "shape", "material", "initially", "heat", "symmetry"], &rows)
+}
+
+pub fn large_strains(scene: &Scene) -> String {
+    let rows: Vec<_> = scene
+        .large_strains()
+        .map(|(name, solid)| {
+            [
+                name.to_owned(),
+                match (solid.shape, solid.plate()) {
+                    (SolidShape::Ball(ball), _) => format!("ball, radius {}", metres(ball.radius)),
+                    (_, Some(plate)) => shape(&plate),
+                    (_, None) => String::new(),
+                },
+                material(&solid.material),
+                if solid.inertia { "yes" } else { "no" }.to_owned(),
+                if solid.dimension == 2 { "plane" } else { "space" }.to_owned(),
+                metres(solid.spacing()),
+            ]
+        })
+        .collect();
+    table(["body", "shape", "material", "inertia", "model", "distance of nodes"], &rows)
 }
 
 pub fn lumps(scene: &Scene) -> String {

@@ -84,7 +84,11 @@ fn models(scene: &Scene, forecast: &Forecast) -> String {
             format!("{}: {particles} particles{freezes}", body.name)
         }
     });
-    let all: Vec<_> = solids.chain(droplets).collect();
+    let large_strains = forecast
+        .large_strains
+        .iter()
+        .map(|body| format!("{}: {} nodes of large strain", body.name, body.nodes));
+    let all: Vec<_> = solids.chain(droplets).chain(large_strains).collect();
     if all.is_empty() { "nothing with an extent".to_owned() } else { all.join("; ") }
 }
 

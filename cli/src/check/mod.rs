@@ -103,6 +103,7 @@ fn sections(scene: &Scene, forecast: &Forecast, estimates: &[BodyEstimate]) -> S
     let sections = [
         ("Bodies", bodies::bodies(scene)),
         ("Bodies without extent", bodies::lumps(scene)),
+        ("Bodies of large strain", bodies::large_strains(scene)),
         ("Droplets", bodies::droplets(scene)),
         ("Faces", conditions::faces(scene)),
         ("Loads", conditions::loads(scene)),

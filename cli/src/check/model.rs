@@ -74,6 +74,32 @@ pub fn notes(forecast: &Forecast) -> String {
             let _ = writeln!(text, "    - {note}");
         }
     }
+    for body in &forecast.large_strains {
+        let (nodes, points) = (body.nodes, body.points);
+        let _ = match body.time_step {
+            Some(step) => writeln!(
+                text,
+                "  {}: {nodes} nodes, {points} points, about {:.0} time steps of {} and shorter",
+                body.name,
+                body.steps,
+                engineering(step, "s")
+            ),
+            None => writeln!(
+                text,
+                "  {}: {nodes} nodes, {points} points, {:.0} steps of equilibrium",
+                body.name, body.steps
+            ),
+        };
+        let _ = writeln!(
+            text,
+            "    about {:.0} MB, {} for all its steps",
+            body.memory / 1e6,
+            lasting(body.run_time)
+        );
+        for note in &body.notes {
+            let _ = writeln!(text, "    - {note}");
+        }
+    }
     text
 }
 

@@ -31,6 +31,9 @@ pub fn omissions(scene: &Scene, forecast: &Forecast) -> Vec<String> {
         let freezing = if freezes { "shrinking of what freezes" } else { "freezing" };
         list.push(format!("{freezing}, boiling and evaporation of liquids, the air"));
     }
+    if scene.large_strains().next().is_some() {
+        list.push("heat and friction of solids of large strain".to_owned());
+    }
     let heavy = |&(name, droplet): &(&str, &Droplet)| {
         let bond = bond(droplet);
         (droplet.gravity == 0.0 && bond > FELT && bond.is_finite())

@@ -174,6 +174,7 @@ pub fn explain(registry: &Registry, error: ModelError) -> Refusal {
             | BodyError::Heat { .. }
             | BodyError::Equilibrium { .. }
             | BodyError::Uneven { .. }
+            | BodyError::LargeStrain { .. }
             | BodyError::NoRoom(_)
             | BodyError::Halted { .. } => (Status::Discard, None),
             BodyError::NotFinite(_)

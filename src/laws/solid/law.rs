@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::elastoplastic::respond_at;
+use super::hyperelastic::Hyperelastic;
 use super::{Elasticity, PlasticHistory, PointConstants, Thermoelastic};
 use crate::laws::{Part, Property};
 
@@ -35,6 +36,16 @@ pub trait Deformation: Keys {
     /// Returns true if strain continues under constant stress.
     fn creeps(&self) -> bool {
         false
+    }
+
+    /// Returns true if the law is one of solids of large strain.
+    fn is_of_large_strain(&self) -> bool {
+        false
+    }
+
+    /// Returns the law of large strain at a temperature [K]; `None` if it is none, or lacks constants.
+    fn hyperelastic(&self, _temperature: f64) -> Option<Hyperelastic> {
+        None
     }
 
     /// Returns true if stress is a linear function of deformation and temperature alone.

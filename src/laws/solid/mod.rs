@@ -6,7 +6,9 @@
 mod admissible;
 mod elasticity;
 mod elastoplastic;
+pub mod hyperelastic;
 mod law;
+mod neo_hookean;
 mod overstress;
 mod plastic_history;
 pub mod stress;
@@ -21,6 +23,7 @@ pub use elastoplastic::{
     Elastoplastic, ElastoplasticLaw, OfTemperature, PointConstants, PointTangent, constant,
 };
 pub use law::{Deformation, Elastic, FlowLaw, Keys, Law, Need, Response};
+pub use neo_hookean::NeoHookeanLaw;
 pub use overstress::{Overstress, Parted};
 pub use plastic_history::PlasticHistory;
 pub use thermoelastic::{Thermoelastic, ThermoelasticLaw};
@@ -103,4 +106,6 @@ solid_laws! {
     Elastoplastic(ElastoplasticLaw) = "elastoplastic",
     /// The same, but flow takes time: creep, or viscoplasticity beyond a yield stress.
     Viscoplastic(ViscoplasticLaw) = "viscoplastic",
+    /// Rubber and gels of large strain: compressible neo-Hooke.
+    NeoHookean(NeoHookeanLaw) = "neo_hookean",
 }

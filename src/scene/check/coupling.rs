@@ -4,6 +4,7 @@
 use super::{Checker, fits, number};
 use crate::scene::droplet::{Coupling, Droplet};
 use crate::scene::grid::lateral_extents;
+use crate::scene::large_strain::LargeStrain;
 use crate::scene::locate::Path;
 use crate::scene::lookup::split_place;
 use crate::scene::types::{FaceName, Shape, Solid};
@@ -24,6 +25,10 @@ fn check_droplet(checker: &mut Checker, path: &Path, i: usize, coupling: &Coupli
         checker.refuse(&path.at("from"), message, format!("{}.top", coupling.from));
         return;
     }
+    if let Some(solid) = checker.scene.large_strain(&coupling.from) {
+        check_large_strain(checker, path, i, (coupling, solid));
+        return;
+    }
     let droplet = checker.droplet(&path.at("from"), &coupling.from);
     let face = checker.face(&path.at("to"), &coupling.to, |_| vec![FaceName::Top]);
     alone(checker, path, i, coupling);
@@ -40,6 +45,38 @@ fn check_droplet(checker: &mut Checker, path: &Path, i: usize, coupling: &Coupli
     if let (Some(droplet), Some((_, solid))) = (droplet, face) {
         fit(checker, &path.at("from"), droplet, &solid.shape);
     }
+}
+
+/// Checks a solid of large strain that falls on the top of a solid.
+fn check_large_strain(
+    checker: &mut Checker,
+    path: &Path,
+    i: usize,
+    (coupling, solid): (&Coupling, &LargeStrain),
+) {
+    let from = path.at("from");
+    let face = checker.face(&path.at("to"), &coupling.to, |_| vec![FaceName::Top]);
+    alone(checker, path, i, coupling);
+    if coupling.conductance.is_some() {
+        let message = "a solid of large strain conducts no heat";
+        checker.refuse(&path.at("conductance"), message, "no `conductance`");
+    }
+    if solid.dimension == 2 {
+        let message = "a plane body does not fit a solid of three dimensions";
+        checker.refuse(&from, message, "a body of `dimension = 3`");
+    }
+    let Some((_, below)) = face else { return };
+    free_face(checker, &path.at("to"), coupling, below);
+    if matches!(below.shape, Shape::Disc(_)) && !solid.is_axisymmetric() {
+        let message = "a disc is modelled axisymmetric, and so must be what falls on it";
+        checker.refuse(&from, message, "a disc or a ball straight down, or a box below");
+    }
+    let [x, y] = lateral_extents(&below.shape);
+    let [width, depth, _] = solid.extents();
+    let fine = fits(width, x) && fits(depth, y);
+    let (x, y) = (number(x), number(y));
+    let message = "the body is wider than the face below";
+    checker.require(fine, &from, message, format!("extents up to {x} and {y} m"));
 }
 
 /// Checks a contact of two solids, or of a solid and a reservoir.

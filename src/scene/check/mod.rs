@@ -8,6 +8,7 @@ mod fidelity;
 mod field_cells;
 mod freezing;
 mod header;
+mod large_strain;
 mod layers;
 mod limits;
 mod material;
@@ -49,6 +50,7 @@ pub fn check(scene: &Scene, source: &Source, schema: &Schema) -> Result<(), Scen
     body::check(&mut checker);
     droplet::check(&mut checker);
     reservoir::check(&mut checker);
+    large_strain::check(&mut checker);
     load::check(&mut checker);
     probe::check(&mut checker);
     field::check(&mut checker);
@@ -157,6 +159,9 @@ impl<'a> Checker<'a> {
         match self.scene.body.get(body) {
             Some(Body::Reservoir(_)) => format!(
                 "`{body}` is a reservoir, whose values are always outputs and which can be in contact with solids only"
+            ),
+            Some(Body::LargeStrain(_)) => format!(
+                "`{body}` is a solid of large strain, on which no loads act, and whose values are outputs by themselves"
             ),
             Some(Body::Droplet(_)) => format!(
                 "`{body}` is a droplet, on which nothing else acts and whose values are outputs by \

@@ -1,6 +1,7 @@
 //! The constants of bodies that units offer as parameters: each kind lists its own and knows where they stand.
 
 mod droplet;
+mod large_strain;
 mod solid;
 
 pub use droplet::DropletConstant;
@@ -77,6 +78,7 @@ impl Body {
         match self {
             Body::Solid(solid) => solid::offered(name, solid),
             Body::Droplet(droplet) => droplet::offered(name, droplet),
+            Body::LargeStrain(solid) => large_strain::offered(name, solid),
             Body::Reservoir(_) => vec![OfferedConstant {
                 key: "initial_temperature".to_owned(),
                 description: format!("temperature of {name} at time zero"),
@@ -99,6 +101,9 @@ impl Body {
             (Body::Droplet(droplet), Constant::Material(constant)) => {
                 droplet.fluid.viscosity.number(constant.key).into_iter().collect()
             }
+            (Body::LargeStrain(solid), Constant::Material(constant)) => {
+                solid.material.material_mut().number(constant.key).into_iter().collect()
+            }
             _ => panic!("a body offers the constants of its kind"),
         }
     }
@@ -109,6 +114,7 @@ impl Body {
             Body::Solid(_) => 0,
             Body::Reservoir(_) => 1,
             Body::Droplet(_) => 2,
+            Body::LargeStrain(_) => 3,
         }
     }
 }

@@ -4,6 +4,7 @@ use std::fmt;
 
 use serde::de::{Error, Expected, Unexpected};
 
+use crate::scene::large_strain::KIND;
 use crate::scene::locate::Path;
 use crate::scene::spelling::meant;
 
@@ -60,7 +61,9 @@ impl Misfit {
     pub fn allowed(&self) -> String {
         match self {
             Misfit::UnknownKey { known, .. } | Misfit::UnknownName { known, .. } => {
-                known.join(", ")
+                // The program's own name of a kind is none of a scene.
+                let names = known.iter().copied().filter(|name| *name != KIND);
+                names.collect::<Vec<_>>().join(", ")
             }
             Misfit::MissingKey(key) => format!("`{key} = …`"),
             Misfit::Unexpected { expected } => expectation(expected),

@@ -18,11 +18,12 @@ use toml::de::{DeFloat, DeValue};
 
 use super::droplet::Droplet;
 use super::error::{Problem, SceneError};
+use super::large_strain::{KIND, LargeStrain};
 use super::locate::{Path, Source};
 use super::reservoir::Reservoir;
 use super::schema::Schema;
 use super::spelling::hint;
-use super::types::{Body, Scene, Solid};
+use super::types::{Scene, Solid};
 use crate::substances::Kind;
 use failure::{Failure, Misfit, VARIANT, expectation};
 use unit::with_unit;
@@ -76,13 +77,9 @@ impl Decoder<'_> {
     fn look_up_materials(&mut self, scene: &mut Scene) {
         let known = &scene.material;
         for (name, body) in &mut scene.body {
-            let Body::Solid(solid) = body else { continue };
             let path = Path::default().key("body").key(name);
-            let layers = solid.layers.iter_mut().flatten().enumerate();
-            let layers =
-                layers.map(|(i, layer)| (path.key("layers").index(i), &mut layer.material));
-            let own = solid.material.iter_mut().map(|choice| (path.clone(), choice));
-            for (path, choice) in own.chain(layers) {
+            for (part, choice) in body.materials_mut() {
+                let path = part.map_or(path.clone(), |layer| path.key("layers").index(layer));
                 if !choice.look_up(|name| known.get(name)) {
                     let name = choice.name.as_deref().unwrap_or_default();
                     // Errors of an existing table have already been reported.
@@ -124,6 +121,7 @@ impl Decoder<'_> {
             self.read_if::<Solid>(&body, "kind", "solid");
             self.read_if::<Droplet>(&body, "kind", "droplet");
             self.read_if::<Reservoir>(&body, "kind", "reservoir");
+            self.read_if::<LargeStrain>(&body, "kind", KIND);
         }
     }
 

@@ -4,7 +4,7 @@ use impinge::limits::keyword;
 use serde_json::Value;
 
 /// Headings of `docs/scene.md` with a table, and where in the schema the table that they describe stands.
-pub const SECTIONS: [(&str, &str); 34] = [
+pub const SECTIONS: [(&str, &str); 39] = [
     ("The whole", ""),
     ("`fidelity`", "/$defs/Fidelity"),
     ("`solver`", "/$defs/Solver"),
@@ -23,6 +23,11 @@ pub const SECTIONS: [(&str, &str); 34] = [
     ("`faces.FACE` of a solid", "/$defs/Face"),
     ("`faces.FACE.convection` of a solid", "/$defs/Convection"),
     ("`faces.FACE.radiation` of a solid", "/$defs/Radiation"),
+    ("`[body.NAME]` of a solid of large strain", "/$defs/Body/oneOf/3"),
+    ("`start` of a solid of large strain", "/$defs/LargeStrainStart"),
+    ("`mesh` of a solid of large strain", "/$defs/LargeStrainMesh"),
+    ("`shape.ball`", "/$defs/Ball"),
+    ("`faces.FACE` of a solid of large strain", "/$defs/HeldFace"),
     ("`[body.NAME]` of a droplet", "/$defs/Body/oneOf/1"),
     ("`fluid` of a droplet", "/$defs/Fluid"),
     ("`viscosity` of a fluid", "/$defs/ViscosityLaw"),

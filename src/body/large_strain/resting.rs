@@ -1,0 +1,394 @@
+//! A solid of large strain in equilibrium under the displacements of its faces.
+
+use std::ops::Range;
+use std::slice::from_mut;
+
+use super::snapshot::{Seen, Snapshot, copies};
+use super::totals::{self, Sums, moved_faces};
+use super::{LargeStrainMemo, is_large, plan};
+use crate::body::{
+    Acts, Advice, Body, BodyError, Fields, Given, Giver, Maxima, Memo, Reading, Received, Resources,
+};
+use crate::inputs::InputLayout;
+use crate::method::large_strain::{Conditions, Deformable, Equilibrium, Failure, Rest};
+use crate::runtime::allowance::{Allowance, cost};
+use crate::scene::LargeStrain;
+use crate::space::{Form, Mesh};
+use crate::state::{Field, Fields as StateFields, Layout, Per, load, store};
+
+/// A body without inertia.
+pub struct RestingBody {
+    name: String,
+    equilibrium: Equilibrium,
+    start: Resting,
+    /// How each node is held along x, y and z.
+    holds: Vec<[Hold; 3]>,
+    /// Weight of each node [N].
+    weight: Vec<[f64; 3]>,
+    /// Axes along which the displacements of faces are prescribed, face by face.
+    moved: Vec<Vec<usize>>,
+    mirrors: [bool; 2],
+    temperature: f64,
+    /// Places of the displacements among the inputs.
+    inputs: Range<usize>,
+    notes: Vec<String>,
+}
+
+/// Condition on a node along an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Hold {
+    Free,
+    Fixed,
+    /// Moves with a face, by its number among those that are moved.
+    With(usize),
+}
+
+/// State of the body.
+#[derive(Debug, Clone, PartialEq, Default)]
+struct Resting {
+    time: f64,
+    steps: f64,
+    /// Work of the stresses and energy stored [J].
+    work: f64,
+    stored: f64,
+    rest: Rest,
+    /// Forces on the faces that are moved [N].
+    forces: Vec<[f64; 3]>,
+}
+
+/// Halvings of a step in which no equilibrium is found.
+const HALVINGS: u32 = 7;
+/// Numbers that an iteration updates for each point, or as many as take as long.
+const WORK: usize = 3000;
+/// Name of the steps in messages.
+const STEPS: &str = "steps of equilibrium";
+/// Share of the energy that the balance of a state may miss.
+const ENERGY: f64 = 1e-6;
+
+impl StateFields for Resting {
+    fn fields(&mut self) -> Vec<(Field, &mut [f64])> {
+        let of = |name, words, per, width| Field { name, words, per, width };
+        let body = |name, words| of(name, words, Per::Body, 1);
+        let displacement = self.rest.displacement.as_flattened_mut();
+        vec![
+            (body("time", "time since the start [s]"), from_mut(&mut self.time)),
+            (body("steps", "steps made"), from_mut(&mut self.steps)),
+            (body("work", "work of the stresses [J]"), from_mut(&mut self.work)),
+            (body("stored", "energy stored [J]"), from_mut(&mut self.stored)),
+            (
+                of("forces", "forces on moved faces [N]", Per::Face, 3),
+                self.forces.as_flattened_mut(),
+            ),
+            (of("displacement", "displacement [m]", Per::Node, 3), displacement),
+            (of("history", "history of the law", Per::Point, 1), &mut self.rest.history),
+        ]
+    }
+}
+
+impl RestingBody {
+    pub fn new(
+        layout: &InputLayout,
+        (name, solid): (&str, &LargeStrain),
+        threads: impl Fn(bool) -> usize,
+    ) -> Result<Self, BodyError> {
+        let mesh = plan::mesh(solid);
+        let body = plan::deformable(solid, threads(is_large(mesh.cells.len() * 8)));
+        let weight = body.mass.iter().map(|m| [0.0, 0.0, -m * solid.gravity]).collect();
+        let holds = holds(solid, &mesh, &body);
+        let held: Vec<[bool; 3]> =
+            holds.iter().map(|holds| holds.map(|hold| hold != Hold::Free)).collect();
+        let named = |failure| BodyError::LargeStrain { body: name.to_owned(), failure };
+        let equilibrium = Equilibrium::new(body, &held).map_err(named)?;
+        let axes = |face| solid.faces[&face].axes(face, solid.dimension);
+        let moved: Vec<Vec<usize>> = moved_faces(solid).into_iter().map(axes).collect();
+        let forces = vec![[0.0; 3]; moved.len()];
+        let start = Resting { rest: equilibrium.rest(), forces, ..Resting::default() };
+        let mut own = Self {
+            name: name.to_owned(),
+            equilibrium,
+            start,
+            holds,
+            weight,
+            moved,
+            mirrors: solid.mirrors(),
+            temperature: solid.initial_temperature,
+            inputs: layout.of_body(name),
+            notes: super::forecast::notes(solid),
+        };
+        let mut start = own.start.clone();
+        own.settle(&mut start, &own.displacements_at_start(solid), 0.0, HALVINGS)
+            .map_err(|failure| own.error(failure))?;
+        (start.time, start.steps) = (0.0, 0.0);
+        own.start = start;
+        Ok(own)
+    }
+
+    fn displacements_at_start(&self, solid: &LargeStrain) -> Vec<[f64; 3]> {
+        solid.faces.values().filter_map(|face| face.displacement).collect()
+    }
+
+    /// Displacements of the moved faces from all inputs.
+    fn displacements(&self, inputs: &[f64]) -> Vec<[f64; 3]> {
+        let mut own = inputs[self.inputs.clone()].iter();
+        let of_face = |axes: &Vec<usize>| {
+            let mut displacement = [0.0; 3];
+            axes.iter().zip(&mut own).for_each(|(&axis, &value)| displacement[axis] = value);
+            displacement
+        };
+        self.moved.iter().map(of_face).collect()
+    }
+
+    /// Finds the equilibrium after a time [s] with moved faces there; halves the step where none is found.
+    fn settle(
+        &self,
+        state: &mut Resting,
+        to: &[[f64; 3]],
+        dt: f64,
+        halvings: u32,
+    ) -> Result<(), Failure> {
+        let conditions = self.conditions(to);
+        match self.equilibrium.step(&mut state.rest, &conditions, dt) {
+            Ok(found) => {
+                let before = state.stored;
+                state.work += match self.equilibrium.body.law.history() {
+                    // Elastic work is what is stored.
+                    0 => found.stored - before,
+                    _ => found.work,
+                };
+                state.stored = found.stored;
+                state.time += dt;
+                state.steps += 1.0;
+                state.forces = self.forces(&found.reactions);
+                Ok(())
+            }
+            Err(failure) if halvings == 0 => Err(failure),
+            Err(_) => {
+                let from = self.places(state);
+                let half = |n: usize| [0, 1, 2].map(|a| 0.5 * (from[n][a] + to[n][a]));
+                let middle: Vec<[f64; 3]> = (0..to.len()).map(half).collect();
+                self.settle(state, &middle, 0.5 * dt, halvings - 1)?;
+                self.settle(state, to, 0.5 * dt, halvings - 1)
+            }
+        }
+    }
+
+    fn conditions(&self, to: &[[f64; 3]]) -> Conditions {
+        let of_node = |holds: &[Hold; 3]| {
+            [0, 1, 2].map(|a| match holds[a] {
+                Hold::Free | Hold::Fixed => 0.0,
+                Hold::With(face) => to[face][a],
+            })
+        };
+        let displacements = self.holds.iter().map(of_node).collect();
+        Conditions { forces: self.weight.clone(), displacements }
+    }
+
+    /// Displacements of the moved faces in a state.
+    fn places(&self, state: &Resting) -> Vec<[f64; 3]> {
+        let mut places = vec![[0.0; 3]; self.moved.len()];
+        for (holds, u) in self.holds.iter().zip(&state.rest.displacement) {
+            for a in 0..3 {
+                if let Hold::With(face) = holds[a] {
+                    places[face][a] = u[a];
+                }
+            }
+        }
+        places
+    }
+
+    /// Forces on the moved faces, images included; those of images along mirrored axes cancel.
+    fn forces(&self, reactions: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        let mut forces = vec![[0.0; 3]; self.moved.len()];
+        for (holds, reaction) in self.holds.iter().zip(reactions) {
+            for a in 0..3 {
+                if let Hold::With(face) = holds[a] {
+                    let mirrored = a < 2 && (self.mirrors[a] || self.is_round());
+                    let copies = if mirrored { 0.0 } else { copies(self.mirrors) };
+                    forces[face][a] += copies * reaction[a];
+                }
+            }
+        }
+        forces
+    }
+
+    fn is_round(&self) -> bool {
+        self.equilibrium.body.space.form == Form::Axisymmetric
+    }
+
+    fn resting(&self, state: &[f64]) -> Resting {
+        let mut resting = self.start.clone();
+        load(&mut resting, state);
+        resting
+    }
+
+    fn snapshot(&self, state: &Resting) -> Result<Snapshot, BodyError> {
+        self.seen(state).snapshot().map_err(|failure| self.error(failure))
+    }
+
+    fn seen<'a>(&'a self, state: &'a Resting) -> Seen<'a> {
+        Seen {
+            body: &self.equilibrium.body,
+            mirrors: self.mirrors,
+            lifted: 0.0,
+            displacement: &state.rest.displacement,
+            velocity: None,
+            history: &state.rest.history,
+            touch: None,
+        }
+    }
+
+    fn error(&self, failure: Failure) -> BodyError {
+        BodyError::LargeStrain { body: self.name.clone(), failure }
+    }
+
+    fn check_resting(&self, state: &Resting) -> Result<(), String> {
+        if state.time < 0.0 || state.steps < 0.0 {
+            return Err("time and steps are not negative".to_owned());
+        }
+        for (holds, u) in self.holds.iter().zip(&state.rest.displacement) {
+            if (0..3).any(|a| holds[a] == Hold::Fixed && u[a] != 0.0) {
+                return Err("a node moves along an axis that holds it".to_owned());
+            }
+        }
+        let snapshot = self.snapshot(state).map_err(|error| error.to_string())?;
+        let missing = snapshot.stored - copies(self.mirrors) * state.stored;
+        if missing.abs() > ENERGY * snapshot.stored.abs() {
+            return Err(format!("{missing:.1e} J of the stored energy have no cause"));
+        }
+        Ok(())
+    }
+}
+
+/// How the nodes of a mesh are held by the faces of a solid; a node of several is fixed before it is moved.
+fn holds(solid: &LargeStrain, mesh: &Mesh, body: &Deformable) -> Vec<[Hold; 3]> {
+    let fixed = |fixed: &[bool; 3]| fixed.map(|fixed| if fixed { Hold::Fixed } else { Hold::Free });
+    let mut holds: Vec<[Hold; 3]> = body.fixed.iter().map(fixed).collect();
+    let moved = moved_faces(solid);
+    for (&face, held) in &solid.faces {
+        let number = moved.iter().position(|&other| other == face);
+        for (side, corners) in mesh.faces.iter().filter(|(side, _)| plan::is_on(solid, face, *side))
+        {
+            for &node in corners {
+                for a in 0..3 {
+                    let own = match number {
+                        _ if held.roller && plan::normal(*side) != a => continue,
+                        Some(number) => Hold::With(number),
+                        None => Hold::Fixed,
+                    };
+                    let hold = &mut holds[node as usize][a];
+                    if *hold != Hold::Fixed {
+                        *hold = own;
+                    }
+                }
+            }
+        }
+    }
+    holds
+}
+
+impl Body for RestingBody {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn initial_state(&self) -> Vec<f64> {
+        let mut start = self.start.clone();
+        let mut state = vec![0.0; Layout::of(&mut start).len()];
+        store(&mut start, &mut state);
+        state
+    }
+
+    fn layout(&self, state: &[f64]) -> Option<Layout> {
+        let layout = Layout::of(&mut self.start.clone());
+        Some(layout).filter(|layout| layout.len() == state.len())
+    }
+
+    fn check_state(&self, state: &[f64], _: &[f64]) -> Result<(), String> {
+        let name = &self.name;
+        if self.layout(state).is_none() {
+            let own = Layout::of(&mut self.start.clone()).len();
+            return Err(format!("{} unknowns of {name}; this body has {own}", state.len()));
+        }
+        self.check_resting(&self.resting(state)).map_err(|reason| format!("{name}: {reason}"))
+    }
+
+    fn check_inputs(&self, _: &[f64]) -> Result<(), BodyError> {
+        Ok(())
+    }
+
+    fn memo(&self, _: &[f64], _: &[Received]) -> Memo {
+        Box::new(LargeStrainMemo::default())
+    }
+
+    fn forget_state(&self, memo: &mut Memo) {
+        *memo = Box::new(LargeStrainMemo::default());
+    }
+
+    fn advance(
+        &self,
+        state: &mut Vec<f64>,
+        _: &Memo,
+        acts: &Acts,
+        allowance: &Allowance,
+    ) -> Result<Option<Given>, BodyError> {
+        let halted = |halt| BodyError::Halted { body: self.name.clone(), halt };
+        let work = WORK * self.equilibrium.body.space.volume.len();
+        allowance.spend(1.0, STEPS, work).map_err(halted)?;
+        let mut resting = self.resting(state);
+        let to = self.displacements(&acts.path.at(0, acts.duration));
+        let settled = self.settle(&mut resting, &to, acts.duration, HALVINGS);
+        settled.map_err(|failure| self.error(failure))?;
+        store(&mut resting, state);
+        Ok(None)
+    }
+
+    fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError> {
+        let Reading::Total(place) = *reading else { return Err(BodyError::NoSuchReading) };
+        let resting = self.resting(state);
+        if let Some((face, axis)) = totals::force(place) {
+            return Ok(resting.forces[face][axis]);
+        }
+        let memo = LargeStrainMemo::of_mut(memo);
+        let snapshot = match memo.0 {
+            Some(snapshot) => snapshot,
+            None => *memo.0.insert(self.snapshot(&resting)?),
+        };
+        let dissipated = copies(self.mirrors) * (resting.work - resting.stored);
+        let sums = Sums { dissipated, steps: resting.steps, ..Sums::default() };
+        Ok(totals::read(&snapshot, &sums, place))
+    }
+
+    fn fields(&self, state: &[f64], _: &mut Memo) -> Result<Fields, BodyError> {
+        Ok(Fields::Particles(self.seen(&self.resting(state)).particles(self.temperature)))
+    }
+}
+
+impl Giver for RestingBody {}
+
+impl Maxima for RestingBody {}
+
+impl Advice for RestingBody {
+    fn notes(&self) -> Vec<String> {
+        self.notes.clone()
+    }
+}
+
+impl Resources for RestingBody {
+    fn foresee(&self, _: &[f64], dt: f64, allowance: &Allowance) -> Result<(), BodyError> {
+        let work = WORK * self.equilibrium.body.space.volume.len();
+        let foreseen = allowance.foresee_step(dt, 1.0, STEPS, work);
+        foreseen.map_err(|halt| BodyError::Halted { body: self.name.clone(), halt })
+    }
+
+    fn updates(&self, _: f64) -> f64 {
+        cost(1.0, WORK * self.equilibrium.body.space.volume.len())
+    }
+
+    fn threads(&self) -> usize {
+        self.equilibrium.body.threads
+    }
+
+    fn steps_are_deep(&self) -> bool {
+        true
+    }
+}

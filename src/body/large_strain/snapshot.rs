@@ -1,0 +1,153 @@
+//! What is read of a state of a solid of large strain.
+
+use crate::laws::solid::hyperelastic::Deformed;
+use crate::method::large_strain::{Deformable, Failure, Touch};
+use crate::method::sph::ParticleFields;
+use crate::space::Form;
+
+/// Measures of a deformed body, of the whole of it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Snapshot {
+    /// Extents along x and z [m].
+    pub width: f64,
+    pub height: f64,
+    /// z of the centre of mass [m].
+    pub centre: f64,
+    /// [Pa]
+    pub von_mises: f64,
+    pub least_jacobian: f64,
+    /// [J]
+    pub stored: f64,
+    pub kinetic: f64,
+    /// [N s]
+    pub momentum: [f64; 3],
+    /// [kg]
+    pub mass: f64,
+    /// Largest distance of a point in contact from the middle of the contact [m].
+    pub contact_radius: f64,
+}
+
+/// Number of mirror images of which a model is one.
+pub fn copies(mirrors: [bool; 2]) -> f64 {
+    mirrors.iter().map(|&mirrored| if mirrored { 2.0 } else { 1.0 }).product()
+}
+
+/// A state of a body, from which it is read.
+pub struct Seen<'a> {
+    pub body: &'a Deformable,
+    pub mirrors: [bool; 2],
+    /// Height of the reference configuration above its place in space [m].
+    pub lifted: f64,
+    pub displacement: &'a [[f64; 3]],
+    /// `None` for a body at rest.
+    pub velocity: Option<&'a [[f64; 3]]>,
+    pub history: &'a [f64],
+    /// Forces of contact, with the energy stored there.
+    pub touch: Option<&'a Touch>,
+}
+
+impl Seen<'_> {
+    pub fn snapshot(&self) -> Result<Snapshot, Failure> {
+        let body = self.body;
+        let mut history = self.history.to_vec();
+        let team = &body.team();
+        let stresses = body.respond(self.displacement, 0.0, &mut history, team)?;
+        let copies = copies(self.mirrors);
+        let places = || body.space.nodes.iter().zip(self.displacement);
+        let range = |axis: usize| {
+            let along = places().map(|(at, u)| at[axis] + u[axis]);
+            let start = (f64::INFINITY, f64::NEG_INFINITY);
+            along.fold(start, |(low, high), x| (low.min(x), high.max(x)))
+        };
+        let ((left, right), (low, high)) = (range(0), range(2));
+        let is_half = self.mirrors[0] || body.space.form == Form::Axisymmetric;
+        let mass: f64 = body.mass.iter().sum();
+        let moment = places().zip(&body.mass).map(|((at, u), m)| m * (at[2] + u[2])).sum::<f64>();
+        let energy_of_contact = self.touch.map_or(0.0, |touch| touch.energy);
+        let mut snapshot = Snapshot {
+            width: if is_half { 2.0 * right } else { right - left },
+            height: high - low,
+            centre: moment / mass + self.lifted,
+            von_mises: body.greatest_von_mises(self.displacement, &stresses, team),
+            least_jacobian: stresses.least,
+            stored: copies * (stresses.energy + energy_of_contact),
+            mass: copies * mass,
+            contact_radius: self.touch.map_or(0.0, |touch| self.radius(touch)),
+            ..Snapshot::default()
+        };
+        if let Some(velocity) = self.velocity {
+            for (v, m) in velocity.iter().zip(&body.mass) {
+                let square: f64 = v.iter().map(|v| v * v).sum();
+                snapshot.kinetic += 0.5 * copies * m * square;
+                (0..3).for_each(|a| snapshot.momentum[a] += copies * m * v[a]);
+            }
+            // What images and rings move along mirrored axes cancels.
+            let is_round = body.space.form == Form::Axisymmetric;
+            for axis in (0..2).filter(|&axis| self.mirrors[axis] || is_round) {
+                snapshot.momentum[axis] = 0.0;
+            }
+        }
+        Ok(snapshot)
+    }
+
+    fn radius(&self, touch: &Touch) -> f64 {
+        let count = touch.spots.len().max(1) as f64;
+        let is_round = self.body.space.form == Form::Axisymmetric;
+        let middle = [0, 1].map(|axis| match self.mirrors[axis] || is_round {
+            true => 0.0,
+            false => touch.spots.iter().map(|spot| spot.at[axis]).sum::<f64>() / count,
+        });
+        let distance = |at: [f64; 2]| (at[0] - middle[0]).hypot(at[1] - middle[1]);
+        touch.spots.iter().map(|spot| distance(spot.at)).fold(0.0, f64::max)
+    }
+
+    /// All nodes as particles, mirror images included; a node of a ring has its radius as x.
+    pub fn particles(&self, temperature: f64) -> ParticleFields {
+        let body = self.body;
+        let mut fields = ParticleFields::default();
+        let swelling = self.swelling();
+        let [density, pressure] = [0, 1].map(|n| swelling.iter().map(|s| s[n]).collect::<Vec<_>>());
+        let count = body.nodes();
+        let signs = |mirrored: bool| if mirrored { &[1.0, -1.0][..] } else { &[1.0][..] };
+        for &sx in signs(self.mirrors[0]) {
+            for &sy in signs(self.mirrors[1]) {
+                let turn = |v: [f64; 3]| [sx * v[0], sy * v[1], v[2]];
+                for node in 0..count {
+                    let (at, u) = (body.space.nodes[node], self.displacement[node]);
+                    let place = [0, 1, 2].map(|a| at[a] + u[a]);
+                    fields.position.push(turn([place[0], place[1], place[2] + self.lifted]));
+                    let velocity = self.velocity.map_or([0.0; 3], |velocity| velocity[node]);
+                    fields.velocity.push(turn(velocity));
+                }
+                fields.mass.extend(&body.mass);
+                fields.density.extend(&density);
+                fields.pressure.extend(&pressure);
+            }
+        }
+        fields.temperature = vec![temperature; fields.mass.len()];
+        fields
+    }
+
+    /// Density [kg/m³] and pressure of the dilatation [Pa] at each node: means over the points around it.
+    fn swelling(&self) -> Vec<[f64; 2]> {
+        let body = self.body;
+        let (deformed, dilatations) = body.deformations(self.displacement, &body.team());
+        let mut sums = vec![[0.0; 3]; body.nodes()];
+        for (group, &mean) in body.space.groups.iter().zip(&dilatations) {
+            let [slope, _] = body.law.pressure(mean);
+            for point in group.clone() {
+                let Deformed { dilatation, .. } = deformed[point];
+                for value in body.space.volume.row(point) {
+                    let share = value.value * body.space.volume.weights[point];
+                    let sum = &mut sums[value.node as usize];
+                    sum[0] += share;
+                    sum[1] += share * body.density / dilatation;
+                    sum[2] -= share * slope;
+                }
+            }
+        }
+        sums.into_iter()
+            .map(|[whole, density, pressure]| [density / whole, pressure / whole])
+            .collect()
+    }
+}

@@ -1,0 +1,190 @@
+//! Readings of solids of large strain.
+
+use super::snapshot::Snapshot;
+use crate::body::{Descriptor, Direct};
+use crate::quantity::Quantity;
+use crate::scene::{FaceName, LargeStrain};
+
+/// What is read of a body that moves or rests, beside its [`Snapshot`].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Sums {
+    pub dissipated: f64,
+    pub contact_force: f64,
+    pub impulse: f64,
+    pub lift_off: f64,
+    pub steps: f64,
+    pub force_outside: f64,
+}
+
+/// A scalar of a whole body.
+struct Total {
+    key: &'static str,
+    words: &'static str,
+    quantity: Quantity,
+    of: Offered,
+    read: Read,
+}
+
+/// Bodies that offer a total.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Offered {
+    All,
+    /// Those with inertia.
+    Moving,
+    /// Those on a solid, over whose edge they may reach.
+    OnASolid,
+}
+
+enum Read {
+    Snapshot(fn(&Snapshot) -> f64),
+    Sums(fn(&Sums) -> f64),
+}
+
+const TOTALS: [Total; 19] = [
+    all("width", "extent along x", Quantity::Length, |s| s.width),
+    all("height", "extent along z", Quantity::Length, |s| s.height),
+    all("centre_z", "height of the centre of mass", Quantity::Length, |s| s.centre),
+    all("mass", "mass", Quantity::Mass, |s| s.mass),
+    all("max_von_mises", "highest von Mises stress of a point", Quantity::Stress, |s| s.von_mises),
+    all("least_jacobian", "lowest volume over that before deformation", Quantity::Ratio, |s| {
+        s.least_jacobian
+    }),
+    all("stored", "elastic energy, that of the contact included", Quantity::Energy, |s| s.stored),
+    Total {
+        key: "dissipated",
+        words: "work of the stresses that is no longer stored",
+        quantity: Quantity::Energy,
+        of: Offered::All,
+        read: Read::Sums(|sums| sums.dissipated),
+    },
+    moving("kinetic", "kinetic energy", Quantity::Energy, |s| s.kinetic),
+    moving("momentum_x", "momentum along x", Quantity::Momentum, |s| s.momentum[0]),
+    moving("momentum_y", "momentum along y", Quantity::Momentum, |s| s.momentum[1]),
+    moving("momentum_z", "momentum along z", Quantity::Momentum, |s| s.momentum[2]),
+    moving(
+        "contact_radius",
+        "largest distance of a point in contact from the middle of the contact",
+        Quantity::Length,
+        |s| s.contact_radius,
+    ),
+    sum(
+        "contact_force",
+        "force on what lies below, mean over the last exchange",
+        Quantity::Force,
+        |s| s.contact_force,
+    ),
+    sum(
+        "impulse_z",
+        "impulse along z on what lies below, into it negative",
+        Quantity::Momentum,
+        |s| -s.impulse,
+    ),
+    sum("lift_off_time", "time of the last lift-off, 0 before", Quantity::Time, |s| s.lift_off),
+    sum("steps", "time steps made inside the unit", Quantity::Ratio, |s| s.steps),
+    Total {
+        key: "force_outside",
+        words: "force beyond the edge of the solid, which does not act on it, mean over the last exchange",
+        quantity: Quantity::Force,
+        of: Offered::OnASolid,
+        read: Read::Sums(|sums| sums.force_outside),
+    },
+    Total {
+        key: "steps",
+        words: "steps of equilibrium made inside the unit",
+        quantity: Quantity::Ratio,
+        of: Offered::All,
+        read: Read::Sums(|sums| sums.steps),
+    },
+];
+
+/// Place of the steps of a body in equilibrium, which those of one that moves replace.
+const STEPS_AT_REST: usize = TOTALS.len() - 1;
+
+const fn all(
+    key: &'static str,
+    words: &'static str,
+    quantity: Quantity,
+    read: fn(&Snapshot) -> f64,
+) -> Total {
+    Total { key, words, quantity, of: Offered::All, read: Read::Snapshot(read) }
+}
+
+const fn moving(
+    key: &'static str,
+    words: &'static str,
+    quantity: Quantity,
+    read: fn(&Snapshot) -> f64,
+) -> Total {
+    Total { key, words, quantity, of: Offered::Moving, read: Read::Snapshot(read) }
+}
+
+const fn sum(
+    key: &'static str,
+    words: &'static str,
+    quantity: Quantity,
+    read: fn(&Sums) -> f64,
+) -> Total {
+    Total { key, words, quantity, of: Offered::Moving, read: Read::Sums(read) }
+}
+
+/// Returns the totals that a solid offers, each with its place: first those of the table, then the forces of faces whose
+/// displacement is prescribed. In a plane model they are amounts per metre of depth.
+pub fn offered_totals(solid: &LargeStrain, is_coupled: bool) -> Vec<(usize, Descriptor)> {
+    let is_offered = |place: usize| match TOTALS[place].of {
+        _ if place == STEPS_AT_REST => !solid.inertia,
+        Offered::All => true,
+        Offered::Moving => solid.inertia,
+        Offered::OnASolid => is_coupled,
+    };
+    let is_plane = solid.dimension == 2;
+    let described = |key, words, quantity: Quantity| {
+        let quantity = if is_plane { quantity.per_depth() } else { quantity };
+        // Bodies in equilibrium follow the displacements of their faces within a step only.
+        Descriptor { key, words, quantity, direct: Direct::Nothing }
+    };
+    let own = (0..TOTALS.len()).filter(|&place| is_offered(place)).map(|place| {
+        let Total { key, words, quantity, .. } = TOTALS[place];
+        (place, described(key, words, quantity))
+    });
+    let of_faces = moved_faces(solid).into_iter().enumerate().flat_map(|(n, face)| {
+        solid.faces[&face].axes(face, solid.dimension).into_iter().map(move |axis| {
+            let words = "force on the face that its displacement takes";
+            let key = force_key(face, axis);
+            (TOTALS.len() + 3 * n + axis, described(key, words, Quantity::Force))
+        })
+    });
+    own.chain(of_faces).collect()
+}
+
+/// Faces whose displacement is prescribed, in their order.
+pub fn moved_faces(solid: &LargeStrain) -> Vec<FaceName> {
+    let moved = solid.faces.iter().filter(|(_, face)| face.displacement.is_some());
+    moved.map(|(&face, _)| face).collect()
+}
+
+/// Place of a force among those of the faces.
+pub fn force(place: usize) -> Option<(usize, usize)> {
+    let beyond = place.checked_sub(TOTALS.len())?;
+    Some((beyond / 3, beyond % 3))
+}
+
+pub fn read(snapshot: &Snapshot, sums: &Sums, place: usize) -> f64 {
+    match TOTALS[place].read {
+        Read::Snapshot(of) => of(snapshot),
+        Read::Sums(of) => of(sums),
+    }
+}
+
+/// Last part of the name of a force on a face along an axis.
+fn force_key(face: FaceName, axis: usize) -> &'static str {
+    const KEYS: [[&str; 3]; 7] = [
+        ["top.force_x", "top.force_y", "top.force_z"],
+        ["bottom.force_x", "bottom.force_y", "bottom.force_z"],
+        ["sides.force_x", "sides.force_y", "sides.force_z"],
+        ["left.force_x", "left.force_y", "left.force_z"],
+        ["right.force_x", "right.force_y", "right.force_z"],
+        ["front.force_x", "front.force_y", "front.force_z"],
+        ["back.force_x", "back.force_y", "back.force_z"],
+    ];
+    KEYS[face as usize][axis]
+}

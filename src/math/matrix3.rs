@@ -1,0 +1,46 @@
+//! Matrices of three rows and columns.
+
+pub type Matrix3 = [[f64; 3]; 3];
+
+pub const IDENTITY: Matrix3 = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+pub fn product(a: &Matrix3, b: &Matrix3) -> Matrix3 {
+    std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
+}
+
+pub fn transposed(a: &Matrix3) -> Matrix3 {
+    std::array::from_fn(|i| std::array::from_fn(|j| a[j][i]))
+}
+
+/// Sum of the products of all entries.
+pub fn contraction(a: &Matrix3, b: &Matrix3) -> f64 {
+    a.iter().flatten().zip(b.iter().flatten()).map(|(x, y)| x * y).sum()
+}
+
+/// Inverse and determinant.
+pub fn inverse(m: &Matrix3) -> (Matrix3, f64) {
+    let minor = |a: usize, b: usize| {
+        let ([i, j], [k, l]) = ([(a + 1) % 3, (a + 2) % 3], [(b + 1) % 3, (b + 2) % 3]);
+        m[i][k] * m[j][l] - m[i][l] * m[j][k]
+    };
+    let determinant = (0..3).map(|b| m[0][b] * minor(0, b)).sum::<f64>();
+    (std::array::from_fn(|a| std::array::from_fn(|b| minor(b, a) / determinant)), determinant)
+}
+
+/// Upper bound on the magnitude of a symmetric matrix's eigenvalues, exact for multiples of the identity.
+pub fn eigenvalue_bound(m: &Matrix3) -> f64 {
+    m.iter().map(|row| row.iter().map(|x| x.abs()).sum()).fold(0.0, f64::max)
+}
+
+/// Symmetric matrices as xx, yy, zz, xy, yz, xz.
+pub type Symmetric = [f64; 6];
+
+pub fn full([xx, yy, zz, xy, yz, xz]: Symmetric) -> Matrix3 {
+    [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
+}
+
+/// The symmetric part.
+pub fn packed(m: &Matrix3) -> Symmetric {
+    let mean = |a: usize, b: usize| 0.5 * (m[a][b] + m[b][a]);
+    [m[0][0], m[1][1], m[2][2], mean(0, 1), mean(1, 2), mean(0, 2)]
+}

@@ -1,0 +1,329 @@
+//! A body of large strain: stresses of its points, and forces on its nodes.
+
+use std::ops::Range;
+
+use super::Failure;
+use crate::laws::solid::hyperelastic::{Deformed, Hyperelastic};
+use crate::math::matrix3::{IDENTITY, Matrix3, contraction};
+use crate::runtime::parallel::Team;
+use crate::space::{Form, Samples, Space};
+
+/// A body in its reference configuration with its law.
+pub struct Deformable {
+    pub space: Space,
+    pub law: Hyperelastic,
+    /// Reference density ρ₀ [kg/m³].
+    pub density: f64,
+    /// Mass of each node [kg].
+    pub mass: Vec<f64>,
+    /// Axes along which each node is at rest: those that a model lacks, and normals of its planes of symmetry.
+    pub fixed: Vec<[bool; 3]>,
+    /// For each node its functions at all points.
+    uses: Vec<Vec<Use>>,
+    /// Number of threads of its loops.
+    pub threads: usize,
+}
+
+/// A function of a node at a point of the volume.
+#[derive(Debug, Clone, Copy)]
+struct Use {
+    point: u32,
+    gradient: [f64; 3],
+    /// Ψ/r in an axisymmetric model.
+    hoop: f64,
+}
+
+/// Stresses of the points of a body, and what follows from them.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Stresses {
+    /// Volume times P of each point [N m].
+    pub loads: Vec<Matrix3>,
+    /// Q of each point, see [`Hyperelastic`].
+    pub carriers: Vec<Matrix3>,
+    /// Stored energy [J].
+    pub energy: f64,
+    /// Largest modulus of plane waves over that of the undeformed body.
+    pub stiffening: f64,
+    /// Smallest J of a point.
+    pub least: f64,
+}
+
+/// Groups whose points one thread computes at a time. Sums depend on it, and not on the number of threads.
+const CHUNK: usize = 64;
+
+/// Consecutive points in the hands of one thread.
+struct Chunk<'a> {
+    groups: Range<usize>,
+    history: &'a mut [f64],
+    loads: &'a mut [Matrix3],
+    carriers: &'a mut [Matrix3],
+    energy: f64,
+    stiffening: f64,
+    least: (f64, usize),
+}
+
+impl Deformable {
+    /// Creates a body with mirrors at x = 0 and y = 0, where these are planes of symmetry.
+    pub fn new(
+        space: Space,
+        law: Hyperelastic,
+        density: f64,
+        mirrors: [bool; 2],
+        threads: usize,
+    ) -> Self {
+        let mass = space.shares.iter().map(|share| density * share).collect();
+        let fixed = space.nodes.iter().map(|at| fixed(space.form, mirrors, *at)).collect();
+        let mut uses = vec![Vec::new(); space.nodes.len()];
+        for point in 0..space.volume.len() {
+            let r = space.volume.at[point][0];
+            for value in space.volume.row(point) {
+                let hoop = if space.form == Form::Axisymmetric { value.value / r } else { 0.0 };
+                let gradient = value.gradient;
+                uses[value.node as usize].push(Use { point: point as u32, gradient, hoop });
+            }
+        }
+        Self { space, law, density, mass, fixed, uses, threads }
+    }
+
+    /// Starts the threads of its loops, which end with the value.
+    pub fn team(&self) -> Team {
+        Team::new(self.threads)
+    }
+
+    pub fn nodes(&self) -> usize {
+        self.mass.len()
+    }
+
+    /// Length of the history of all points.
+    pub fn history(&self) -> usize {
+        self.law.history() * self.space.volume.len()
+    }
+
+    /// `F` at a point for displacements u of the nodes.
+    pub fn gradient(&self, samples: &Samples, point: usize, u: &[[f64; 3]]) -> Matrix3 {
+        let mut f = IDENTITY;
+        let mut around = 0.0;
+        for value in samples.row(point) {
+            let u = u[value.node as usize];
+            for (row, u) in f.iter_mut().zip(u) {
+                (0..3).for_each(|b| row[b] += u * value.gradient[b]);
+            }
+            around += value.value * u[0];
+        }
+        if self.space.form == Form::Axisymmetric {
+            f[1][1] += around / samples.at[point][0];
+        }
+        f
+    }
+
+    /// Deformation of the points of a group, and its mean dilatation.
+    fn group(&self, points: &Range<usize>, u: &[[f64; 3]]) -> (Vec<Deformed>, f64) {
+        let volume = &self.space.volume;
+        let at = |point| Deformed::of(self.gradient(volume, point, u));
+        let all: Vec<Deformed> = points.clone().map(at).collect();
+        let weights = &volume.weights[points.clone()];
+        let whole: f64 = weights.iter().sum();
+        let swollen: f64 = weights.iter().zip(&all).map(|(w, at)| w * at.dilatation).sum();
+        (all, swollen / whole)
+    }
+
+    /// Deformation of all points, and the mean dilatation of each group.
+    pub fn deformations(&self, u: &[[f64; 3]], team: &Team) -> (Vec<Deformed>, Vec<f64>) {
+        let groups = &self.space.groups;
+        let all = team.map(groups.len(), |group| self.group(&groups[group], u));
+        let (points, dilatations): (Vec<_>, Vec<_>) = all.into_iter().unzip();
+        (points.concat(), dilatations)
+    }
+
+    /// Advances the history to displacements u at the end of a time step [s]; returns the stresses there.
+    pub fn respond(
+        &self,
+        u: &[[f64; 3]],
+        dt: f64,
+        history: &mut [f64],
+        team: &Team,
+    ) -> Result<Stresses, Failure> {
+        let count = self.space.volume.len();
+        let mut stresses = Stresses {
+            loads: vec![[[0.0; 3]; 3]; count],
+            carriers: vec![[[0.0; 3]; 3]; count],
+            least: f64::INFINITY,
+            ..Stresses::default()
+        };
+        let mut chunks = self.chunks(history, &mut stresses);
+        team.for_each(&mut chunks, |_, chunk| self.respond_in(chunk, u, dt));
+        let (mut energy, mut stiffening, mut least) = (0.0, 0.0_f64, (f64::INFINITY, 0));
+        for chunk in &chunks {
+            energy += chunk.energy;
+            stiffening = stiffening.max(chunk.stiffening);
+            // A dilatation that is not a number is below all others.
+            if !(chunk.least.0 >= least.0) {
+                least = chunk.least;
+            }
+        }
+        drop(chunks);
+        if !(least.0 > 0.0) {
+            let at = self.space.volume.at[least.1];
+            return Err(match least.0.is_finite() {
+                true => Failure::Inverted { at, dilatation: least.0 },
+                false => Failure::NotFinite,
+            });
+        }
+        Ok(Stresses { energy, stiffening, least: least.0, ..stresses })
+    }
+
+    /// Cuts history and results into chunks.
+    fn chunks<'a>(&self, history: &'a mut [f64], stresses: &'a mut Stresses) -> Vec<Chunk<'a>> {
+        let groups = &self.space.groups;
+        let mut rest = (history, &mut stresses.loads[..], &mut stresses.carriers[..]);
+        let mut chunks = Vec::new();
+        for first in (0..groups.len()).step_by(CHUNK) {
+            let last = (first + CHUNK).min(groups.len());
+            let points = groups[last - 1].end - groups[first].start;
+            let (history, after) = rest.0.split_at_mut(points * self.law.history());
+            let (loads, later) = rest.1.split_at_mut(points);
+            let (carriers, latest) = rest.2.split_at_mut(points);
+            rest = (after, later, latest);
+            chunks.push(Chunk {
+                groups: first..last,
+                history,
+                loads,
+                carriers,
+                energy: 0.0,
+                stiffening: 0.0,
+                least: (f64::INFINITY, 0),
+            });
+        }
+        chunks
+    }
+
+    fn respond_in(&self, chunk: &mut Chunk, u: &[[f64; 3]], dt: f64) {
+        let length = self.law.history();
+        let modulus = self.law.wave_modulus();
+        let mut place = 0;
+        for group in &self.space.groups[chunk.groups.clone()] {
+            let (deformed, mean) = self.group(group, u);
+            let [pressure, _] = self.law.pressure(mean);
+            let mut whole = 0.0;
+            for (point, at) in group.clone().zip(&deformed) {
+                let weight = self.space.volume.weights[point];
+                let own = &mut chunk.history[length * place..length * (place + 1)];
+                let response = self.law.respond(at, dt, own);
+                let jp = pressure * at.dilatation;
+                let load = &mut chunk.loads[place];
+                for n in 0..9 {
+                    let (a, b) = (n / 3, n % 3);
+                    load[a][b] =
+                        weight * (response.stress[a][b] + jp * at.inverse_transposed[a][b]);
+                }
+                chunk.carriers[place] = response.carrier;
+                chunk.energy += weight * response.energy;
+                if !(at.dilatation >= chunk.least.0) {
+                    chunk.least = (at.dilatation, point);
+                }
+                let stiff = self.law.wave_modulus_at(at, &response.carrier, mean) / modulus;
+                chunk.stiffening = chunk.stiffening.max(stiff);
+                whole += weight;
+                place += 1;
+            }
+            chunk.energy += whole * self.law.energy_of_dilatation(mean);
+        }
+    }
+
+    /// Internal forces on the nodes [N], which resist the deformation.
+    pub fn forces(&self, stresses: &Stresses, team: &Team) -> Vec<[f64; 3]> {
+        team.map(self.uses.len(), |node| {
+            let mut force = [0.0; 3];
+            for Use { point, gradient, hoop } in &self.uses[node] {
+                let load = &stresses.loads[*point as usize];
+                for (total, row) in force.iter_mut().zip(load) {
+                    *total -= row[0] * gradient[0] + row[1] * gradient[1] + row[2] * gradient[2];
+                }
+                force[0] -= load[1][1] * hoop;
+            }
+            force
+        })
+    }
+
+    /// Work of the stresses under a change of displacements [J].
+    pub fn work(&self, stresses: &Stresses, change: &[[f64; 3]], team: &Team) -> f64 {
+        let of_point = |point: usize| {
+            let mut f = self.gradient(&self.space.volume, point, change);
+            (0..3).for_each(|a| f[a][a] -= 1.0);
+            contraction(&stresses.loads[point], &f)
+        };
+        team.map(stresses.loads.len(), of_point).into_iter().sum()
+    }
+
+    /// Largest von Mises stress of a point [Pa].
+    pub fn greatest_von_mises(&self, u: &[[f64; 3]], stresses: &Stresses, team: &Team) -> f64 {
+        let of_point = |point: usize| {
+            let at = Deformed::of(self.gradient(&self.space.volume, point, u));
+            let scale = 1.0 / (at.dilatation * self.space.volume.weights[point]);
+            von_mises(&cauchy(&stresses.loads[point], &at.gradient, scale))
+        };
+        team.map(stresses.loads.len(), of_point).into_iter().fold(0.0, f64::max)
+    }
+
+    /// Largest frequency of the undeformed body [1/s], by power iteration.
+    pub fn highest_frequency(&self) -> f64 {
+        let team = &self.team();
+        let size = self.space.nodes.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let mut shape: Vec<[f64; 3]> = (0..self.nodes()).map(rough).collect();
+        let mut square: f64 = 0.0;
+        for _ in 0..ITERATIONS {
+            self.flatten(&mut shape);
+            let largest = shape.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
+            let scale = TINY * size / largest;
+            let u: Vec<[f64; 3]> = shape.iter().map(|x| x.map(|x| scale * x)).collect();
+            let mut history = vec![0.0; self.history()];
+            let Ok(stresses) = self.respond(&u, 0.0, &mut history, team) else { break };
+            let forces = self.forces(&stresses, team);
+            let products = forces.iter().zip(&u).zip(&self.mass).map(|((f, u), m)| {
+                let along: f64 = (0..3).map(|a| f[a] * u[a]).sum();
+                [-along, m * u.iter().map(|u| u * u).sum::<f64>()]
+            });
+            let [work, norm] = products.fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
+            square = square.max(work / norm);
+            shape = forces.iter().zip(&self.mass).map(|(f, m)| f.map(|f| f / m)).collect();
+        }
+        square.sqrt()
+    }
+
+    /// Removes motion along fixed axes.
+    pub fn flatten(&self, shape: &mut [[f64; 3]]) {
+        for (shape, fixed) in shape.iter_mut().zip(&self.fixed) {
+            (0..3).filter(|&a| fixed[a]).for_each(|a| shape[a] = 0.0);
+        }
+    }
+}
+
+fn fixed(form: Form, mirrors: [bool; 2], at: [f64; 3]) -> [bool; 3] {
+    let at_axis = at[0] == 0.0 && (mirrors[0] || form == Form::Axisymmetric);
+    [at_axis, form != Form::Solid || (mirrors[1] && at[1] == 0.0), false]
+}
+
+/// Iterations after which the highest frequency is known to a few per cent, from below.
+const ITERATIONS: usize = 60;
+/// Displacements over the extent of a body at which it responds linearly.
+const TINY: f64 = 1e-7;
+
+/// A rough start for the iteration: multiples of the golden ratio, which repeat nowhere.
+fn rough(node: usize) -> [f64; 3] {
+    let number = |n: usize| 2.0 * (n as f64 * 0.618_033_988_749_895).fract() - 1.0;
+    [number(3 * node + 1), number(3 * node + 2), number(3 * node + 3)]
+}
+
+/// Cauchy stress from P times a volume.
+fn cauchy(load: &Matrix3, gradient: &Matrix3, scale: f64) -> Matrix3 {
+    let entry =
+        |a: usize, b: usize| scale * (0..3).map(|k| load[a][k] * gradient[b][k]).sum::<f64>();
+    std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)))
+}
+
+fn von_mises(stress: &Matrix3) -> f64 {
+    let mean = (stress[0][0] + stress[1][1] + stress[2][2]) / 3.0;
+    let mut deviator = *stress;
+    (0..3).for_each(|a| deviator[a][a] -= mean);
+    (1.5 * contraction(&deviator, &deviator)).sqrt()
+}

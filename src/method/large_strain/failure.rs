@@ -1,0 +1,28 @@
+//! Reasons why a body of large strain could not be advanced.
+
+use crate::runtime::allowance::Halt;
+
+/// A step without physical meaning; the state is unchanged.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Failure {
+    #[error(
+        "the material is turned inside out at x = {:.3e}, y = {:.3e}, z = {:.3e} m of its reference shape, where the volume would \
+         become {dilatation:.3} of what it was: the load is too large for this mesh (allowed: smaller loads or speeds, a \
+         stiffer material, another `mesh.spacing`)", .at[0], .at[1], .at[2]
+    )]
+    Inverted { at: [f64; 3], dilatation: f64 },
+    #[error("a displacement is not finite")]
+    NotFinite,
+    #[error(
+        "no equilibrium was found: forces of {residual:.1e} of the largest remain unbalanced (allowed: shorter communication \
+         steps, or loads that change less in a step)"
+    )]
+    NotConverged { residual: f64 },
+    #[error(
+        "the stiffness is singular: the body is held by too little, or has lost its stability (allowed: `clamped` or \
+         `roller` faces that hold it, or `inertia = true`)"
+    )]
+    Singular,
+    #[error("{0}")]
+    Halted(#[from] Halt),
+}

@@ -1,0 +1,194 @@
+//! Motion with inertia, by explicit steps: kick, drift, kick (velocity Verlet), of second order in time.
+//!
+//! Momentum is conserved to rounding, and energy to the square of the time step.
+
+use super::{Deformable, Failure, Ledger, Motion, Plane, Stresses, Touch};
+use crate::port::WallCells;
+use crate::runtime::allowance::Allowance;
+use crate::runtime::parallel::Team;
+use crate::space::Form;
+
+/// A body that moves.
+pub struct Dynamics {
+    pub body: Deformable,
+    /// The plane below.
+    pub plane: Plane,
+    /// [m/s²]
+    pub gravity: [f64; 3],
+    /// Planes x = 0 and y = 0 that mirror the body.
+    mirrors: [bool; 2],
+    /// Cells of the surface on the plane that receives the impulse.
+    pub cells: Option<WallCells>,
+    /// Largest frequencies of the undeformed body and of contact [1/s].
+    frequencies: [f64; 2],
+}
+
+/// Fraction of the largest stable step that is taken.
+const SHARE: f64 = 0.8;
+/// Name of the loop over time steps in messages.
+const STEPS: &str = "time steps of a solid of large strain";
+/// Numbers that a time step updates for each point of the volume, or as many as take as long.
+const WORK: usize = 60;
+
+/// Stresses and contact at a moment.
+struct Moment {
+    stresses: Stresses,
+    touch: Touch,
+    forces: Vec<[f64; 3]>,
+}
+
+impl Dynamics {
+    pub fn new(
+        body: Deformable,
+        plane: Plane,
+        gravity: f64,
+        mirrors: [bool; 2],
+        cells: Option<WallCells>,
+    ) -> Self {
+        let frequencies = [body.highest_frequency(), frequency_of_contact(&body, &plane)];
+        Self { body, plane, gravity: [0.0, 0.0, -gravity], mirrors, cells, frequencies }
+    }
+
+    /// The state at time zero, in which all nodes have one velocity [m/s].
+    pub fn start(&self, velocity: [f64; 3]) -> Motion {
+        let count = self.body.nodes();
+        let mut velocity = vec![velocity; count];
+        self.body.flatten(&mut velocity);
+        let exchange = vec![0.0; self.cells.as_ref().map_or(0, WallCells::len)];
+        Motion {
+            displacement: vec![[0.0; 3]; count],
+            velocity,
+            history: vec![0.0; self.body.history()],
+            ledger: Ledger { exchange, ..Ledger::default() },
+        }
+    }
+
+    /// Returns for x and y whether the motion is symmetric about the plane across that axis.
+    pub fn symmetric(&self) -> [bool; 2] {
+        let is_round = self.body.space.form == Form::Axisymmetric;
+        self.mirrors.map(|mirrored| mirrored || is_round)
+    }
+
+    /// Largest time step of the undeformed body [s].
+    pub fn usual_step(&self) -> f64 {
+        self.stable(1.0)
+    }
+
+    /// Updates of numbers in a time step, for the allowance.
+    pub fn work(&self) -> usize {
+        WORK * self.body.space.volume.len()
+    }
+
+    fn stable(&self, stiffening: f64) -> f64 {
+        let [own, of_contact] = self.frequencies;
+        SHARE * 2.0 / (own * own * stiffening + of_contact * of_contact).sqrt()
+    }
+
+    fn at(&self, motion: &mut Motion, dt: f64, team: &Team) -> Result<Moment, Failure> {
+        let stresses = self.body.respond(&motion.displacement, dt, &mut motion.history, team)?;
+        let mut forces = self.body.forces(&stresses, team);
+        let touch = self.plane.touch(&self.body, &motion.displacement);
+        touch.add_to(&mut forces);
+        Ok(Moment { stresses, touch, forces })
+    }
+
+    /// Advances by a duration [s].
+    pub fn advance(
+        &self,
+        motion: &mut Motion,
+        duration: f64,
+        allowance: &Allowance,
+    ) -> Result<(), Failure> {
+        motion.ledger.exchange.fill(0.0);
+        (motion.ledger.outside, motion.ledger.duration) = (0.0, duration);
+        let mut rest = duration;
+        let team = &self.body.team();
+        let mut now = self.at(motion, 0.0, team)?;
+        while rest > 0.0 {
+            // Equal steps to the end, so that none is tiny.
+            let steps = (rest / self.stable(now.stresses.stiffening)).ceil();
+            allowance.foresee(steps, STEPS, self.work())?;
+            allowance.spend(1.0, STEPS, self.work())?;
+            let dt = rest / steps;
+            now = self.step(motion, now, dt, team)?;
+            rest = if steps == 1.0 { 0.0 } else { rest - dt };
+        }
+        Ok(())
+    }
+
+    fn step(
+        &self,
+        motion: &mut Motion,
+        now: Moment,
+        dt: f64,
+        team: &Team,
+    ) -> Result<Moment, Failure> {
+        self.kick(motion, &now, 0.5 * dt, team);
+        let way: Vec<[f64; 3]> = motion.velocity.iter().map(|v| v.map(|v| dt * v)).collect();
+        for (u, way) in motion.displacement.iter_mut().zip(&way) {
+            (0..3).for_each(|a| u[a] += way[a]);
+        }
+        let next = self.at(motion, dt, team)?;
+        self.kick(motion, &next, 0.5 * dt, team);
+        let work = [&now, &next].map(|moment| self.body.work(&moment.stresses, &way, team));
+        let ledger = &mut motion.ledger;
+        ledger.internal_work += 0.5 * (work[0] + work[1]);
+        ledger.time += dt;
+        ledger.steps += 1.0;
+        if now.touch.force > 0.0 && next.touch.force == 0.0 {
+            ledger.lift_off = ledger.time;
+        }
+        Ok(next)
+    }
+
+    /// Changes velocities by the forces of a moment over a time, and notes the impulse on the plane.
+    fn kick(&self, motion: &mut Motion, moment: &Moment, dt: f64, team: &Team) {
+        let (forces, mass) = (&moment.forces, &self.body.mass);
+        team.for_each(&mut motion.velocity, |node, velocity| {
+            for a in 0..3 {
+                velocity[a] += dt * (forces[node][a] / mass[node] + self.gravity[a]);
+            }
+        });
+        self.body.flatten(&mut motion.velocity);
+        let signs = |mirrored: bool| if mirrored { &[1.0, -1.0][..] } else { &[1.0][..] };
+        for &x in signs(self.mirrors[0]) {
+            for &y in signs(self.mirrors[1]) {
+                self.push(&mut motion.ledger, &moment.touch, dt, [x, y]);
+            }
+        }
+    }
+
+    /// Notes the impulse of an image of the body, with these signs of x and y, on the plane.
+    fn push(&self, ledger: &mut Ledger, touch: &Touch, dt: f64, signs: [f64; 2]) {
+        ledger.impulse_to_plane += dt * touch.force;
+        let Some(cells) = &self.cells else {
+            ledger.outside += dt * touch.force;
+            return;
+        };
+        for spot in &touch.spots {
+            let impulse = dt * spot.force;
+            let cover = match self.body.space.form {
+                Form::Axisymmetric => cells.cover_ring(spot.ring()),
+                Form::Plane | Form::Solid => cells.cover(spot.rectangle(signs)),
+            };
+            for (cell, weight) in cover.cells {
+                ledger.exchange[cell] += weight * impulse;
+            }
+            ledger.outside += cover.outside * impulse;
+        }
+    }
+}
+
+/// Bound on the frequency that contact adds [1/s].
+fn frequency_of_contact(body: &Deformable, plane: &Plane) -> f64 {
+    let samples = &body.space.boundary.samples;
+    let mut stiffness = vec![0.0; body.nodes()];
+    for point in 0..samples.len() {
+        for value in samples.row(point) {
+            let share = plane.stiffness * samples.weights[point];
+            stiffness[value.node as usize] += share * value.value.abs();
+        }
+    }
+    let squares = stiffness.iter().zip(&body.mass).map(|(k, m)| k / m);
+    squares.fold(0.0, f64::max).sqrt()
+}

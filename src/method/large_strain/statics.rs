@@ -1,0 +1,225 @@
+//! Equilibrium without inertia, by Newton's method with a line search.
+
+use super::tangent::{Factor, Linearised, Stiffness};
+use super::{Deformable, Failure, Stresses};
+use crate::runtime::parallel::Team;
+
+/// A body in equilibrium under prescribed displacements and forces.
+pub struct Equilibrium {
+    pub body: Deformable,
+    stiffness: Stiffness,
+    held: Vec<[bool; 3]>,
+    /// Rounding of internal forces over the norm of displacements' strains [N].
+    rounding: f64,
+}
+
+/// Displacements of the nodes and history of the points.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Rest {
+    /// u [m].
+    pub displacement: Vec<[f64; 3]>,
+    /// History of the law, point by point.
+    pub history: Vec<f64>,
+}
+
+/// Conditions at the end of a step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Conditions {
+    /// Forces on the nodes [N].
+    pub forces: Vec<[f64; 3]>,
+    /// Displacements of held nodes [m]; those of others are not read.
+    pub displacements: Vec<[f64; 3]>,
+}
+
+/// An equilibrium.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Found {
+    /// Norm of the residual over that of the forces, after each iteration.
+    pub residuals: Vec<f64>,
+    /// Forces of held nodes on the body [N].
+    pub reactions: Vec<[f64; 3]>,
+    /// Energy stored [J].
+    pub stored: f64,
+    /// Work of the stresses over the step, by the trapezoidal rule [J].
+    pub work: f64,
+}
+
+/// Largest residual over the norm of all forces at nodes.
+const TOLERANCE: f64 = 1e-10;
+const ITERATIONS: usize = 25;
+/// Halvings of a Newton step before it is given up.
+const HALVINGS: usize = 8;
+/// Growth of the residual at which a Newton step is halved: large rotations raise it on their way.
+const GROWTH: f64 = 2.0;
+/// Part of a prescribed displacement whose forces are taken as linear.
+const SMALL: f64 = 1e-6;
+/// Rounding of a strain over 1.
+const ROUNDING: f64 = 4e-15;
+
+/// A trial of displacements.
+struct Trial {
+    linearised: Linearised,
+    stresses: Stresses,
+    /// Forces on free nodes that are not balanced.
+    residual: Vec<[f64; 3]>,
+    norm: f64,
+    scale: f64,
+    history: Vec<f64>,
+    reactions: Vec<[f64; 3]>,
+}
+
+/// A step to be made.
+struct Step<'a> {
+    from: &'a Rest,
+    to: &'a Conditions,
+    dt: f64,
+    team: &'a Team,
+}
+
+impl Equilibrium {
+    /// `held` marks prescribed displacements, beside those that the body fixes.
+    pub fn new(body: Deformable, held: &[[bool; 3]]) -> Result<Self, Failure> {
+        let both = |(own, held): (&[bool; 3], &[bool; 3])| [0, 1, 2].map(|a| own[a] || held[a]);
+        let held: Vec<[bool; 3]> = body.fixed.iter().zip(held).map(both).collect();
+        let stiffness = Stiffness::new(&body, &held).map_err(|_| Failure::Singular)?;
+        let rounding = ROUNDING * body.law.wave_modulus() * stretch(&body);
+        Ok(Self { body, stiffness, held, rounding })
+    }
+
+    /// The undeformed body.
+    pub fn rest(&self) -> Rest {
+        let displacement = vec![[0.0; 3]; self.body.nodes()];
+        Rest { displacement, history: vec![0.0; self.body.history()] }
+    }
+
+    /// Finds the equilibrium after a time step [s]; `rest` changes only if it is found.
+    pub fn step(&self, rest: &mut Rest, to: &Conditions, dt: f64) -> Result<Found, Failure> {
+        let team = &self.body.team();
+        let step = Step { from: rest, to, dt, team };
+        let mut u = rest.displacement.clone();
+        let mut now = self.at(&step, &u)?;
+        let before = now.stresses.clone();
+        let mut residuals = Vec::new();
+        if let Some(jump) = self.jump(&u, to) {
+            let change = self.follow(&step, &now, &u, &jump)?;
+            u = sum(&u, &change);
+            now = self.at(&step, &u)?;
+            residuals.push(now.norm / now.scale);
+        }
+        while now.norm > TOLERANCE * now.scale + self.rounding {
+            if residuals.len() == ITERATIONS {
+                return Err(Failure::NotConverged { residual: now.norm / now.scale });
+            }
+            (u, now) = self.improve(&step, &u, &now)?;
+            residuals.push(now.norm / now.scale);
+        }
+        let way: Vec<[f64; 3]> = difference(&u, &rest.displacement);
+        let work = [&before, &now.stresses].map(|stresses| self.body.work(stresses, &way, team));
+        let found = Found {
+            residuals,
+            reactions: now.reactions,
+            stored: now.stresses.energy,
+            work: 0.5 * (work[0] + work[1]),
+        };
+        *rest = Rest { displacement: u, history: now.history };
+        Ok(found)
+    }
+
+    /// A Newton step, halved while the residual grows or the material is turned inside out.
+    fn improve(
+        &self,
+        step: &Step,
+        u: &[[f64; 3]],
+        now: &Trial,
+    ) -> Result<(Vec<[f64; 3]>, Trial), Failure> {
+        let factor = self.factor(step, now)?;
+        let mut change = self.stiffness.solve(&factor, &now.residual);
+        for _ in 0..HALVINGS {
+            let next = sum(u, &change);
+            match self.at(step, &next) {
+                Ok(trial) if trial.norm < GROWTH * now.norm => return Ok((next, trial)),
+                _ => change.iter_mut().flatten().for_each(|x| *x *= 0.5),
+            }
+        }
+        Err(Failure::NotConverged { residual: now.norm / now.scale })
+    }
+
+    fn factor(&self, step: &Step, trial: &Trial) -> Result<Factor, Failure> {
+        self.stiffness
+            .factor(&self.body, &trial.linearised, step.team)
+            .map_err(|_| Failure::Singular)
+    }
+
+    /// Changes of prescribed displacements; `None` if there are none.
+    fn jump(&self, u: &[[f64; 3]], to: &Conditions) -> Option<Vec<[f64; 3]>> {
+        let mut jump = vec![[0.0; 3]; u.len()];
+        for (node, held) in self.held.iter().enumerate() {
+            for a in (0..3).filter(|&a| held[a]) {
+                jump[node][a] = to.displacements[node][a] - u[node][a];
+            }
+        }
+        jump.iter().flatten().any(|&x| x != 0.0).then_some(jump)
+    }
+
+    /// Change in which held nodes make a jump and the others follow linearly.
+    fn follow(
+        &self,
+        step: &Step,
+        now: &Trial,
+        u: &[[f64; 3]],
+        jump: &[[f64; 3]],
+    ) -> Result<Vec<[f64; 3]>, Failure> {
+        let small: Vec<[f64; 3]> = jump.iter().map(|x| x.map(|x| SMALL * x)).collect();
+        let moved = self.at(step, &sum(u, &small))?;
+        let force =
+            |(a, b): (&[f64; 3], &[f64; 3])| [0, 1, 2].map(|n| a[n] + (b[n] - a[n]) / SMALL);
+        let load: Vec<[f64; 3]> = now.residual.iter().zip(&moved.residual).map(force).collect();
+        Ok(sum(&self.stiffness.solve(&self.factor(step, now)?, &load), jump))
+    }
+
+    fn at(&self, step: &Step, u: &[[f64; 3]]) -> Result<Trial, Failure> {
+        let body = &self.body;
+        let mut history = step.from.history.clone();
+        let stresses = body.respond(u, step.dt, &mut history, step.team)?;
+        let (deformations, dilatations) = body.deformations(u, step.team);
+        let internal = body.forces(&stresses, step.team);
+        let mut residual = sum(&internal, &step.to.forces);
+        let (mut norm, mut scale) = (0.0, 0.0);
+        let mut reactions = vec![[0.0; 3]; u.len()];
+        for (node, held) in self.held.iter().enumerate() {
+            for a in 0..3 {
+                scale += internal[node][a].powi(2) + step.to.forces[node][a].powi(2);
+                if held[a] {
+                    reactions[node][a] = -residual[node][a];
+                    residual[node][a] = 0.0;
+                }
+                norm += residual[node][a].powi(2);
+            }
+        }
+        let carriers = stresses.carriers.clone();
+        let linearised = Linearised { deformations, dilatations, carriers, dt: step.dt };
+        let scale = scale.sqrt().max(f64::MIN_POSITIVE);
+        Ok(Trial { linearised, stresses, residual, norm: norm.sqrt(), scale, history, reactions })
+    }
+}
+
+/// Norm over the nodes of the forces of a unit stress, without cancellation [m²].
+fn stretch(body: &Deformable) -> f64 {
+    let volume = &body.space.volume;
+    let mut sums = vec![0.0; body.nodes()];
+    for point in 0..volume.len() {
+        for value in volume.row(point) {
+            let slope: f64 = value.gradient.iter().map(|g| g.abs()).sum();
+            sums[value.node as usize] += volume.weights[point] * slope;
+        }
+    }
+    sums.iter().map(|sum| sum * sum).sum::<f64>().sqrt()
+}
+
+fn sum(a: &[[f64; 3]], b: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    a.iter().zip(b).map(|(a, b)| [0, 1, 2].map(|n| a[n] + b[n])).collect()
+}
+
+fn difference(a: &[[f64; 3]], b: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    a.iter().zip(b).map(|(a, b)| [0, 1, 2].map(|n| a[n] - b[n])).collect()
+}

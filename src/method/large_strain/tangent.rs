@@ -1,0 +1,228 @@
+//! Tangent stiffness of a body, and its linear systems.
+
+use std::ops::Range;
+use std::sync::OnceLock;
+
+use faer::prelude::Solve;
+use faer::sparse::linalg::solvers::{Llt, Lu, SymbolicLlt, SymbolicLu};
+use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
+use faer::{Mat, Side};
+
+use super::Deformable;
+use crate::laws::solid::hyperelastic::{Deformed, Tangent};
+use crate::math::matrix3::Matrix3;
+use crate::runtime::parallel::Team;
+use crate::space::Form;
+
+/// Stiffness of a body under fixed conditions: its pattern is known before time starts.
+pub struct Stiffness {
+    /// Number of the unknown of each node and axis; `None` where displacements are prescribed.
+    unknowns: Vec<[Option<usize>; 3]>,
+    count: usize,
+    pattern: SymbolicSparseColMat<usize>,
+    order: Argsort<usize>,
+    llt: SymbolicLlt<usize>,
+    lu: OnceLock<SymbolicLu<usize>>,
+    /// For each block of assembly the unknowns of its columns.
+    blocks: Vec<Block>,
+}
+
+/// Points that are assembled together, and the nodes of their rows.
+struct Block {
+    points: Range<usize>,
+    nodes: Vec<u32>,
+}
+
+/// A factored stiffness.
+pub enum Factor {
+    Positive(Llt<usize, f64>),
+    Indefinite(Lu<usize, f64>),
+}
+
+/// The matrix could not be factored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Singular;
+
+impl Stiffness {
+    /// Creates the pattern; `held` marks prescribed displacements.
+    pub fn new(body: &Deformable, held: &[[bool; 3]]) -> Result<Self, Singular> {
+        let mut count = 0;
+        let mut number = |is_held: bool| {
+            (!is_held).then(|| {
+                count += 1;
+                count - 1
+            })
+        };
+        let unknowns: Vec<[Option<usize>; 3]> =
+            held.iter().map(|held| held.map(&mut number)).collect();
+        let blocks = body.space.groups.iter().map(|group| block(body, group)).collect::<Vec<_>>();
+        let mut pairs = Vec::new();
+        for block in &blocks {
+            let columns = columns(&unknowns, &block.nodes);
+            each_pair(&columns, |_, _, row, column| pairs.push(Pair { row, col: column }));
+        }
+        (0..count).for_each(|n| pairs.push(Pair { row: n, col: n }));
+        let (pattern, order) = SymbolicSparseColMat::try_new_from_indices(count, count, &pairs)
+            .map_err(|_| Singular)?;
+        let llt = SymbolicLlt::try_new(pattern.as_ref(), Side::Lower).map_err(|_| Singular)?;
+        Ok(Self { unknowns, count, pattern, order, llt, lu: OnceLock::new(), blocks })
+    }
+
+    /// Assembles and factors the stiffness of a state.
+    pub fn factor(
+        &self,
+        body: &Deformable,
+        state: &Linearised,
+        team: &Team,
+    ) -> Result<Factor, Singular> {
+        let mut values = Vec::with_capacity(self.entries() + self.count);
+        let matrices = team.map(self.blocks.len(), |n| element(body, state, &self.blocks[n], n));
+        for (block, matrix) in self.blocks.iter().zip(matrices) {
+            let columns = columns(&self.unknowns, &block.nodes);
+            let width = 3 * block.nodes.len();
+            each_pair(&columns, |a, b, _, _| values.push(matrix[a * width + b]));
+        }
+        // The pattern has each diagonal entry once more, for nodes of no block.
+        values.resize(values.len() + self.count, 0.0);
+        let matrix = SparseColMat::new_from_argsort(self.pattern.clone(), &self.order, &values)
+            .map_err(|_| Singular)?;
+        match Llt::try_new_with_symbolic(self.llt.clone(), matrix.as_ref(), Side::Lower) {
+            Ok(factor) => Ok(Factor::Positive(factor)),
+            Err(_) => self.factor_indefinite(&matrix),
+        }
+    }
+
+    fn factor_indefinite(&self, matrix: &SparseColMat<usize, f64>) -> Result<Factor, Singular> {
+        let symbolic = match self.lu.get() {
+            Some(symbolic) => symbolic.clone(),
+            None => SymbolicLu::try_new(self.pattern.as_ref()).map_err(|_| Singular)?,
+        };
+        // Another thread may have been first with the same.
+        let _ = self.lu.set(symbolic.clone());
+        let lu = Lu::try_new_with_symbolic(symbolic, matrix.as_ref()).map_err(|_| Singular)?;
+        Ok(Factor::Indefinite(lu))
+    }
+
+    /// Bound on the number of entries of all blocks.
+    fn entries(&self) -> usize {
+        self.blocks.iter().map(|block| (3 * block.nodes.len()).pow(2)).sum()
+    }
+
+    /// Solves for the change of displacements under forces on the nodes.
+    pub fn solve(&self, factor: &Factor, forces: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        let mut load = Mat::<f64>::zeros(self.count, 1);
+        for (unknowns, force) in self.unknowns.iter().zip(forces) {
+            for a in 0..3 {
+                if let Some(n) = unknowns[a] {
+                    load[(n, 0)] = force[a];
+                }
+            }
+        }
+        let solution = match factor {
+            Factor::Positive(llt) => llt.solve(&load),
+            Factor::Indefinite(lu) => lu.solve(&load),
+        };
+        let place = |unknown: Option<usize>| unknown.map_or(0.0, |n| solution[(n, 0)]);
+        self.unknowns.iter().map(|unknowns| unknowns.map(place)).collect()
+    }
+}
+
+/// A state about which a body is linearised.
+pub struct Linearised {
+    pub deformations: Vec<Deformed>,
+    /// Mean J of each group.
+    pub dilatations: Vec<f64>,
+    /// Q of each point.
+    pub carriers: Vec<Matrix3>,
+    pub dt: f64,
+}
+
+fn block(body: &Deformable, group: &Range<usize>) -> Block {
+    let rows = group.clone().flat_map(|point| body.space.volume.row(point));
+    let mut nodes: Vec<u32> = rows.map(|value| value.node).collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    Block { points: group.clone(), nodes }
+}
+
+fn columns(unknowns: &[[Option<usize>; 3]], nodes: &[u32]) -> Vec<Option<usize>> {
+    nodes.iter().flat_map(|&node| unknowns[node as usize]).collect()
+}
+
+/// Calls back for each pair of unknowns in the lower triangle, with their places in a block.
+fn each_pair(columns: &[Option<usize>], mut take: impl FnMut(usize, usize, usize, usize)) {
+    for (a, row) in columns.iter().enumerate() {
+        for (b, column) in columns.iter().enumerate() {
+            if let (Some(row), Some(column)) = (row, column) {
+                take(a, b, *row, *column);
+            }
+        }
+    }
+}
+
+/// Stiffness matrix of a block, row by row.
+fn element(body: &Deformable, state: &Linearised, block: &Block, group: usize) -> Vec<f64> {
+    let width = 3 * block.nodes.len();
+    let mut matrix = vec![0.0; width * width];
+    let mut swelling = vec![0.0; width];
+    let volume = &body.space.volume;
+    let [pressure, slope] = body.law.pressure(state.dilatations[group]);
+    let mut whole = 0.0;
+    for point in block.points.clone() {
+        let (at, weight) = (&state.deformations[point], volume.weights[point]);
+        whole += weight;
+        let tangent = body.law.tangent(at, &state.carriers[point], state.dt, pressure);
+        let strains = strains(body, point, &block.nodes);
+        let cofactor = at.inverse_transposed.map(|row| row.map(|g| at.dilatation * g));
+        for (a, strain) in strains.iter().enumerate() {
+            swelling[a] +=
+                weight * strain.iter().map(|&(n, g)| cofactor[n / 3][n % 3] * g).sum::<f64>();
+        }
+        add(&mut matrix, &strains, &tangent, weight);
+    }
+    for a in 0..width {
+        for b in 0..width {
+            matrix[a * width + b] += slope / whole * swelling[a] * swelling[b];
+        }
+    }
+    matrix
+}
+
+/// Entries of the change of F, as place and value, under a unit displacement of each node and axis.
+type Strain = Vec<(usize, f64)>;
+
+fn strains(body: &Deformable, point: usize, nodes: &[u32]) -> Vec<Strain> {
+    let mut strains = vec![Strain::new(); 3 * nodes.len()];
+    let volume = &body.space.volume;
+    for value in volume.row(point) {
+        let place = nodes.binary_search(&value.node).expect("a block has the nodes of its rows");
+        for a in 0..3 {
+            let strain = &mut strains[3 * place + a];
+            strain.extend(
+                (0..3)
+                    .filter(|&b| value.gradient[b] != 0.0)
+                    .map(|b| (3 * a + b, value.gradient[b])),
+            );
+        }
+        if body.space.form == Form::Axisymmetric {
+            strains[3 * place].push((4, value.value / volume.at[point][0]));
+        }
+    }
+    strains
+}
+
+fn add(matrix: &mut [f64], strains: &[Strain], tangent: &Tangent, weight: f64) {
+    let width = strains.len();
+    for (b, column) in strains.iter().enumerate() {
+        if column.is_empty() {
+            continue;
+        }
+        let mut stress = [0.0; 9];
+        for &(n, g) in column {
+            (0..9).for_each(|m| stress[m] += weight * tangent[m][n] * g);
+        }
+        for (a, row) in strains.iter().enumerate() {
+            matrix[a * width + b] += row.iter().map(|&(m, g)| stress[m] * g).sum::<f64>();
+        }
+    }
+}

@@ -1,0 +1,176 @@
+//! Checks that solids of large strain can be modelled.
+
+use super::{Checker, fits};
+use crate::scene::large_strain::{LargeStrain, LargeStrainStart, LargeStrainSymmetry, SolidShape};
+use crate::scene::locate::Path;
+use crate::scene::types::FaceName;
+
+/// Most nodes of a body.
+const MOST_NODES: f64 = 2e6;
+
+pub fn check(checker: &mut Checker) {
+    for (name, solid) in checker.scene.large_strains() {
+        let path = Path::default().key("body").key(name);
+        check_shape(checker, &path, solid);
+        check_material(checker, &path, solid);
+        match solid.inertia {
+            true => check_motion(checker, &path, solid),
+            false => {
+                check_faces(checker, &path, solid);
+                check_rest(checker, &path, name, solid);
+            }
+        }
+    }
+    for (name, solid) in checker.scene.solids() {
+        let choices = solid.layers.iter().flatten().map(|layer| &layer.material);
+        for choice in solid.material.iter().chain(choices) {
+            if choice.material().law.deformation().is_of_large_strain() {
+                let path = Path::default().key("body").key(name);
+                let message = "this law is one of large strain";
+                checker.refuse(
+                    &path,
+                    message,
+                    "`strain = \"finite\"`, or `model = \"thermoelastic\"`",
+                );
+            }
+        }
+    }
+}
+
+fn check_shape(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
+    let is_flat = solid.dimension == 2;
+    let [x, y, z] = solid.extents();
+    let smallest = if is_flat { x.min(z) } else { x.min(y).min(z) };
+    let spacing = solid.spacing();
+    checker.require(
+        fits(spacing, smallest),
+        &path.at("mesh.spacing"),
+        "the body is thinner than an element",
+        format!("up to {smallest} m, a tenth of it or less for results"),
+    );
+    let across = if solid.is_axisymmetric() { [0.5 * x, spacing, z] } else { [x, y, z] };
+    let count = |a: usize| if is_flat && a == 1 { 1.0 } else { (across[a] / spacing).max(1.0) };
+    let nodes = count(0) * count(1) * count(2);
+    checker.require(
+        nodes <= MOST_NODES,
+        &path.at("mesh.spacing"),
+        format!("the mesh would have {nodes:.1e} nodes"),
+        format!("a `mesh.spacing` with at most {MOST_NODES:e} nodes"),
+    );
+    if is_flat && matches!(solid.shape, SolidShape::Disc(_)) {
+        let message = "a disc has no plane model";
+        checker.refuse(&path.key("dimension"), message, "3; or a box, or a ball");
+    }
+    let is_box = matches!(solid.shape, SolidShape::Box(_));
+    if solid.symmetry == LargeStrainSymmetry::Axisymmetric && (is_box || is_flat) {
+        let message = "only a disc and a ball in three dimensions are round about z";
+        checker.refuse(&path.key("symmetry"), message, "auto, none, quarter");
+    }
+}
+
+fn check_material(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
+    let law = solid.material.material().law.deformation();
+    let path = path.key("material");
+    if !law.is_of_large_strain() {
+        let message = "this law is one of small strain";
+        checker.refuse(&path, message, "`model = \"neo_hookean\"`");
+        return;
+    }
+    if law.hyperelastic(solid.initial_temperature).is_none() {
+        let message = "a solid of large strain needs elastic constants";
+        checker.refuse(&path, message, "`young` (Pa) and `poisson`");
+    }
+}
+
+fn check_faces(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
+    for (&name, face) in &solid.faces {
+        let at = path.key("faces").key(name.as_str());
+        let offered: Vec<FaceName> = match solid.plate() {
+            Some(shape) => {
+                let own = shape.faces().iter().copied().chain([FaceName::Sides]);
+                own.filter(|&face| is_there(solid, face)).collect()
+            }
+            None => Vec::new(),
+        };
+        let names: Vec<&str> = offered.iter().map(|face| face.as_str()).collect();
+        let allowed = if names.is_empty() { "no faces".to_owned() } else { names.join(", ") };
+        let fine = offered.contains(&name);
+        let message = format!("the shape has no face `{}` that can be held", name.as_str());
+        if !checker.require(fine, &at, message, allowed) {
+            continue;
+        }
+        let conditions = face.conditions();
+        let fine = matches!(&conditions[..], [_] | ["roller", "displacement"]);
+        let message = "a face has one condition";
+        let allowed = "one of clamped, roller, displacement; or roller with displacement";
+        checker.require(fine, &at, message, allowed);
+        let is_round = matches!(solid.shape, SolidShape::Disc(_)) && name == FaceName::Sides;
+        if face.roller
+            && (is_round && !solid.is_axisymmetric()
+                || face.displacement.is_some() && name.normal().is_none())
+        {
+            let message = "this face has no normal along an axis";
+            checker.refuse(&at.key("roller"), message, "`clamped` or `displacement` alone");
+        }
+        let taken = face.axes(name, solid.dimension);
+        for axis in (0..3).filter(|axis| !taken.contains(axis)) {
+            let moves = face.displacement.is_some_and(|by| by[axis] != 0.0);
+            let place = at.key("displacement").index(axis);
+            checker.require(!moves, &place, "nothing is prescribed along this axis", "0");
+        }
+        let turns = solid.is_axisymmetric() && taken.iter().any(|&axis| axis < 2);
+        let message = "the body is modelled as round, and this moves it sideways";
+        checker.require(!turns, &at.key("displacement"), message, "`symmetry = \"none\"`");
+    }
+}
+
+/// Returns true if a model has a face: a plane one has none across y.
+fn is_there(solid: &LargeStrain, face: FaceName) -> bool {
+    let across_y = matches!(face, FaceName::Front | FaceName::Back);
+    !(across_y && solid.dimension == 2)
+}
+
+fn check_motion(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
+    if !solid.faces.is_empty() {
+        let message = "a body with inertia moves freely";
+        checker.refuse(&path.key("faces"), message, "no `faces`, or `inertia = false`");
+    }
+    let [u, v, _] = solid.start.velocity;
+    let velocity = path.key("start").key("velocity");
+    if solid.is_axisymmetric() && (u != 0.0 || v != 0.0) {
+        let message = "a round model does not move sideways";
+        checker.refuse(&velocity, message, "[0, 0, VZ], or `symmetry = \"none\"`");
+    }
+    let [mirrored_x, mirrored_y] = solid.mirrors();
+    if mirrored_x && u != 0.0 || mirrored_y && v != 0.0 || solid.dimension == 2 && v != 0.0 {
+        let message = "the body moves along an axis that its model lacks or mirrors";
+        checker.refuse(&velocity, message, "`symmetry = \"none\"`, `dimension = 3`");
+    }
+}
+
+fn check_rest(checker: &mut Checker, path: &Path, name: &str, solid: &LargeStrain) {
+    if solid.start != LargeStrainStart::default() {
+        let message = "a body in equilibrium has no start of its own";
+        checker.refuse(&path.key("start"), message, "no `start`, or `inertia = true`");
+    }
+    if checker.scene.coupling_from(name).is_some() {
+        let message = "a body in equilibrium does not stand on another";
+        checker.refuse(&path.key("inertia"), message, "true, for a body with a coupling");
+    }
+    let holds = |face: &FaceName, axis: usize| {
+        let held = solid.faces[face];
+        let along = face.normal() == Some(axis) || (*face == FaceName::Sides && axis < 2);
+        held.clamped || held.axes(*face, 3).contains(&axis) || held.roller && along
+    };
+    let mut free = Vec::new();
+    for (axis, words) in ["x", "y", "z"].into_iter().enumerate() {
+        let mirrored = axis < 2 && (solid.is_axisymmetric() || solid.mirrors()[axis]);
+        let lacking = axis == 1 && solid.dimension == 2;
+        if !mirrored && !lacking && !solid.faces.keys().any(|face| holds(face, axis)) {
+            free.push(words);
+        }
+    }
+    let message = format!("nothing holds the body along {}", free.join(", "));
+    let allowed = "`faces.bottom = { clamped = true }`, say; or `inertia = true`";
+    checker.require(free.is_empty(), path, message, allowed);
+}

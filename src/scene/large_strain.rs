@@ -1,0 +1,311 @@
+//! Solids of large strain: gels, rubbers and soft prints, with or without inertia.
+
+use std::collections::BTreeMap;
+
+use schemars::{JsonSchema, Schema};
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+
+use super::lookup::BodyInput;
+use super::materials::MaterialChoice;
+use super::types::{Disc, FaceName, Shape};
+use crate::limits::{
+    Bounds, Keys, above_zero, length, own_temperature, plausible, signed, whole, within,
+};
+use crate::quantity::Quantity;
+
+/// A solid of large strain.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LargeStrain {
+    /// Measure of deformation.
+    pub strain: FiniteStrain,
+    /// `{ ball = { radius = R } }`, `{ disc = { radius = R, thickness = T } }` or `{ box = [LX, LY, LZ] }`.
+    pub shape: SolidShape,
+    /// Material of the body: a table, or the name of a `[material.NAME]`.
+    #[schemars(extend("condition" = "`model = \"neo_hookean\"`"))]
+    pub material: MaterialChoice,
+    /// Uniform temperature, at which constants are taken [K].
+    #[schemars(transform = own_temperature())]
+    pub initial_temperature: f64,
+    /// 3, or 2 for a plane model in x and z of plane strain, whose totals are per metre of depth.
+    #[serde(default = "three")]
+    #[schemars(transform = whole(2, 3, "no model of this dimension", "3, 2 (plane)"))]
+    pub dimension: usize,
+    /// Part of the body that is modelled.
+    #[serde(default)]
+    #[schemars(extend("condition" = "a box is not `axisymmetric`, a disc is"))]
+    pub symmetry: LargeStrainSymmetry,
+    /// True if the body has inertia: it moves freely above the plane z = 0, or above the body of its coupling, and falls.
+    /// Otherwise it is in equilibrium at every time.
+    #[serde(default)]
+    pub inertia: bool,
+    /// Position and velocity at time zero.
+    #[serde(default)]
+    #[schemars(extend("otherwise" = "at rest", "condition" = "with `inertia = true`"))]
+    pub start: LargeStrainStart,
+    /// Body force per mass towards −z [m/s²].
+    #[serde(default)]
+    #[schemars(transform = within(0.0, 1e7, "m/s²", "gravity, which acts towards the wall,")
+        .plausible(&plausible::GRAVITY))]
+    pub gravity: f64,
+    /// The mesh.
+    #[serde(default)]
+    #[schemars(extend("otherwise" = "automatic"))]
+    pub mesh: LargeStrainMesh,
+    /// Conditions on faces.
+    #[serde(default)]
+    #[schemars(
+        extend("otherwise" = "free", "condition" = "without inertia, not on a ball"),
+        transform = Keys(FaceName::ALL.map(FaceName::as_str))
+    )]
+    pub faces: BTreeMap<FaceName, HeldFace>,
+}
+
+fn three() -> usize {
+    3
+}
+
+/// Measure of the deformation of a solid of large strain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum FiniteStrain {
+    /// Strains and rotations of any size.
+    Finite,
+}
+
+/// Measure of the deformation of a thermo-elastic solid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum SmallStrain {
+    /// Strains and rotations far below 1.
+    #[default]
+    Small,
+}
+
+/// The shape of a solid of large strain. The origin of a box and of a disc is the centre of their top, that of a ball its
+/// centre.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum SolidShape {
+    /// Extents along x, y and z [m].
+    Box(
+        #[schemars(transform = length("the extent of a body").plausible(&plausible::EXTENT))]
+        [f64; 3],
+    ),
+    /// A round plate or cylinder.
+    Disc(Disc),
+    /// A ball; in a plane model a circle.
+    Ball(Ball),
+}
+
+/// A ball.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Ball {
+    /// Radius [m].
+    #[schemars(transform = length("the radius of a body").plausible(&plausible::EXTENT))]
+    pub radius: f64,
+}
+
+/// Modelled part of a solid of large strain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum LargeStrainSymmetry {
+    /// Axisymmetric if ball or disc move along the axis, else a quarter (half of a plane model) where that is exact.
+    #[default]
+    Auto,
+    /// The whole body.
+    None,
+    /// A quarter, or half of a plane model.
+    Quarter,
+    /// A meridian section.
+    Axisymmetric,
+}
+
+/// Position and velocity of a solid of large strain at time zero.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct LargeStrainStart {
+    /// Velocity along x, y and z [m/s].
+    #[schemars(transform = signed("m/s", "a velocity"))]
+    pub velocity: [f64; 3],
+    /// Gap between the lowest point and the plane [m].
+    #[schemars(transform = within(0.0, 1e3, "m", "the gap between body and plane")
+        .plausible(&plausible::HEIGHT))]
+    pub height: f64,
+}
+
+/// Mesh of a solid of large strain.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LargeStrainMesh {
+    /// Distance of nodes [m].
+    #[schemars(transform = above_zero("m")
+        .condition("up to the smallest extent")
+        .otherwise("a tenth of the smallest extent"))]
+    pub spacing: Option<f64>,
+}
+
+/// Condition on a face of a solid of large strain: one of them, or `roller` with `displacement`.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HeldFace {
+    /// No displacement.
+    #[serde(default)]
+    pub clamped: bool,
+    /// No displacement along the normal; with `displacement`, that one along it, and none is held across.
+    #[serde(default)]
+    pub roller: bool,
+    /// Displacement along x, y and z at the start; inputs [m].
+    #[schemars(transform = signed("m", "a displacement").otherwise("free"))]
+    pub displacement: Option<[f64; 3]>,
+}
+
+impl HeldFace {
+    /// Keys of the conditions that are set.
+    pub fn conditions(&self) -> Vec<&'static str> {
+        let given = [
+            ("clamped", self.clamped),
+            ("roller", self.roller),
+            ("displacement", self.displacement.is_some()),
+        ];
+        given.into_iter().filter(|(_, given)| *given).map(|(key, _)| key).collect()
+    }
+}
+
+/// Elements across the smallest extent, by default.
+const ACROSS: f64 = 10.0;
+
+impl LargeStrain {
+    /// Extents along x, y and z [m].
+    pub fn extents(&self) -> [f64; 3] {
+        match self.shape {
+            SolidShape::Box(extents) => extents,
+            SolidShape::Disc(Disc { radius, thickness }) => [2.0 * radius, 2.0 * radius, thickness],
+            SolidShape::Ball(Ball { radius }) => [2.0 * radius; 3],
+        }
+    }
+
+    /// Distance of nodes [m].
+    pub fn spacing(&self) -> f64 {
+        let [x, y, z] = self.extents();
+        let smallest = if self.dimension == 2 { x.min(z) } else { x.min(y).min(z) };
+        self.mesh.spacing.unwrap_or(smallest / ACROSS)
+    }
+
+    /// Returns true if the body is modelled by a meridian section.
+    pub fn is_axisymmetric(&self) -> bool {
+        let [u, v, _] = self.start.velocity;
+        let is_round = !matches!(self.shape, SolidShape::Box(_));
+        let is_straight = u == 0.0 && v == 0.0 && self.moves_straight();
+        match self.symmetry {
+            LargeStrainSymmetry::Axisymmetric => true,
+            LargeStrainSymmetry::Auto => self.dimension == 3 && is_round && is_straight,
+            LargeStrainSymmetry::None | LargeStrainSymmetry::Quarter => false,
+        }
+    }
+
+    /// Returns true if no face may be moved along x or y.
+    fn moves_straight(&self) -> bool {
+        self.faces.iter().all(|(&face, held)| held.is_straight(face))
+    }
+
+    /// Planes x = 0 and y = 0 that mirror the model.
+    pub fn mirrors(&self) -> [bool; 2] {
+        let [u, v, _] = self.start.velocity;
+        let [x, y] = [FaceName::Left, FaceName::Front].map(|face| !self.faces.contains_key(&face));
+        let [right, back] =
+            [FaceName::Right, FaceName::Back].map(|face| !self.faces.contains_key(&face));
+        let straight = self.moves_straight();
+        match self.symmetry {
+            _ if self.is_axisymmetric() => [false; 2],
+            LargeStrainSymmetry::Quarter => [true, self.dimension == 3],
+            LargeStrainSymmetry::Auto => [
+                u == 0.0 && x && right && straight,
+                v == 0.0 && y && back && straight && self.dimension == 3,
+            ],
+            LargeStrainSymmetry::None | LargeStrainSymmetry::Axisymmetric => [false; 2],
+        }
+    }
+
+    /// The shape of a box or a disc among those of other solids.
+    pub fn plate(&self) -> Option<Shape> {
+        match self.shape {
+            SolidShape::Box(extents) => Some(Shape::Box(extents)),
+            SolidShape::Disc(disc) => Some(Shape::Disc(disc)),
+            SolidShape::Ball(_) => None,
+        }
+    }
+
+    /// Inputs: the displacements of faces.
+    pub fn inputs(&self) -> Vec<BodyInput> {
+        let of_face = |(&face, held): (&FaceName, &HeldFace)| {
+            let start = held.displacement?;
+            let axes = held.axes(face, self.dimension).into_iter();
+            Some(axes.map(move |axis| BodyInput {
+                key: displacement_key(face, axis),
+                words: "displacement of the face",
+                quantity: Quantity::Displacement,
+                start: start[axis],
+                bounds: Bounds { low: None, high: None },
+            }))
+        };
+        self.faces.iter().filter_map(of_face).flatten().collect()
+    }
+}
+
+impl HeldFace {
+    /// Axes along which the face's displacement is prescribed, in a model of some dimensions.
+    pub fn axes(&self, face: FaceName, dimension: usize) -> Vec<usize> {
+        let is_taken = |axis: usize| match (self.roller, face.normal()) {
+            (true, normal) => normal == Some(axis),
+            (false, _) => axis != 1 || dimension == 3,
+        };
+        match self.displacement {
+            Some(_) => (0..3).filter(|&axis| is_taken(axis)).collect(),
+            None => Vec::new(),
+        }
+    }
+
+    /// Returns true if the face may only be moved along z.
+    fn is_straight(&self, face: FaceName) -> bool {
+        self.axes(face, 3).iter().all(|&axis| axis == 2)
+    }
+}
+
+/// Last part of the name of an input: the displacement of a face along an axis.
+fn displacement_key(face: FaceName, axis: usize) -> &'static str {
+    macro_rules! keys {
+        ($($face:ident = $name:literal),+) => {
+            match (face, axis) {
+                $((FaceName::$face, 0) => concat!($name, ".displacement_x"),
+                  (FaceName::$face, 1) => concat!($name, ".displacement_y"),
+                  (FaceName::$face, _) => concat!($name, ".displacement_z"),)+
+            }
+        };
+    }
+    keys!(
+        Top = "top",
+        Bottom = "bottom",
+        Sides = "sides",
+        Left = "left",
+        Right = "right",
+        Front = "front",
+        Back = "back"
+    )
+}
+
+/// Names the kind of solids of large strain in the schema as scenes do: `kind = "solid"` with `strain = "finite"`.
+pub fn name_kind(schema: &mut Schema) {
+    let kinds = schema.get_mut("oneOf").and_then(serde_json::Value::as_array_mut);
+    for kind in kinds.into_iter().flatten() {
+        let name = &mut kind["properties"]["kind"]["const"];
+        if *name == json!(KIND) {
+            *name = json!("solid");
+        }
+    }
+}
+
+/// Name of the kind within the program; see [`name_kind`].
+pub const KIND: &str = "solid of large strain";

@@ -1,0 +1,343 @@
+//! Meshes of quadrilaterals or hexahedra of simple shapes, whose nodes are those of any discretisation.
+
+use std::collections::HashMap;
+
+use super::Form;
+
+/// Part of a boundary.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Side {
+    Left,
+    Right,
+    Front,
+    Back,
+    Bottom,
+    Top,
+    /// The surface of a round shape.
+    Round,
+}
+
+/// A mesh. Cells list their corners with the first coordinate changing fastest.
+#[derive(Debug, Clone)]
+pub struct Mesh {
+    pub form: Form,
+    pub nodes: Vec<[f64; 3]>,
+    /// 4 corners each in a plane, 8 in space.
+    pub cells: Vec<Vec<u32>>,
+    /// Edges (2 nodes) or faces (4 nodes, the first coordinate changing fastest) of the boundary with their sides; those
+    /// on planes of symmetry and on an axis are none.
+    pub faces: Vec<(Side, Vec<u32>)>,
+}
+
+/// Edge of the boxes in which nodes count as one, over the extent of a cell.
+const COINCIDENT: f64 = 1e-6;
+
+impl Mesh {
+    /// A box with its origin at the centre of its top: `low` to `high`, cut into `count` cells along each axis of the
+    /// form.
+    pub fn of_box(form: Form, low: [f64; 3], high: [f64; 3], count: [usize; 3]) -> Self {
+        let mut blocks = Blocks::new(form, smallest(low, high, count, form));
+        blocks.add(count, |[u, v, w]| {
+            let place = |axis: usize, part: f64| low[axis] + part * (high[axis] - low[axis]);
+            [place(0, u), if form == Form::Solid { place(1, v) } else { 0.0 }, place(2, w)]
+        });
+        let tolerance = blocks.tolerance;
+        let axis_is_inside = form == Form::Axisymmetric && low[0] == 0.0;
+        blocks.finish(|corners| {
+            let on = |axis: usize, at: f64| {
+                corners.iter().all(|corner| (corner[axis] - at).abs() < tolerance)
+            };
+            let sides = [
+                (0, low[0], Side::Left),
+                (0, high[0], Side::Right),
+                (1, low[1], Side::Front),
+                (1, high[1], Side::Back),
+                (2, low[2], Side::Bottom),
+                (2, high[2], Side::Top),
+            ];
+            let flat = form != Form::Solid;
+            sides
+                .into_iter()
+                .filter(|&(axis, _, side)| {
+                    !(flat && axis == 1 || axis_is_inside && side == Side::Left)
+                })
+                .find(|&(axis, at, _)| on(axis, at))
+                .map(|(_, _, side)| side)
+        })
+    }
+
+    /// A cylinder of a radius and a thickness about z below the origin: `counts` are those of the inner block (half of it)
+    /// along x and y, from it to the surface, and along z. Only the part with positive x (or y) is meshed where `halved`.
+    pub fn of_cylinder(
+        [radius, thickness]: [f64; 2],
+        counts: [usize; 3],
+        halved: [bool; 2],
+    ) -> Self {
+        let [inner, outer, along] = counts;
+        let flat = Self::of_ball(Form::Plane, radius, inner, outer, [halved[0], false]);
+        let is_inside = |cell: &&Vec<u32>| {
+            let middle = cell.iter().map(|&node| flat.nodes[node as usize][2]).sum::<f64>();
+            !halved[1] || middle > 0.0
+        };
+        let width = radius / (inner + outer) as f64;
+        let mut blocks = Blocks::new(Form::Solid, width.min(thickness / along as f64));
+        let place = |layer: usize| thickness * (layer as f64 / along as f64 - 1.0);
+        for cell in flat.cells.iter().filter(is_inside) {
+            for layer in 0..along {
+                let corner = |n: usize| {
+                    let [x, _, y] = flat.nodes[cell[n & 3] as usize];
+                    blocks.node([x, y, place(layer + (n >> 2))])
+                };
+                let corners = (0..8).map(corner).collect();
+                blocks.cells.push(corners);
+            }
+        }
+        let slack = blocks.tolerance;
+        blocks.finish(|corners| {
+            let all = |is_there: &dyn Fn(&[f64; 3]) -> bool| corners.iter().all(is_there);
+            match () {
+                () if all(&|at| at[2] > -slack) => Some(Side::Top),
+                () if all(&|at| at[2] < slack - thickness) => Some(Side::Bottom),
+                () if all(&|at| at[0].hypot(at[1]) > radius - slack) => Some(Side::Round),
+                () => None,
+            }
+        })
+    }
+
+    /// A ball (in a plane a circle) about the origin, of which only the part with positive x (and y) is meshed where
+    /// `halved`: an inner block of `2 inner` cells along each axis, and `outer` cells from it to the surface.
+    pub fn of_ball(form: Form, radius: f64, inner: usize, outer: usize, halved: [bool; 2]) -> Self {
+        let halved = [halved[0] || form == Form::Axisymmetric, halved[1]];
+        let edge = INNER * radius;
+        let width = (edge / inner as f64).min((radius - edge) / outer as f64);
+        let mut blocks = Blocks::new(form, width);
+        let axes = form.axes();
+        // Place of the inner block: a cube whose faces bulge.
+        let inside = |p: [f64; 3]| bulged(p, edge, axes);
+        let ranges = [halved[0], halved[1], false].map(|half| if half { 0.0 } else { -1.0 });
+        let counts = ranges.map(|low| if low == 0.0 { inner } else { 2 * inner });
+        let along = |axis: usize, part: f64| ranges[axis] + part * (1.0 - ranges[axis]);
+        blocks.add(counts, |[u, v, w]| {
+            let y = if form == Form::Solid { along(1, v) } else { 0.0 };
+            inside([along(0, u), y, along(2, w)])
+        });
+        for &axis in axes {
+            for sign in [-1.0, 1.0] {
+                if sign < ranges[axis] {
+                    continue;
+                }
+                let mut count = counts;
+                count[axis] = outer;
+                blocks.add(count, |parts| {
+                    let mut p = [0, 1, 2].map(|a| along(a, parts[a]));
+                    if form != Form::Solid {
+                        p[1] = 0.0;
+                    }
+                    p[axis] = sign;
+                    // Keeps cells right-handed on both ends.
+                    let part = if sign > 0.0 { parts[axis] } else { 1.0 - parts[axis] };
+                    let from = inside(p);
+                    let to = on_sphere(p, radius);
+                    [0, 1, 2].map(|a| from[a] + part * (to[a] - from[a]))
+                });
+            }
+        }
+        let slack = 1e-9 * radius;
+        blocks.finish(|corners| {
+            let is_out = |corner: &[f64; 3]| {
+                corner.iter().map(|x| x * x).sum::<f64>().sqrt() > radius - slack
+            };
+            corners.iter().all(is_out).then_some(Side::Round)
+        })
+    }
+}
+
+/// Half of the edge of the inner block of a ball, over its radius.
+const INNER: f64 = 0.55;
+/// Part of the way from a cube to a sphere to which the faces of the inner block bulge.
+const BULGE: f64 = 0.35;
+
+fn bulged(p: [f64; 3], edge: f64, axes: &[usize]) -> [f64; 3] {
+    let most = axes.iter().map(|&a| p[a].abs()).fold(0.0, f64::max);
+    let length = p.iter().map(|x| x * x).sum::<f64>().sqrt();
+    if length == 0.0 {
+        return [0.0; 3];
+    }
+    // A ball of the same size along the axes.
+    let round = most / length;
+    let factor = edge * (1.0 + BULGE * most * (round - 1.0));
+    p.map(|x| factor * x)
+}
+
+fn on_sphere(p: [f64; 3], radius: f64) -> [f64; 3] {
+    // Equal angles between the nodes of a face.
+    let q = p.map(|x| (std::f64::consts::FRAC_PI_4 * x).tan());
+    let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+    q.map(|x| radius * x / length)
+}
+
+fn smallest(low: [f64; 3], high: [f64; 3], count: [usize; 3], form: Form) -> f64 {
+    let widths = form.axes().iter().map(|&a| (high[a] - low[a]) / count[a] as f64);
+    widths.fold(f64::INFINITY, f64::min)
+}
+
+/// Structured blocks that are joined where their nodes coincide.
+struct Blocks {
+    form: Form,
+    tolerance: f64,
+    nodes: Vec<[f64; 3]>,
+    places: HashMap<[i64; 3], u32>,
+    cells: Vec<Vec<u32>>,
+}
+
+impl Blocks {
+    fn new(form: Form, width: f64) -> Self {
+        Self {
+            form,
+            tolerance: COINCIDENT * width,
+            nodes: Vec::new(),
+            places: HashMap::new(),
+            cells: Vec::new(),
+        }
+    }
+
+    /// Adds a block of cells; `place` maps the unit cube.
+    fn add(&mut self, count: [usize; 3], place: impl Fn([f64; 3]) -> [f64; 3]) {
+        let mut count = count;
+        if self.form != Form::Solid {
+            count[1] = 0;
+        }
+        let size = count.map(|n| n + 1);
+        let mut numbers = Vec::with_capacity(size.iter().product());
+        for k in 0..size[2] {
+            for j in 0..size[1] {
+                for i in 0..size[0] {
+                    let part = |n: usize, a: usize| n as f64 / count[a].max(1) as f64;
+                    numbers.push(self.node(place([part(i, 0), part(j, 1), part(k, 2)])));
+                }
+            }
+        }
+        let number = |i: usize, j: usize, k: usize| numbers[i + size[0] * (j + size[1] * k)];
+        for k in 0..count[2] {
+            for j in 0..count[1].max(1) {
+                for i in 0..count[0] {
+                    let corner = |n: usize| match self.form {
+                        Form::Solid => number(i + (n & 1), j + (n >> 1 & 1), k + (n >> 2)),
+                        _ => number(i + (n & 1), 0, k + (n >> 1)),
+                    };
+                    let corners = if self.form == Form::Solid { 8 } else { 4 };
+                    self.cells.push((0..corners).map(corner).collect());
+                }
+            }
+        }
+    }
+
+    fn node(&mut self, at: [f64; 3]) -> u32 {
+        // Neighbouring boxes are looked through, so that rounding parts no nodes.
+        let box_of = at.map(|x| (x / (4.0 * self.tolerance)).round() as i64);
+        for n in 0..27_i64 {
+            let near = [box_of[0] + n % 3 - 1, box_of[1] + n / 3 % 3 - 1, box_of[2] + n / 9 - 1];
+            if let Some(&node) = self.places.get(&near) {
+                let known = self.nodes[node as usize];
+                if (0..3).all(|a| (known[a] - at[a]).abs() < self.tolerance) {
+                    return node;
+                }
+            }
+        }
+        let node = self.nodes.len() as u32;
+        self.places.insert(box_of, node);
+        self.nodes.push(at);
+        node
+    }
+
+    /// Finds the boundary, of whose faces `side` tells the sides; those without are inside or on planes of symmetry.
+    fn finish(self, side: impl Fn(&[[f64; 3]]) -> Option<Side>) -> Mesh {
+        let mut seen: HashMap<Vec<u32>, (usize, Vec<u32>)> = HashMap::new();
+        let patterns: &[&[usize]] = match self.form {
+            Form::Solid => &[
+                &[0, 2, 4, 6],
+                &[1, 3, 5, 7],
+                &[0, 1, 4, 5],
+                &[2, 3, 6, 7],
+                &[0, 1, 2, 3],
+                &[4, 5, 6, 7],
+            ],
+            _ => &[&[0, 2], &[1, 3], &[0, 1], &[2, 3]],
+        };
+        let mut order = Vec::new();
+        for cell in &self.cells {
+            for pattern in patterns {
+                let face: Vec<u32> = pattern.iter().map(|&n| cell[n]).collect();
+                let mut key = face.clone();
+                key.sort_unstable();
+                let entry = seen.entry(key.clone()).or_insert_with(|| {
+                    order.push(key);
+                    (0, face)
+                });
+                entry.0 += 1;
+            }
+        }
+        let mut faces = Vec::new();
+        for key in order {
+            let (times, face) = &seen[&key];
+            if *times > 1 {
+                continue;
+            }
+            let corners: Vec<[f64; 3]> = face.iter().map(|&n| self.nodes[n as usize]).collect();
+            if let Some(side) = side(&corners) {
+                faces.push((side, face.clone()));
+            }
+        }
+        Mesh { form: self.form, nodes: self.nodes, cells: self.cells, faces }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::finite_elements;
+    use super::*;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn balls_and_boxes_have_their_volumes_and_areas() {
+        for (form, halved, volume, area) in [
+            (Form::Plane, [false, false], PI, 2.0 * PI),
+            (Form::Plane, [true, false], 0.5 * PI, PI),
+            (Form::Axisymmetric, [true, false], 4.0 / 3.0 * PI, 4.0 * PI),
+            (Form::Solid, [false, false], 4.0 / 3.0 * PI, 4.0 * PI),
+            (Form::Solid, [true, true], PI / 3.0, PI),
+        ] {
+            let mut errors = Vec::new();
+            for fine in [1, 2] {
+                let mesh = Mesh::of_ball(form, 1.0, 4 * fine, 3 * fine, halved);
+                let space = finite_elements(&mesh);
+                let found: f64 = space.volume.weights.iter().sum();
+                assert!(space.volume.weights.iter().all(|&w| w > 0.0));
+                let skin: f64 = space.boundary.samples.weights.iter().sum();
+                errors.push([1.0 - found / volume, 1.0 - skin / area]);
+            }
+            for a in 0..2 {
+                let order = (errors[0][a] / errors[1][a]).log2();
+                assert!((1.9..2.1).contains(&order), "{form:?} {halved:?} {errors:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn boxes_have_sides() {
+        let mesh = Mesh::of_box(Form::Solid, [-1.0, -2.0, -3.0], [1.0, 2.0, 0.0], [2, 3, 4]);
+        let space = finite_elements(&mesh);
+        let area = |side: Side| -> f64 {
+            let of = |n: &usize| space.boundary.sides[*n] == side;
+            (0..space.boundary.sides.len())
+                .filter(of)
+                .map(|n| space.boundary.samples.weights[n])
+                .sum()
+        };
+        for (side, expected) in [(Side::Left, 12.0), (Side::Back, 6.0), (Side::Top, 8.0)] {
+            assert!((area(side) - expected).abs() < 1e-12, "{side:?}");
+        }
+        assert!((space.volume.weights.iter().sum::<f64>() - 24.0).abs() < 1e-12);
+        assert_eq!(mesh.nodes.len(), 3 * 4 * 5);
+    }
+}

@@ -1,0 +1,69 @@
+//! Functions of nodes with their gradients at points, as sparse rows: what a discretisation is to a mechanics that does
+//! not ask how it was made. Finite elements and reproducing kernels fill the same [`Space`].
+
+mod finite_elements;
+mod mesh;
+mod samples;
+
+pub use finite_elements::finite_elements;
+pub use mesh::{Mesh, Side};
+pub use samples::{Samples, Value};
+
+use std::ops::Range;
+
+/// Number of coordinates of a model, and what the missing ones mean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// x and z; plane strain, a metre deep.
+    Plane,
+    /// The radius x and z.
+    Axisymmetric,
+    /// x, y and z.
+    Solid,
+}
+
+impl Form {
+    /// The coordinates in which nodes move.
+    pub fn axes(self) -> &'static [usize] {
+        match self {
+            Form::Plane | Form::Axisymmetric => &[0, 2],
+            Form::Solid => &[0, 1, 2],
+        }
+    }
+
+    /// Length or circumference across the plane of a model per area in it, at a place.
+    pub fn depth(self, at: [f64; 3]) -> f64 {
+        match self {
+            Form::Plane | Form::Solid => 1.0,
+            Form::Axisymmetric => 2.0 * std::f64::consts::PI * at[0],
+        }
+    }
+}
+
+/// A discretised body in its reference configuration.
+#[derive(Debug, Clone)]
+pub struct Space {
+    pub form: Form,
+    /// X of each node [m].
+    pub nodes: Vec<[f64; 3]>,
+    /// Points of the volume.
+    pub volume: Samples,
+    /// Points of the volume that share one dilatation, in their order; none shared if each is alone.
+    pub groups: Vec<Range<usize>>,
+    /// Points of the boundary.
+    pub boundary: Boundary,
+    /// Functions at the nodes; `None` if each is one at its own node and zero at the others.
+    pub at_nodes: Option<Samples>,
+    /// Fraction of the volume that each node represents, by which mass is lumped [m³].
+    pub shares: Vec<f64>,
+}
+
+/// Points of a boundary; their weights are areas.
+#[derive(Debug, Clone, Default)]
+pub struct Boundary {
+    pub samples: Samples,
+    /// Outward unit normal of each.
+    pub normals: Vec<[f64; 3]>,
+    /// Side to which each belongs.
+    pub sides: Vec<Side>,
+}

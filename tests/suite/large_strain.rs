@@ -1,0 +1,299 @@
+//! Solids of large strain: gels that fall, bounce and load plates, and blocks that are drawn.
+
+use impinge::closed_form::{ElasticBall, Rubber, Sides};
+use impinge::model::Model;
+use impinge::scene;
+
+use crate::common::{Trial, off};
+
+/// A gel with further keys, that falls on the plane.
+fn gel(keys: &str) -> String {
+    format!(
+        r#"
+name = "Gel"
+stop_time = 0.03
+step = 1e-3
+[body.gel]
+kind = "solid"
+strain = "finite"
+initial_temperature = 293.15
+material = {{ model = "neo_hookean", density = 1000.0, specific_heat = 4180.0, conductivity = 0.6, young = 5600.0, poisson = 0.4 }}
+{keys}
+"#
+    )
+}
+
+const BALL: &str =
+    "shape = { ball = { radius = 10e-3 } }\ninertia = true\nmesh = { spacing = 2e-3 }";
+const FALLS: &str = "gravity = 9.81\nstart = { velocity = [0.0, 0.0, -1.0] }";
+
+fn steps(trial: &mut Trial, count: usize, dt: f64) {
+    (0..count).for_each(|_| trial.step(dt));
+}
+
+#[test]
+fn a_free_body_falls_as_a_point() {
+    let shapes = ["box = [4e-3, 6e-3, 8e-3]", "ball = { radius = 4e-3 }"];
+    let disc = "disc = { radius = 4e-3, thickness = 3e-3 }";
+    for (shape, symmetry) in [
+        (shapes[0], "none"),
+        (shapes[0], "quarter"),
+        (shapes[1], "auto"),
+        (disc, "auto"),
+        (disc, "quarter"),
+    ] {
+        let mut trial = Trial::new(&gel(&format!(
+            "shape = {{ {shape} }}\ninertia = true\nsymmetry = \"{symmetry}\"\nmesh = {{ spacing = 2e-3 }}\n\
+             gravity = 9.81\nstart = {{ velocity = [0.0, 0.0, 1.0], height = 0.1 }}"
+        )));
+        let start = trial.get("gel.centre_z");
+        steps(&mut trial, 10, 1e-3);
+        let fallen = 1.0 * 0.01 - 0.5 * 9.81 * 0.01_f64.powi(2);
+        assert!((trial.get("gel.centre_z") - start - fallen).abs() < 1e-12, "{shape} {symmetry}");
+        assert!(trial.get("gel.max_von_mises") < 1e-6);
+        assert_eq!(trial.get("gel.contact_force"), 0.0);
+    }
+}
+
+#[test]
+fn a_gel_bounces_and_all_balances_close() {
+    for keys in ["dimension = 2", "", "symmetry = \"quarter\""] {
+        let mut trial = Trial::new(&gel(&format!("{BALL}\n{FALLS}\n{keys}")));
+        let mass = trial.get("gel.mass");
+        let (height, kinetic) = (trial.get("gel.centre_z"), trial.get("gel.kinetic"));
+        let mut most: f64 = 0.0;
+        for n in 1..=30 {
+            trial.step(1e-3);
+            let time = 1e-3 * f64::from(n);
+            let momentum = trial.get("gel.momentum_z") + mass + mass * 9.81 * time;
+            let pushed = -trial.get("gel.impulse_z");
+            assert!((momentum - pushed).abs() < 1e-10 * mass, "{keys} {n}");
+            let work = mass * 9.81 * (height - trial.get("gel.centre_z"));
+            let energy = trial.get("gel.kinetic") + trial.get("gel.stored") - work;
+            assert!((energy / kinetic - 1.0).abs() < 0.01, "{keys} {n} {}", energy / kinetic);
+            assert!(trial.get("gel.dissipated").abs() < 0.01 * kinetic);
+            most = most.max(trial.get("gel.width"));
+        }
+        assert!(trial.get("gel.lift_off_time") > 5e-3 && trial.get("gel.momentum_z") > 0.0);
+        assert!(most > 1.2 * 20e-3 && trial.get("gel.least_jacobian") > 0.5);
+    }
+}
+
+#[test]
+fn parts_of_a_ball_are_one_ball() {
+    let outputs = ["width", "height", "contact_force", "stored", "kinetic", "max_von_mises"];
+    let values = |keys: &str| {
+        let mut trial = Trial::new(&gel(&format!("{BALL}\n{FALLS}\n{keys}")));
+        steps(&mut trial, 6, 1e-3);
+        outputs.map(|key| trial.get(&format!("gel.{key}")))
+    };
+    let whole = values("symmetry = \"none\"");
+    let quarter = values("symmetry = \"quarter\"");
+    let section = values("");
+    for n in 0..outputs.len() {
+        assert!(off(quarter[n], whole[n]) < 1e-9, "{} {quarter:?} {whole:?}", outputs[n]);
+        // Stress at a point follows the mesh.
+        let tolerance = if n == 5 { 0.35 } else { 0.06 };
+        assert!(off(section[n], whole[n]) < tolerance, "{} {section:?} {whole:?}", outputs[n]);
+    }
+}
+
+#[test]
+fn a_slow_ball_touches_as_hertz_says() {
+    let (speed, radius) = (0.1, 10e-3);
+    let ball = ElasticBall { radius, density: 1000.0, young: 1e5, poisson: 0.4 };
+    let text =
+        gel("shape = { ball = { radius = 10e-3 } }\ninertia = true\nmesh = { spacing = 0.6e-3 }\n\
+                    start = { velocity = [0.0, 0.0, -0.1] }")
+        .replace("young = 5600.0", "young = 1e5");
+    let mut trial = Trial::new(&text);
+    let (mut force, mut reach): (f64, f64) = (0.0, 0.0);
+    while trial.get("gel.lift_off_time") == 0.0 {
+        trial.step(1e-4);
+        force = force.max(trial.get("gel.contact_force"));
+        reach = reach.max(trial.get("gel.contact_radius"));
+    }
+    assert!(off(force, ball.force(speed)) < 0.1, "{force} {}", ball.force(speed));
+    assert!(
+        off(reach, ball.contact_radius(speed)) < 0.15,
+        "{reach} {}",
+        ball.contact_radius(speed)
+    );
+    let time = trial.get("gel.lift_off_time");
+    assert!(off(time, ball.contact_time(speed)) < 0.05, "{time} {}", ball.contact_time(speed));
+}
+
+/// A block with faces held in some way.
+fn block(faces: &str, keys: &str) -> String {
+    gel(&format!(
+        "shape = {{ box = [10e-3, 8e-3, 12e-3] }}\nmesh = {{ spacing = 4e-3 }}\n{keys}\n{faces}"
+    ))
+}
+
+#[test]
+fn drawn_blocks_follow_the_closed_form() {
+    let rubber = Rubber::of_young(5600.0, 0.4);
+    let ends =
+        "top = { roller = true, displacement = [0.0, 0.0, 0.0] }, bottom = { roller = true }";
+    let lateral = "left = { roller = true }, front = { roller = true }";
+    for (sides, faces) in [
+        (Sides::Held, "sides = { roller = true }"),
+        (
+            Sides::OneHeld,
+            "left = { roller = true }, front = { roller = true }, back = { roller = true }",
+        ),
+        (Sides::Free, lateral),
+        (Sides::Free, ""),
+    ] {
+        let comma = if faces.is_empty() { "" } else { "," };
+        let mut trial = Trial::new(&block(&format!("faces = {{ {ends}{comma} {faces} }}"), ""));
+        for stretch in [1.1, 2.0, 0.6] {
+            trial.set("gel.top.displacement_z", 12e-3 * (stretch - 1.0));
+            trial.step(1.0);
+            let expected = 10e-3 * 8e-3 * rubber.force(stretch, sides);
+            let found = trial.get("gel.top.force_z");
+            assert!(off(found, expected) < 1e-8, "{sides:?} {stretch} {found} {expected}");
+            assert!(off(trial.get("gel.height"), 12e-3 * stretch) < 1e-12);
+            let width =
+                10e-3 * if sides == Sides::Held { 1.0 } else { rubber.lateral(stretch, sides) };
+            assert!(off(trial.get("gel.width"), width) < 1e-8, "{sides:?} {stretch}");
+        }
+    }
+}
+
+#[test]
+fn a_stretched_body_returns() {
+    let faces = "faces = { top = { displacement = [0.0, 0.0, 0.0] }, bottom = { clamped = true } }";
+    for keys in ["", "dimension = 2", "symmetry = \"none\""] {
+        let mut trial = Trial::new(&block(faces, keys));
+        let along = [5e-3, 12e-3, 0.0, -4e-3, 0.0];
+        for to in along {
+            trial.set("gel.top.displacement_z", to);
+            trial.step(1.0);
+            let (force, stored) = (trial.get("gel.top.force_z"), trial.get("gel.stored"));
+            assert!(force * to >= 0.0 && stored >= -1e-15, "{to} {force} {stored}");
+            assert!(trial.get("gel.dissipated").abs() < 1e-15 + 1e-12 * stored);
+        }
+        assert!(trial.get("gel.stored").abs() < 1e-12 && trial.get("gel.top.force_z").abs() < 1e-9);
+    }
+}
+
+#[test]
+fn the_work_of_a_face_is_what_is_stored() {
+    let faces = "faces = { top = { displacement = [0.0, 0.0, 0.0] }, bottom = { clamped = true } }";
+    let mut trial = Trial::new(&block(faces, "symmetry = \"none\""));
+    let (mut work, mut force) = (0.0, [0.0; 2]);
+    let count = 200;
+    for n in 1..=count {
+        let part = f64::from(n) / f64::from(count);
+        trial.set("gel.top.displacement_z", 6e-3 * part);
+        trial.set("gel.top.displacement_x", 4e-3 * part);
+        trial.step(1.0);
+        let now = [trial.get("gel.top.force_x"), trial.get("gel.top.force_z")];
+        let mean = [0, 1].map(|a| 0.5 * (force[a] + now[a]));
+        work += (mean[0] * 4e-3 + mean[1] * 6e-3) / f64::from(count);
+        force = now;
+    }
+    assert!(off(trial.get("gel.stored"), work) < 1e-4, "{} {work}", trial.get("gel.stored"));
+}
+
+/// A gel on a plate.
+fn on_plate(shape: &str, keys: &str, coupling: &str) -> String {
+    let text = gel(&format!("{BALL}\n{FALLS}\n{keys}"));
+    format!(
+        r#"{text}
+[body.plate]
+kind = "solid"
+shape = {{ {shape} }}
+material = {{ model = "thermoelastic", density = 2500.0, specific_heat = 840.0, conductivity = 1.1, young = 70e9, poisson = 0.22, expansion = 9e-6 }}
+initial_temperature = 293.15
+mesh = {{ spacing = 2e-3, order = 1, growth = 2.0 }}
+faces = {{ bottom = {{ clamped = true }} }}
+[[coupling]]
+from = "gel"
+to = "plate.top"
+{coupling}
+[[probe]]
+name = "below"
+in = "plate"
+at = [0.0, 0.0, 0.0]
+gives = ["stress", "temperature"]
+"#
+    )
+}
+
+#[test]
+fn what_the_gel_loses_the_plate_bears() {
+    let disc = "disc = { radius = 40e-3, thickness = 4e-3 }";
+    let square = "box = [80e-3, 80e-3, 4e-3]";
+    for (shape, keys) in [(disc, ""), (square, ""), (square, "symmetry = \"quarter\"")] {
+        let mut trial = Trial::new(&on_plate(shape, keys, "interval = 1e-3"));
+        steps(&mut trial, 6, 1e-3);
+        let force = trial.get("gel.contact_force");
+        let stress = trial.get("below.stress_zz");
+        assert!(force > 0.1 && stress < -100.0, "{shape} {keys} {force} {stress}");
+        assert_eq!(trial.get("gel.force_outside"), 0.0);
+        assert_eq!(trial.get("below.temperature"), 293.15);
+        // The pressure below the middle is of the order of the force over the area in contact.
+        let area = std::f64::consts::PI * trial.get("gel.contact_radius").powi(2);
+        let mean = force / area;
+        assert!((0.5..4.0).contains(&(-stress / mean)), "{shape} {keys} {stress} {mean}");
+    }
+    let mut free = Trial::new(&on_plate(square, "", "interval = 1e-3\ntraction = false"));
+    steps(&mut free, 6, 1e-3);
+    assert_eq!(free.get("below.stress_zz"), 0.0);
+}
+
+#[test]
+fn states_continue_bit_for_bit_on_any_threads() {
+    let text = gel(&format!("{BALL}\n{FALLS}\nsymmetry = \"none\""));
+    let mut one = Trial::on_threads(&text, 1);
+    let mut two = Trial::on_threads(&text, 3);
+    steps(&mut one, 4, 1e-3);
+    steps(&mut two, 4, 1e-3);
+    assert_eq!(one.state, two.state);
+    let saved = one.state.clone();
+    steps(&mut one, 3, 1e-3);
+    two.restart(&saved);
+    steps(&mut two, 3, 1e-3);
+    assert_eq!(one.state, two.state);
+}
+
+#[test]
+fn states_that_no_run_produces_are_refused() {
+    let moving = gel(&format!("{BALL}\n{FALLS}"));
+    let faces =
+        "faces = { top = { displacement = [0.0, 0.0, 1e-3] }, bottom = { clamped = true } }";
+    for text in [moving, block(faces, "")] {
+        let mut trial = Trial::new(&text);
+        steps(&mut trial, 5, 1e-3);
+        let model: &Model = &trial.model;
+        assert_eq!(model.check_state(&trial.state), Ok(()));
+        let mut refused = 0;
+        let count = trial.state.bodies[0].len();
+        for n in (0..count).step_by(7) {
+            for damage in [f64::NAN, 1e30] {
+                let mut state = trial.state.clone();
+                state.bodies[0][n] = damage;
+                refused += usize::from(model.check_state(&state).is_err());
+            }
+        }
+        let tried = 2 * count.div_ceil(7);
+        assert!(refused * 10 >= tried * 9, "{refused} of {tried}");
+        let mut short = trial.state.clone();
+        short.bodies[0].pop();
+        assert!(model.check_state(&short).is_err());
+    }
+}
+
+#[test]
+fn what_tears_a_mesh_is_refused_and_changes_nothing() {
+    let text = gel(&format!("{BALL}\nstart = {{ velocity = [0.0, 0.0, -60.0] }}"));
+    let mut trial = Trial::new(&text);
+    let before = trial.state.clone();
+    let refused = trial.try_step(1e-2).unwrap_err().to_string();
+    assert!(refused.contains("gel") && refused.contains("turned inside out"), "{refused}");
+    assert_eq!(trial.state, before);
+    let scene = scene::parse(&text, "scene").unwrap();
+    assert_eq!(scene.large_strains().count(), 1);
+}
