@@ -19,6 +19,7 @@ mod elasticity;
 mod falling_drop;
 mod flows;
 mod heat;
+mod large_strain;
 mod particles;
 #[path = "../common/random_scenes.rs"]
 mod random_scenes;

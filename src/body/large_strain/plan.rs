@@ -1,6 +1,6 @@
 //! Converts a solid of large strain of a scene to its mesh and its mechanics.
 
-use crate::laws::solid::hyperelastic::Hyperelastic;
+use crate::laws::solid::large_strain::LargeStrainLaw;
 use crate::method::fem::Refinement;
 use crate::method::large_strain::{Deformable, Plane};
 use crate::scene::{Coupling, FaceName, LargeStrain, SolidShape};
@@ -49,8 +49,8 @@ pub fn mesh(solid: &LargeStrain) -> Mesh {
     }
 }
 
-pub fn law(solid: &LargeStrain) -> Hyperelastic {
-    let law = solid.material.material().law.deformation().hyperelastic(solid.initial_temperature);
+pub fn law(solid: &LargeStrain) -> LargeStrainLaw {
+    let law = solid.material.material().law.deformation().large_strain(solid.initial_temperature);
     law.expect("a checked solid of large strain has a law of large strain")
 }
 

@@ -1,6 +1,6 @@
 //! What is read of a state of a solid of large strain.
 
-use crate::laws::solid::hyperelastic::Deformed;
+use crate::laws::solid::large_strain::Deformed;
 use crate::method::large_strain::{Deformable, Failure, Touch};
 use crate::method::sph::ParticleFields;
 use crate::space::Form;

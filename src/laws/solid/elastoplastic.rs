@@ -13,14 +13,18 @@
 
 use std::sync::Arc;
 
+use super::large_strain::{Deviator, LargeStrainLaw, Plastic};
 use super::law::{Deformation, FlowLaw, Need, Response};
+use super::neo_hookean::moduli;
 use super::overstress::{Overstress, Parted};
-use super::{Elasticity, PlasticHistory, Thermoelastic, Yielding, law_of_parts};
+use super::{
+    Elasticity, PlasticHistory, Saturating, Saturation, Thermoelastic, Yielding, law_of_parts,
+};
 use crate::laws::Property;
 
 law_of_parts! {
     /// Keys of J₂ plasticity.
-    ElastoplasticLaw { elasticity: Elasticity, yielding: Yielding }
+    ElastoplasticLaw { elasticity: Elasticity, yielding: Yielding, saturating: Saturating }
 }
 
 impl Deformation for ElastoplasticLaw {
@@ -36,6 +40,26 @@ impl Deformation for ElastoplasticLaw {
 
     fn yields(&self) -> bool {
         true
+    }
+
+    fn saturates(&self) -> bool {
+        self.saturating.hardening.is_some()
+    }
+
+    fn large_strain(&self, temperature: f64) -> Option<LargeStrainLaw> {
+        let [bulk, shear] = moduli(&self.elasticity, temperature)?;
+        let value = |property: &Option<Property>| Some(property.as_ref()?.value(temperature));
+        let yield_stress = value(&self.yielding.yield_stress)?;
+        let hardening = value(&self.yielding.isotropic_hardening).unwrap_or(0.0);
+        let kinematic = value(&self.yielding.kinematic_hardening).unwrap_or(0.0);
+        let none = Saturation { saturation: yield_stress, rate: 0.0 };
+        let Saturation { saturation, rate } = self.saturating.hardening.unwrap_or(none);
+        let deviator = Deviator::Plastic(Plastic { yield_stress, hardening, saturation, rate });
+        (kinematic == 0.0 && saturation >= yield_stress).then_some(LargeStrainLaw {
+            bulk,
+            shear,
+            deviator,
+        })
     }
 
     fn flow_law(&self, stress_free_temperature: f64) -> Arc<dyn FlowLaw> {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::elastoplastic::respond_at;
-use super::hyperelastic::Hyperelastic;
+use super::large_strain::LargeStrainLaw;
 use super::{Elasticity, PlasticHistory, PointConstants, Thermoelastic};
 use crate::laws::{Part, Property};
 
@@ -38,13 +38,18 @@ pub trait Deformation: Keys {
         false
     }
 
-    /// Returns true if the law is one of solids of large strain.
+    /// Returns true if the law is one of large strain alone.
     fn is_of_large_strain(&self) -> bool {
         false
     }
 
-    /// Returns the law of large strain at a temperature [K]; `None` if it is none, or lacks constants.
-    fn hyperelastic(&self, _temperature: f64) -> Option<Hyperelastic> {
+    /// Returns true if the yield stress saturates, which laws of small strain do not model.
+    fn saturates(&self) -> bool {
+        false
+    }
+
+    /// Returns the law of large strain at a temperature [K]; `None` if there is none, or constants are missing or beyond it.
+    fn large_strain(&self, _temperature: f64) -> Option<LargeStrainLaw> {
         None
     }
 

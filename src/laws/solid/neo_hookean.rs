@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::hyperelastic::Hyperelastic;
+use super::large_strain::LargeStrainLaw;
 use super::law::{Deformation, FlowLaw, Need};
 use super::{Elasticity, SolidLaw, law_of_parts};
 use crate::laws::Property;
@@ -26,8 +26,9 @@ impl Deformation for NeoHookeanLaw {
         true
     }
 
-    fn hyperelastic(&self, temperature: f64) -> Option<Hyperelastic> {
-        hyperelastic(&self.elasticity, temperature)
+    fn large_strain(&self, temperature: f64) -> Option<LargeStrainLaw> {
+        let [bulk, shear] = moduli(&self.elasticity, temperature)?;
+        Some(LargeStrainLaw::elastic(bulk, shear))
     }
 
     fn flow_law(&self, stress_free_temperature: f64) -> Arc<dyn FlowLaw> {
@@ -35,13 +36,10 @@ impl Deformation for NeoHookeanLaw {
     }
 }
 
-/// The law with the moduli of small strains at a temperature [K]: `µ = E/(2(1 + ν))`, `κ = E/(3(1 − 2ν))`.
-pub fn hyperelastic(elasticity: &Elasticity, temperature: f64) -> Option<Hyperelastic> {
+/// Bulk and shear modulus at a temperature [K], `κ = E/(3(1 − 2ν))` and `µ = E/(2(1 + ν))` [Pa]; `None` if a constant is
+/// missing.
+pub fn moduli(elasticity: &Elasticity, temperature: f64) -> Option<[f64; 2]> {
     let value = |property: &Option<Property>| Some(property.as_ref()?.value(temperature));
     let (young, poisson) = (value(&elasticity.young)?, value(&elasticity.poisson)?);
-    Some(Hyperelastic {
-        bulk: young / (3.0 * (1.0 - 2.0 * poisson)),
-        shear: young / (2.0 * (1.0 + poisson)),
-        branches: Vec::new(),
-    })
+    Some([young / (3.0 * (1.0 - 2.0 * poisson)), young / (2.0 * (1.0 + poisson))])
 }

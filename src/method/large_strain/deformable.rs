@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::Failure;
-use crate::laws::solid::hyperelastic::{Deformed, Hyperelastic};
+use crate::laws::solid::large_strain::{Deformed, LargeStrainLaw};
 use crate::math::matrix3::{IDENTITY, Matrix3, contraction};
 use crate::runtime::parallel::Team;
 use crate::space::{Form, Samples, Space};
@@ -11,7 +11,7 @@ use crate::space::{Form, Samples, Space};
 /// A body in its reference configuration with its law.
 pub struct Deformable {
     pub space: Space,
-    pub law: Hyperelastic,
+    pub law: LargeStrainLaw,
     /// Reference density ρ₀ [kg/m³].
     pub density: f64,
     /// Mass of each node [kg].
@@ -38,8 +38,6 @@ struct Use {
 pub struct Stresses {
     /// Volume times P of each point [N m].
     pub loads: Vec<Matrix3>,
-    /// Q of each point, see [`Hyperelastic`].
-    pub carriers: Vec<Matrix3>,
     /// Stored energy [J].
     pub energy: f64,
     /// Largest modulus of plane waves over that of the undeformed body.
@@ -56,7 +54,6 @@ struct Chunk<'a> {
     groups: Range<usize>,
     history: &'a mut [f64],
     loads: &'a mut [Matrix3],
-    carriers: &'a mut [Matrix3],
     energy: f64,
     stiffening: f64,
     least: (f64, usize),
@@ -66,7 +63,7 @@ impl Deformable {
     /// Creates a body with mirrors at x = 0 and y = 0, where these are planes of symmetry.
     pub fn new(
         space: Space,
-        law: Hyperelastic,
+        law: LargeStrainLaw,
         density: f64,
         mirrors: [bool; 2],
         threads: usize,
@@ -146,7 +143,6 @@ impl Deformable {
         let count = self.space.volume.len();
         let mut stresses = Stresses {
             loads: vec![[[0.0; 3]; 3]; count],
-            carriers: vec![[[0.0; 3]; 3]; count],
             least: f64::INFINITY,
             ..Stresses::default()
         };
@@ -175,20 +171,18 @@ impl Deformable {
     /// Cuts history and results into chunks.
     fn chunks<'a>(&self, history: &'a mut [f64], stresses: &'a mut Stresses) -> Vec<Chunk<'a>> {
         let groups = &self.space.groups;
-        let mut rest = (history, &mut stresses.loads[..], &mut stresses.carriers[..]);
+        let mut rest = (history, &mut stresses.loads[..]);
         let mut chunks = Vec::new();
         for first in (0..groups.len()).step_by(CHUNK) {
             let last = (first + CHUNK).min(groups.len());
             let points = groups[last - 1].end - groups[first].start;
             let (history, after) = rest.0.split_at_mut(points * self.law.history());
             let (loads, later) = rest.1.split_at_mut(points);
-            let (carriers, latest) = rest.2.split_at_mut(points);
-            rest = (after, later, latest);
+            rest = (after, later);
             chunks.push(Chunk {
                 groups: first..last,
                 history,
                 loads,
-                carriers,
                 energy: 0.0,
                 stiffening: 0.0,
                 least: (f64::INFINITY, 0),
@@ -216,13 +210,12 @@ impl Deformable {
                     load[a][b] =
                         weight * (response.stress[a][b] + jp * at.inverse_transposed[a][b]);
                 }
-                chunk.carriers[place] = response.carrier;
                 chunk.energy += weight * response.energy;
                 if !(at.dilatation >= chunk.least.0) {
                     chunk.least = (at.dilatation, point);
                 }
-                let stiff = self.law.wave_modulus_at(at, &response.carrier, mean) / modulus;
-                chunk.stiffening = chunk.stiffening.max(stiff);
+                let wave = response.wave + self.law.wave_of_dilatation(at, mean);
+                chunk.stiffening = chunk.stiffening.max(wave / modulus);
                 whole += weight;
                 place += 1;
             }

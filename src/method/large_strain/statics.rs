@@ -57,8 +57,8 @@ const SMALL: f64 = 1e-6;
 const ROUNDING: f64 = 4e-15;
 
 /// A trial of displacements.
-struct Trial {
-    linearised: Linearised,
+struct Trial<'a> {
+    linearised: Linearised<'a>,
     stresses: Stresses,
     /// Forces on free nodes that are not balanced.
     residual: Vec<[f64; 3]>,
@@ -126,12 +126,12 @@ impl Equilibrium {
     }
 
     /// A Newton step, halved while the residual grows or the material is turned inside out.
-    fn improve(
+    fn improve<'s>(
         &self,
-        step: &Step,
+        step: &Step<'s>,
         u: &[[f64; 3]],
         now: &Trial,
-    ) -> Result<(Vec<[f64; 3]>, Trial), Failure> {
+    ) -> Result<(Vec<[f64; 3]>, Trial<'s>), Failure> {
         let factor = self.factor(step, now)?;
         let mut change = self.stiffness.solve(&factor, &now.residual);
         for _ in 0..HALVINGS {
@@ -177,7 +177,7 @@ impl Equilibrium {
         Ok(sum(&self.stiffness.solve(&self.factor(step, now)?, &load), jump))
     }
 
-    fn at(&self, step: &Step, u: &[[f64; 3]]) -> Result<Trial, Failure> {
+    fn at<'s>(&self, step: &Step<'s>, u: &[[f64; 3]]) -> Result<Trial<'s>, Failure> {
         let body = &self.body;
         let mut history = step.from.history.clone();
         let stresses = body.respond(u, step.dt, &mut history, step.team)?;
@@ -196,8 +196,8 @@ impl Equilibrium {
                 norm += residual[node][a].powi(2);
             }
         }
-        let carriers = stresses.carriers.clone();
-        let linearised = Linearised { deformations, dilatations, carriers, dt: step.dt };
+        let before = &step.from.history[..];
+        let linearised = Linearised { deformations, dilatations, before, dt: step.dt };
         let scale = scale.sqrt().max(f64::MIN_POSITIVE);
         Ok(Trial { linearised, stresses, residual, norm: norm.sqrt(), scale, history, reactions })
     }

@@ -9,8 +9,7 @@ use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
 use faer::{Mat, Side};
 
 use super::Deformable;
-use crate::laws::solid::hyperelastic::{Deformed, Tangent};
-use crate::math::matrix3::Matrix3;
+use crate::laws::solid::large_strain::{Deformed, Tangent};
 use crate::runtime::parallel::Team;
 use crate::space::Form;
 
@@ -86,6 +85,9 @@ impl Stiffness {
         values.resize(values.len() + self.count, 0.0);
         let matrix = SparseColMat::new_from_argsort(self.pattern.clone(), &self.order, &values)
             .map_err(|_| Singular)?;
+        if !body.law.is_symmetric() {
+            return self.factor_indefinite(&matrix);
+        }
         match Llt::try_new_with_symbolic(self.llt.clone(), matrix.as_ref(), Side::Lower) {
             Ok(factor) => Ok(Factor::Positive(factor)),
             Err(_) => self.factor_indefinite(&matrix),
@@ -128,12 +130,12 @@ impl Stiffness {
 }
 
 /// A state about which a body is linearised.
-pub struct Linearised {
+pub struct Linearised<'a> {
     pub deformations: Vec<Deformed>,
     /// Mean J of each group.
     pub dilatations: Vec<f64>,
-    /// Q of each point.
-    pub carriers: Vec<Matrix3>,
+    /// History at the beginning of the step.
+    pub before: &'a [f64],
     pub dt: f64,
 }
 
@@ -171,7 +173,9 @@ fn element(body: &Deformable, state: &Linearised, block: &Block, group: usize) -
     for point in block.points.clone() {
         let (at, weight) = (&state.deformations[point], volume.weights[point]);
         whole += weight;
-        let tangent = body.law.tangent(at, &state.carriers[point], state.dt, pressure);
+        let length = body.law.history();
+        let before = &state.before[length * point..length * (point + 1)];
+        let tangent = body.law.tangent(at, state.dt, before, pressure);
         let strains = strains(body, point, &block.nodes);
         let cofactor = at.inverse_transposed.map(|row| row.map(|g| at.dilatation * g));
         for (a, strain) in strains.iter().enumerate() {

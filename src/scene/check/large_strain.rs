@@ -70,15 +70,11 @@ fn check_shape(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
 
 fn check_material(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
     let law = solid.material.material().law.deformation();
-    let path = path.key("material");
-    if !law.is_of_large_strain() {
-        let message = "this law is one of small strain";
-        checker.refuse(&path, message, "`model = \"neo_hookean\"`");
-        return;
-    }
-    if law.hyperelastic(solid.initial_temperature).is_none() {
-        let message = "a solid of large strain needs elastic constants";
-        checker.refuse(&path, message, "`young` (Pa) and `poisson`");
+    if law.large_strain(solid.initial_temperature).is_none() {
+        let message = "a solid of large strain cannot be made of this material";
+        let allowed = "`model = \"neo_hookean\"` with `young` and `poisson`; or `\"elastoplastic\"` with \
+                       `yield_stress`, too, without `kinematic_hardening`, with a `saturation` not below the yield stress";
+        checker.refuse(&path.key("material"), message, allowed);
     }
 }
 

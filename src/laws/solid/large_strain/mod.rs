@@ -1,0 +1,123 @@
+//! Laws of solids of large strain: elastic changes of volume, with a deviator that relaxes or flows.
+//!
+//! The energy of the dilatation `J = det F` per reference volume is `U(J) = ½ κ (½ (J² − 1) − ln J)`, source: J. C. Simo and
+//! T. J. R. Hughes, *Computational Inelasticity*, Springer 1998, eq. 9.2.3. Deviators have no part in the volume:
+//! [`relaxing`] is neo-Hooke with Maxwell branches, [`plastic`] multiplicative J₂ plasticity.
+
+mod deformed;
+mod plastic;
+mod relaxing;
+
+pub use deformed::Deformed;
+pub use plastic::Plastic;
+pub use relaxing::{MaxwellBranch, Relaxing};
+
+use crate::math::matrix3::{Matrix3, eigenvalue_bound, product, transposed};
+
+/// A law of large strain.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LargeStrainLaw {
+    /// Bulk modulus κ [Pa].
+    pub bulk: f64,
+    /// Instantaneous shear modulus µ [Pa].
+    pub shear: f64,
+    pub deviator: Deviator,
+}
+
+/// Law of the change of shape.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Deviator {
+    Relaxing(Relaxing),
+    Plastic(Plastic),
+}
+
+/// Response of a point to a change of shape.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Isochoric {
+    /// First Piola–Kirchhoff stress P, without that of the dilatation [Pa].
+    pub stress: Matrix3,
+    /// Energy stored per reference volume, without that of the dilatation [J/m³].
+    pub energy: f64,
+    /// Bound on the modulus of shear in plane waves of the reference configuration [Pa].
+    pub wave: f64,
+}
+
+/// `∂P/∂F`: row `3 i + J`, column `3 k + L`.
+pub type Tangent = [[f64; 9]; 9];
+
+impl LargeStrainLaw {
+    /// Returns the law without history whose moduli for small strains are these.
+    pub fn elastic(bulk: f64, shear: f64) -> Self {
+        Self { bulk, shear, deviator: Deviator::Relaxing(Relaxing::default()) }
+    }
+
+    /// Numbers of history of a point, which begin as zeros.
+    pub fn history(&self) -> usize {
+        match &self.deviator {
+            Deviator::Relaxing(relaxing) => relaxing.history(),
+            Deviator::Plastic(_) => Plastic::HISTORY,
+        }
+    }
+
+    /// Returns false if the tangent is not symmetric.
+    pub fn is_symmetric(&self) -> bool {
+        matches!(self.deviator, Deviator::Relaxing(_))
+    }
+
+    /// Modulus of plane waves in the undeformed body [Pa].
+    pub fn wave_modulus(&self) -> f64 {
+        self.bulk + 4.0 / 3.0 * self.shear
+    }
+
+    /// U′ and U″ at a dilatation [Pa].
+    pub fn pressure(&self, j: f64) -> [f64; 2] {
+        [0.5 * self.bulk * (j - 1.0 / j), 0.5 * self.bulk * (1.0 + 1.0 / (j * j))]
+    }
+
+    /// U [J/m³].
+    pub fn energy_of_dilatation(&self, j: f64) -> f64 {
+        0.5 * self.bulk * (0.5 * (j * j - 1.0) - j.ln())
+    }
+
+    /// Advances the history by a time step [s]; returns the response at its end.
+    pub fn respond(&self, at: &Deformed, dt: f64, history: &mut [f64]) -> Isochoric {
+        match &self.deviator {
+            Deviator::Relaxing(relaxing) => relaxing.respond(self.shear, at, dt, history),
+            Deviator::Plastic(plastic) => plastic.respond(self.shear, at, history),
+        }
+    }
+
+    /// `∂P/∂F` over a step from a history, at a pressure of the dilatation that stays the same.
+    pub fn tangent(&self, at: &Deformed, dt: f64, before: &[f64], pressure: f64) -> Tangent {
+        let mut tangent = match &self.deviator {
+            Deviator::Relaxing(relaxing) => relaxing.tangent(self.shear, at, dt, before),
+            Deviator::Plastic(plastic) => plastic.tangent(self.shear, at, before),
+        };
+        let (g, jp) = (&at.inverse_transposed, at.dilatation * pressure);
+        for (row, line) in tangent.iter_mut().enumerate() {
+            for (column, value) in line.iter_mut().enumerate() {
+                let ((i, a), (k, b)) = ((row / 3, row % 3), (column / 3, column % 3));
+                *value += jp * (g[i][a] * g[k][b] - g[i][b] * g[k][a]);
+            }
+        }
+        tangent
+    }
+
+    /// Bound on the modulus of compression in plane waves of the reference configuration [Pa]: along the axis of the
+    /// smallest stretch.
+    pub fn wave_of_dilatation(&self, at: &Deformed, mean: f64) -> f64 {
+        let [_, stiffness] = self.pressure(mean);
+        stiffness * at.dilatation * at.dilatation * at.steepest()
+    }
+}
+
+impl Deformed {
+    /// Bound on the inverse square of the smallest stretch, exact without shear.
+    fn steepest(&self) -> f64 {
+        let g = &self.inverse_transposed;
+        eigenvalue_bound(&product(&transposed(g), g))
+    }
+}
+
+#[cfg(test)]
+mod tests;
