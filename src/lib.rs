@@ -86,7 +86,7 @@
 //! | [`laws`] | Constitutive laws of solids, fluids and heat, each with its keys, limits and parameters. |
 //! | [`kernel`] | Smoothing kernels of particle methods. |
 //! | [`state`] | Named fields of the flat vectors that hold the states of bodies. |
-//! | [`space`] | Functions of nodes and their gradients at points, as sparse rows: finite elements. |
+//! | [`space`] | Functions of nodes and their gradients at points, as sparse rows: finite elements, reproducing kernels. |
 //! | [`scene`] | Types, parser, checks and JSON schema of `scene.toml`. |
 //! | [`advice`] | Warnings about plausible mistakes in a scene, before it runs. |
 //! | [`inputs`] | Layout of the inputs, and their polynomials in time over a step. |

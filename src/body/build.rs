@@ -81,7 +81,7 @@ pub fn build(
                 Some((below.cells(link.face)?, link))
             });
             built[index] = Some(match solid.inertia {
-                true => Box::new(MovingBody::new((name, solid), cells, threads)),
+                true => Box::new(MovingBody::new((name, solid), cells, threads)?),
                 false => Box::new(RestingBody::new(layout, (name, solid), threads)?),
             });
         }

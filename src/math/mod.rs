@@ -12,6 +12,7 @@ pub mod eight;
 pub mod exponential;
 pub mod gauss;
 pub mod lagrange;
+pub mod lanes;
 pub mod matrix3;
 pub mod nested_dissection;
 pub mod product;

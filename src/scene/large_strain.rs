@@ -36,6 +36,12 @@ pub struct LargeStrain {
     #[serde(default)]
     #[schemars(extend("condition" = "a box is not `axisymmetric`, a disc is"))]
     pub symmetry: LargeStrainSymmetry,
+    /// Discretisation: finite elements, reproducing kernels, or the element-free Galerkin method.
+    #[serde(default)]
+    pub mechanics: Mechanics,
+    /// Settings of `rkpm` and `efg`.
+    #[schemars(extend("otherwise" = "a linear basis", "condition" = "with `mechanics = \"rkpm\"` or `\"efg\"`"))]
+    pub rkpm: Option<KernelSettings>,
     /// True if the body has inertia: it moves freely above the plane z = 0, or above the body of its coupling, and falls.
     /// Otherwise it is in equilibrium at every time.
     #[serde(default)]
@@ -81,6 +87,55 @@ pub enum SmallStrain {
     /// Strains and rotations far below 1.
     #[default]
     Small,
+}
+
+/// Discretisation of a solid of large strain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Mechanics {
+    /// Linear finite elements.
+    #[default]
+    Fem,
+    /// Reproducing kernels: cubic splines on boxes.
+    Rkpm,
+    /// The element-free Galerkin method: moving least squares with quartic splines on balls.
+    Efg,
+}
+
+/// Settings of reproducing kernels.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct KernelSettings {
+    /// Order of the polynomials that the functions reproduce.
+    #[schemars(transform = whole(1, 2, "no basis of this order", "1 (linear), 2 (quadratic)"))]
+    pub basis: usize,
+    /// Half of the width of supports, in distances of nodes.
+    #[schemars(transform = within(1.0, 6.0, "distances of nodes", "").low_open().says(
+        "the support, in distances of nodes, reaches too few or too many",
+        "above `basis`, up to 6",
+    ).otherwise("`basis` + 0.75; 2 `basis` of `efg`"))]
+    pub support: Option<f64>,
+    /// Points at which the mechanics is integrated.
+    pub integration: KernelIntegration,
+}
+
+impl Default for KernelSettings {
+    fn default() -> Self {
+        Self { basis: 1, support: None, integration: KernelIntegration::default() }
+    }
+}
+
+/// Integration of reproducing kernels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum KernelIntegration {
+    /// Naturally stabilised: as exact as the basis, at a few points about each node.
+    #[default]
+    Nsni,
+    /// Stabilised conforming: one point a node with the mean gradient of its cell; soft in bending.
+    Scni,
+    /// Gauss points of the cells between nodes; fails the patch test.
+    Gauss,
 }
 
 /// The shape of a solid of large strain. The origin of a box and of a disc is the centre of their top, that of a ball its

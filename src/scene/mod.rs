@@ -50,7 +50,9 @@ pub use file::{bytes_of, open_file};
 pub use footprint::Profile;
 pub use grid::{Grid, lateral_extents};
 pub use kinds::Drawn;
-pub use large_strain::{HeldFace, LargeStrain, SmallStrain, SolidShape};
+pub use large_strain::{
+    HeldFace, KernelIntegration, KernelSettings, LargeStrain, Mechanics, SmallStrain, SolidShape,
+};
 pub use lookup::{BodyInput, Place};
 pub use materials::{MaterialChoice, Stratum};
 pub use recording::Recording;

@@ -76,7 +76,7 @@ fn sample(mesh: &Mesh, cell: &[u32], local: [f64; 3]) -> ([f64; 3], f64, Vec<Val
 }
 
 /// Function of a corner and its derivatives at a place of the unit cell.
-fn shape(form: Form, corner: usize, local: [f64; 3]) -> (f64, [f64; 3]) {
+pub(super) fn shape(form: Form, corner: usize, local: [f64; 3]) -> (f64, [f64; 3]) {
     let bits = match form {
         Form::Solid => [corner & 1, corner >> 1 & 1, corner >> 2],
         _ => [corner & 1, 2, corner >> 1],
@@ -159,6 +159,6 @@ fn centres(mesh: &Mesh) -> Vec<[f64; 3]> {
     mesh.faces.iter().map(|(_, face)| centre(face)).collect()
 }
 
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

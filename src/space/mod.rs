@@ -3,10 +3,14 @@
 
 mod finite_elements;
 mod mesh;
+mod reproducing;
 mod samples;
 
 pub use finite_elements::finite_elements;
 pub use mesh::{Mesh, Side};
+pub use reproducing::{
+    Functions, Integration, Kernel, Refused, Reproducing, Row, Shape, Sides, reproducing,
+};
 pub use samples::{Samples, Value};
 
 use std::ops::Range;

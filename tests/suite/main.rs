@@ -53,6 +53,7 @@ mod power;
 mod recovered_stress;
 mod reduced;
 mod replay;
+mod reproducing;
 mod reservoirs;
 mod rings;
 mod rows;

@@ -20,7 +20,7 @@ const IMPACT: &str = include_str!("../scenes/impact.toml");
 /// stands there with a key that there is not, and keys that choose the section's type.
 type Section = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
-const SECTIONS: [Section; 37] = [
+const SECTIONS: [Section; 39] = [
     ("The whole", PLATE, "stop_time =", "zz = 1\nstop_time =", &[]),
     ("`fidelity`", PLATE, "level =", "zz = 1\nlevel =", &[]),
     ("`solver`", PLATE, "stop_time =", "solver = { zz = 1 }\nstop_time =", &[]),
@@ -52,7 +52,7 @@ const SECTIONS: [Section; 37] = [
         PLATE,
         "\"thermoelastic\"",
         "\"viscoplastic\", zz = 1",
-        &["model", "substance", "at"],
+        &["model", "substance", "at", "hardening"],
     ),
     (
         "`melting` of a material",
@@ -66,6 +66,13 @@ const SECTIONS: [Section; 37] = [
         PLATE,
         "\"thermoelastic\"",
         "\"viscoplastic\", creep = { zz = 1 }",
+        &[],
+    ),
+    (
+        "`hardening` of a material",
+        PLATE,
+        "\"thermoelastic\"",
+        "\"elastoplastic\", hardening = { zz = 1 }",
         &[],
     ),
     ("`layers` of a solid", PLATE, "material = {", "layers = [{ zz = 1 }] # {", &[]),
@@ -105,6 +112,13 @@ const SECTIONS: [Section; 37] = [
         PLATE,
         "[body.plate]",
         "[body.gel]\nkind = \"solid\"\nstrain = \"finite\"\nmesh = { zz = 1 }\n[body.plate]",
+        &[],
+    ),
+    (
+        "`rkpm` of a solid of large strain",
+        PLATE,
+        "[body.plate]",
+        "[body.gel]\nkind = \"solid\"\nstrain = \"finite\"\nrkpm = { zz = 1 }\n[body.plate]",
         &[],
     ),
     (

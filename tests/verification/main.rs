@@ -23,6 +23,7 @@ mod large_strain;
 mod particles;
 #[path = "../common/random_scenes.rs"]
 mod random_scenes;
+mod reproducing;
 mod spread;
 mod study;
 mod tension;

@@ -2,8 +2,8 @@
 
 use super::plan;
 use crate::body::threads_for;
-use crate::scene::{Coupling, LargeStrain, Scene};
-use crate::space::Form;
+use crate::scene::{Coupling, LargeStrain, Mechanics, Scene};
+use crate::space::{Form, Integration, Mesh};
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct LargeStrainForecast {
@@ -23,21 +23,22 @@ pub struct LargeStrainForecast {
     pub notes: Vec<String>,
 }
 
-/// Time of a point in a step of motion, of a step of equilibrium with five iterations, and of the factorisation there,
-/// which grows with the power 1.5 of the nodes in a plane and the square in space [s].
-const MOVING: f64 = 0.35e-6;
-const RESTING: f64 = 2.0e-5;
+/// Time of a point and of a function there, in a step of motion and in one of equilibrium with five iterations, and of the
+/// factorisation there, which grows with the power 1.5 of the nodes in a plane and the square in space [s].
+const MOVING: [f64; 2] = [0.15e-6, 0.04e-6];
+const RESTING: [f64; 2] = [5e-6, 0.4e-6];
 const FACTOR_IN_PLANE: f64 = 4.0e-8;
 const FACTOR_IN_SPACE: f64 = 6.0e-8;
-/// Memory of a point [B], and of a node for a factorisation.
-const POINT: f64 = 900.0;
+/// Memory of a point, and of a function there [B].
+const POINT: f64 = 500.0;
+const FUNCTION: f64 = 90.0;
 
 impl LargeStrainForecast {
     /// Estimates the cost from the mesh alone.
     pub fn of(scene: &Scene, name: &str, solid: &LargeStrain) -> Self {
         let mesh = plan::mesh(solid);
-        let corners = mesh.cells.first().map_or(0, Vec::len);
-        let (nodes, points) = (mesh.nodes.len(), mesh.cells.len() * corners);
+        let nodes = mesh.nodes.len();
+        let (points, functions) = points(solid, &mesh);
         let threads = threads_for(scene.solver.threads, super::is_large(points)) as f64;
         let law = plan::law(solid);
         let density = solid.material.material().heat.density;
@@ -47,10 +48,14 @@ impl LargeStrainForecast {
         let exchanges = (scene.stop_time / scene.step).ceil();
         let steps = time_step.map_or(exchanges, |dt| (scene.stop_time / dt).max(exchanges));
         let of_step = match solid.inertia {
-            true => MOVING * points as f64,
-            false => RESTING * points as f64 + 5.0 * factor_time(plan::form(solid), nodes as f64),
+            true => points as f64 * (MOVING[0] + MOVING[1] * functions),
+            false => {
+                let assembly = points as f64 * (RESTING[0] + RESTING[1] * functions * functions);
+                assembly + 5.0 * factor_time(plan::form(solid), nodes as f64)
+            }
         };
-        let memory = POINT * points as f64 + 8.0 * (1.0 + law.history() as f64) * points as f64;
+        let of_point = POINT + FUNCTION * functions + 8.0 * law.history() as f64;
+        let memory = of_point * points as f64;
         Self {
             name: name.to_owned(),
             nodes,
@@ -66,6 +71,27 @@ impl LargeStrainForecast {
 
 /// Stable step over the time in which sound crosses an element.
 const OF_CROSSING: f64 = 0.45;
+
+/// Number of points of the volume, and of functions at each.
+fn points(solid: &LargeStrain, mesh: &Mesh) -> (usize, f64) {
+    let axes = mesh.form.axes().len();
+    let corners = 1 << axes;
+    let kernels = plan::kernels(solid, mesh);
+    match (solid.mechanics, kernels.integration) {
+        (Mechanics::Fem, _) => (mesh.cells.len() * corners, corners as f64),
+        (_, integration) => {
+            let reach = (2.0 * kernels.support).powi(axes as i32);
+            let points = match integration {
+                Integration::Scni => mesh.nodes.len(),
+                Integration::Nsni => 2 * axes * mesh.nodes.len(),
+                Integration::Gauss(count) => count.pow(axes as u32) * mesh.cells.len(),
+            };
+            // Means over the cell of a node have the functions of all of its corners.
+            let wider = if matches!(integration, Integration::Gauss(_)) { 1.0 } else { 1.6 };
+            (points, wider * reach)
+        }
+    }
+}
 
 fn factor_time(form: Form, nodes: f64) -> f64 {
     match form {
@@ -93,7 +119,17 @@ pub fn notes(solid: &LargeStrain) -> Vec<String> {
         }
         false => "the body has no inertia: it is in equilibrium at every communication point",
     };
-    vec![part, motion.to_owned()]
+    let mut notes = vec![part, motion.to_owned()];
+    notes.extend(match solid.mechanics {
+        Mechanics::Fem => None,
+        Mechanics::Rkpm => {
+            Some("nodes have reproducing kernels, which reach over several elements".to_owned())
+        }
+        Mechanics::Efg => {
+            Some("nodes have moving least squares, which reach over several elements".to_owned())
+        }
+    });
+    notes
 }
 
 /// Longest time between exchanges with the body below [s]: the value of the scene, or the time in which the body falls by

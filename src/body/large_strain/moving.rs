@@ -35,14 +35,16 @@ impl MovingBody {
         (name, solid): (&str, &LargeStrain),
         on: Option<(WallCells, &Link)>,
         threads: impl Fn(bool) -> usize,
-    ) -> Self {
-        let body = plan::deformable(solid, threads(is_large(plan::mesh(solid).cells.len() * 8)));
+    ) -> Result<Self, BodyError> {
+        let named = |failure| BodyError::LargeStrain { body: name.to_owned(), failure };
+        let threads = threads(is_large(plan::mesh(solid).cells.len() * 8));
+        let body = plan::deformable(solid, threads).map_err(named)?;
         let plane = plan::plane(solid, &body);
         let traction = on.as_ref().map(|(_, link)| link.traction);
         let cells = on.map(|(cells, _)| cells);
         let dynamics = Dynamics::new(body, plane, solid.gravity, solid.mirrors(), cells);
         let start = dynamics.start(solid.start.velocity);
-        Self {
+        Ok(Self {
             name: name.to_owned(),
             start,
             dynamics,
@@ -50,7 +52,7 @@ impl MovingBody {
             temperature: solid.initial_temperature,
             traction,
             notes: super::forecast::notes(solid),
-        }
+        })
     }
 
     fn motion(&self, state: &[f64]) -> Motion {

@@ -2,9 +2,13 @@
 
 use crate::laws::solid::large_strain::LargeStrainLaw;
 use crate::method::fem::Refinement;
-use crate::method::large_strain::{Deformable, Plane};
-use crate::scene::{Coupling, FaceName, LargeStrain, SolidShape};
-use crate::space::{Form, Mesh, Side, finite_elements};
+use crate::method::large_strain::{Deformable, Failure, Plane};
+use crate::scene::{
+    Coupling, FaceName, KernelIntegration, KernelSettings, LargeStrain, Mechanics, SolidShape,
+};
+use crate::space::{
+    Form, Integration, Kernel, Mesh, Reproducing, Shape, Side, Sides, finite_elements, reproducing,
+};
 
 /// Stiffness of the plane over that of a layer of the body one spacing thick.
 const PLANE: f64 = 1.0;
@@ -54,10 +58,38 @@ pub fn law(solid: &LargeStrain) -> LargeStrainLaw {
     law.expect("a checked solid of large strain has a law of large strain")
 }
 
-pub fn deformable(solid: &LargeStrain, threads: usize) -> Deformable {
+pub fn deformable(solid: &LargeStrain, threads: usize) -> Result<Deformable, Failure> {
     let density = solid.material.material().heat.density;
-    let space = finite_elements(&mesh(solid));
-    Deformable::new(space, law(solid), density, solid.mirrors(), threads)
+    let mesh = mesh(solid);
+    let space = match solid.mechanics {
+        Mechanics::Fem => finite_elements(&mesh),
+        Mechanics::Rkpm | Mechanics::Efg => reproducing(&mesh, kernels(solid, &mesh))?,
+    };
+    Ok(Deformable::new(space, law(solid), density, solid.mirrors(), threads))
+}
+
+/// Settings of reproducing kernels, with functions that can be held at the faces of a body.
+pub fn kernels(solid: &LargeStrain, mesh: &Mesh) -> Reproducing {
+    let KernelSettings { basis, support, integration } = solid.rkpm.unwrap_or_default();
+    let order = basis as f64;
+    let is_held = |side: &Side| solid.faces.keys().any(|&face| is_on(solid, face, *side));
+    let held: Vec<Side> = mesh.faces.iter().map(|(side, _)| *side).filter(is_held).collect();
+    let (kernel, shape, usual) = match solid.mechanics {
+        Mechanics::Efg => (Kernel::QuarticSpline, Shape::Round, 2.0 * order),
+        Mechanics::Rkpm | Mechanics::Fem => (Kernel::CubicSpline, Shape::Box, order + 0.75),
+    };
+    Reproducing {
+        basis,
+        kernel,
+        shape,
+        support: support.unwrap_or(usual),
+        integration: match integration {
+            KernelIntegration::Nsni => Integration::Nsni,
+            KernelIntegration::Scni => Integration::Scni,
+            KernelIntegration::Gauss => Integration::Gauss(basis + 1),
+        },
+        held: Sides::of(&held),
+    }
 }
 
 /// The plane below a body that moves.

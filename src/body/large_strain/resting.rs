@@ -92,12 +92,13 @@ impl RestingBody {
         threads: impl Fn(bool) -> usize,
     ) -> Result<Self, BodyError> {
         let mesh = plan::mesh(solid);
-        let body = plan::deformable(solid, threads(is_large(mesh.cells.len() * 8)));
+        let named = |failure| BodyError::LargeStrain { body: name.to_owned(), failure };
+        let threads = threads(is_large(mesh.cells.len() * 8));
+        let body = plan::deformable(solid, threads).map_err(named)?;
         let weight = body.mass.iter().map(|m| [0.0, 0.0, -m * solid.gravity]).collect();
         let holds = holds(solid, &mesh, &body);
         let held: Vec<[bool; 3]> =
             holds.iter().map(|holds| holds.map(|hold| hold != Hold::Free)).collect();
-        let named = |failure| BodyError::LargeStrain { body: name.to_owned(), failure };
         let equilibrium = Equilibrium::new(body, &held).map_err(named)?;
         let axes = |face| solid.faces[&face].axes(face, solid.dimension);
         let moved: Vec<Vec<usize>> = moved_faces(solid).into_iter().map(axes).collect();

@@ -53,7 +53,8 @@ impl Seen<'_> {
         let team = &body.team();
         let stresses = body.respond(self.displacement, 0.0, &mut history, team)?;
         let copies = copies(self.mirrors);
-        let places = || body.space.nodes.iter().zip(self.displacement);
+        let moved = body.displacements(self.displacement);
+        let places = || body.space.nodes.iter().zip(&moved);
         let range = |axis: usize| {
             let along = places().map(|(at, u)| at[axis] + u[axis]);
             let start = (f64::INFINITY, f64::NEG_INFINITY);
@@ -62,7 +63,9 @@ impl Seen<'_> {
         let ((left, right), (low, high)) = (range(0), range(2));
         let is_half = self.mirrors[0] || body.space.form == Form::Axisymmetric;
         let mass: f64 = body.mass.iter().sum();
-        let moment = places().zip(&body.mass).map(|((at, u), m)| m * (at[2] + u[2])).sum::<f64>();
+        // Coefficients, not displacements: their moment is that of the body.
+        let at_start = body.space.nodes.iter().zip(self.displacement).zip(&body.mass);
+        let moment = at_start.map(|((at, u), m)| m * (at[2] + u[2])).sum::<f64>();
         let energy_of_contact = self.touch.map_or(0.0, |touch| touch.energy);
         let mut snapshot = Snapshot {
             width: if is_half { 2.0 * right } else { right - left },
@@ -108,15 +111,17 @@ impl Seen<'_> {
         let swelling = self.swelling();
         let [density, pressure] = [0, 1].map(|n| swelling.iter().map(|s| s[n]).collect::<Vec<_>>());
         let count = body.nodes();
+        let moved = body.displacements(self.displacement);
+        let velocities = self.velocity.map(|velocity| body.displacements(velocity));
         let signs = |mirrored: bool| if mirrored { &[1.0, -1.0][..] } else { &[1.0][..] };
         for &sx in signs(self.mirrors[0]) {
             for &sy in signs(self.mirrors[1]) {
                 let turn = |v: [f64; 3]| [sx * v[0], sy * v[1], v[2]];
                 for node in 0..count {
-                    let (at, u) = (body.space.nodes[node], self.displacement[node]);
+                    let (at, u) = (body.space.nodes[node], moved[node]);
                     let place = [0, 1, 2].map(|a| at[a] + u[a]);
                     fields.position.push(turn([place[0], place[1], place[2] + self.lifted]));
-                    let velocity = self.velocity.map_or([0.0; 3], |velocity| velocity[node]);
+                    let velocity = velocities.as_ref().map_or([0.0; 3], |all| all[node]);
                     fields.velocity.push(turn(velocity));
                 }
                 fields.mass.extend(&body.mass);

@@ -91,6 +91,21 @@ impl Deformable {
         self.mass.len()
     }
 
+    /// Displacements of the nodes themselves from their coefficients, which are the same where each function is one at its
+    /// own node.
+    pub fn displacements(&self, u: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        let Some(at_nodes) = &self.space.at_nodes else { return u.to_vec() };
+        let of_node = |node: usize| {
+            let mut sum = [0.0; 3];
+            for value in at_nodes.row(node) {
+                let u = u[value.node as usize];
+                (0..3).for_each(|a| sum[a] += value.value * u[a]);
+            }
+            sum
+        };
+        (0..self.nodes()).map(of_node).collect()
+    }
+
     /// Length of the history of all points.
     pub fn history(&self) -> usize {
         self.law.history() * self.space.volume.len()

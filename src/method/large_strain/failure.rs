@@ -1,6 +1,7 @@
 //! Reasons why a body of large strain could not be advanced.
 
 use crate::runtime::allowance::Halt;
+use crate::space::Refused;
 
 /// A step without physical meaning; the state is unchanged.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -23,6 +24,9 @@ pub enum Failure {
          `roller` faces that hold it, or `inertia = true`)"
     )]
     Singular,
+    /// The nodes carry no functions.
+    #[error(transparent)]
+    Functions(#[from] Refused),
     #[error("{0}")]
     Halted(#[from] Halt),
 }

@@ -1,7 +1,9 @@
 //! Checks that solids of large strain can be modelled.
 
 use super::{Checker, fits};
-use crate::scene::large_strain::{LargeStrain, LargeStrainStart, LargeStrainSymmetry, SolidShape};
+use crate::scene::large_strain::{
+    LargeStrain, LargeStrainStart, LargeStrainSymmetry, Mechanics, SolidShape,
+};
 use crate::scene::locate::Path;
 use crate::scene::types::FaceName;
 
@@ -13,6 +15,7 @@ pub fn check(checker: &mut Checker) {
         let path = Path::default().key("body").key(name);
         check_shape(checker, &path, solid);
         check_material(checker, &path, solid);
+        check_kernels(checker, &path, solid);
         match solid.inertia {
             true => check_motion(checker, &path, solid),
             false => {
@@ -66,6 +69,17 @@ fn check_shape(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
         let message = "only a disc and a ball in three dimensions are round about z";
         checker.refuse(&path.key("symmetry"), message, "auto, none, quarter");
     }
+}
+
+fn check_kernels(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
+    let Some(settings) = solid.rkpm else { return };
+    let path = path.key("rkpm");
+    let fine = solid.mechanics != Mechanics::Fem;
+    let message = "finite elements have no such settings";
+    checker.require(fine, &path, message, "`mechanics = \"rkpm\"` or `\"efg\"`, or no `rkpm`");
+    let fine = settings.support.is_none_or(|support| support > settings.basis as f64);
+    let message = "supports reach too few nodes for this basis";
+    checker.require(fine, &path.key("support"), message, "above `basis`, up to 6");
 }
 
 fn check_material(checker: &mut Checker, path: &Path, solid: &LargeStrain) {

@@ -4,7 +4,7 @@ use impinge::limits::keyword;
 use serde_json::Value;
 
 /// Headings of `docs/scene.md` with a table, and where in the schema the table that they describe stands.
-pub const SECTIONS: [(&str, &str); 39] = [
+pub const SECTIONS: [(&str, &str); 41] = [
     ("The whole", ""),
     ("`fidelity`", "/$defs/Fidelity"),
     ("`solver`", "/$defs/Solver"),
@@ -17,6 +17,7 @@ pub const SECTIONS: [(&str, &str); 39] = [
     ("`melting` of a material", "/$defs/Melting"),
     ("`frozen` of a fluid", "/$defs/Frozen"),
     ("`creep` of a material", "/$defs/Creep"),
+    ("`hardening` of a material", "/$defs/Saturation"),
     ("`layers` of a solid", "/$defs/Layer"),
     ("`sph` of a solid", "/$defs/SphSettings"),
     ("`mesh` of a solid", "/$defs/Mesh"),
@@ -26,6 +27,7 @@ pub const SECTIONS: [(&str, &str); 39] = [
     ("`[body.NAME]` of a solid of large strain", "/$defs/Body/oneOf/3"),
     ("`start` of a solid of large strain", "/$defs/LargeStrainStart"),
     ("`mesh` of a solid of large strain", "/$defs/LargeStrainMesh"),
+    ("`rkpm` of a solid of large strain", "/$defs/KernelSettings"),
     ("`shape.ball`", "/$defs/Ball"),
     ("`faces.FACE` of a solid of large strain", "/$defs/HeldFace"),
     ("`[body.NAME]` of a droplet", "/$defs/Body/oneOf/1"),

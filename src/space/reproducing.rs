@@ -1,0 +1,173 @@
+//! Reproducing-kernel discretisations of a mesh's nodes, of which the element-free Galerkin method is one.
+
+mod basis;
+mod bins;
+mod cell_map;
+mod cells;
+mod facets;
+mod factor;
+mod functions;
+mod kernel;
+mod nodal_cells;
+mod nodal_points;
+mod refused;
+mod sides;
+
+pub use functions::{Functions, Row};
+pub use kernel::Kernel;
+pub use refused::Refused;
+pub use sides::Sides;
+
+use super::{Mesh, Samples, Side, Space};
+
+/// Settings of a discretisation by reproducing kernels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reproducing {
+    /// Order of the polynomials that the functions reproduce, 1 or 2.
+    pub basis: usize,
+    pub kernel: Kernel,
+    pub shape: Shape,
+    /// Half of the width of supports over the spacing of nodes; it must exceed `basis`.
+    pub support: f64,
+    pub integration: Integration,
+    /// Flat sides on which functions of other nodes vanish, so that displacements of their nodes prescribe those of the
+    /// sides. Elsewhere prescribed displacements need Nitsche's method or multipliers.
+    pub held: Sides,
+}
+
+impl Default for Reproducing {
+    fn default() -> Self {
+        Self {
+            basis: 1,
+            kernel: Kernel::CubicSpline,
+            shape: Shape::Box,
+            support: 1.75,
+            integration: Integration::Nsni,
+            held: Sides::default(),
+        }
+    }
+}
+
+/// Shape of supports.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Shape {
+    /// A product of kernels along each coordinate.
+    #[default]
+    Box,
+    /// A kernel of the distance.
+    Round,
+}
+
+/// Points of the volume.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Integration {
+    /// Gauss points of the mesh's cells, as many along each edge.
+    Gauss(usize),
+    /// Stabilised conforming nodal integration: one point for each node, with the mean gradient over the node's cell.
+    Scni,
+    /// Naturally stabilised nodal integration: two points along each coordinate for each node, with the gradient that
+    /// is closest to the functions' own among those linear over the node's cell.
+    Nsni,
+}
+
+/// Creates the space of the reproducing-kernel functions of a mesh's nodes. Each point is alone in its group.
+///
+/// With nodal integration the divergence theorem holds in sums, Σ w ∇Ψ = Σ Ψ n over the points of the volume and the
+/// boundary (with n weighted by areas), so stresses that are constant balance to rounding; with [`Integration::Nsni`]
+/// it also holds with linear weights.
+pub fn reproducing(mesh: &Mesh, settings: Reproducing) -> Result<Space, Refused> {
+    settings.check()?;
+    let surface = facets::surface(mesh);
+    let planes = facets::planes(mesh, &surface, settings.held);
+    let functions = Functions::new(mesh, settings, planes);
+    let (volume, boundary) = match settings.integration {
+        Integration::Gauss(count) => (
+            cells::volume(mesh, &functions, count)?,
+            cells::boundary(mesh, &functions, &surface, count)?,
+        ),
+        Integration::Scni | Integration::Nsni => {
+            let (cells, boundary) =
+                nodal_cells::nodal_cells(mesh, &functions, &surface, settings.basis + 1)?;
+            let points = match settings.integration {
+                Integration::Scni => nodal_points::smoothed,
+                _ => nodal_points::stabilised,
+            };
+            (points(mesh, cells)?, boundary)
+        }
+    };
+    let shares = shares(mesh, &volume);
+    let at_nodes = at_nodes(mesh, &functions, &shares)?;
+    Ok(Space {
+        form: mesh.form,
+        nodes: mesh.nodes.clone(),
+        groups: (0..volume.len()).map(|n| n..n + 1).collect(),
+        volume,
+        boundary,
+        at_nodes: Some(at_nodes),
+        shares,
+    })
+}
+
+impl Functions {
+    /// Creates the functions of a mesh's nodes, to be evaluated at any place.
+    pub fn of(mesh: &Mesh, settings: Reproducing) -> Result<Self, Refused> {
+        settings.check()?;
+        let planes = facets::planes(mesh, &facets::surface(mesh), settings.held);
+        Ok(Self::new(mesh, settings, planes))
+    }
+}
+
+impl Reproducing {
+    fn check(&self) -> Result<(), Refused> {
+        if !(1..=2).contains(&self.basis) {
+            return Err(Refused::Setting("`basis` must be 1 or 2"));
+        }
+        if !(self.support > self.basis as f64 && self.support.is_finite()) {
+            return Err(Refused::Setting("`support` must exceed `basis`"));
+        }
+        if self.held.contains(Side::Round) {
+            return Err(Refused::Setting("a round side cannot be held by its nodes"));
+        }
+        if self.integration == Integration::Gauss(0) {
+            return Err(Refused::Setting(
+                "Gauss quadrature needs at least one point along each edge",
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// Part of the volume that each node represents: the integral of its function if all of these are positive, as they are
+/// with linear bases on usual meshes, and otherwise the volume in proportion to the integral of its function's square.
+///
+/// Source of the latter: Hinton, Rock & Zienkiewicz (1976), Earthq. Eng. Struct. Dyn. 4, 245–249,
+/// doi 10.1002/eqe.4290040305.
+fn shares(mesh: &Mesh, volume: &Samples) -> Vec<f64> {
+    let integrals = |of: fn(f64) -> f64| {
+        let mut sums = vec![0.0; mesh.nodes.len()];
+        for point in 0..volume.len() {
+            for value in volume.row(point) {
+                sums[value.node as usize] += volume.weights[point] * of(value.value);
+            }
+        }
+        sums
+    };
+    let shares = integrals(|value| value);
+    if shares.iter().all(|&share| share > 0.0) {
+        return shares;
+    }
+    let squares = integrals(|value| value * value);
+    let factor = volume.weights.iter().sum::<f64>() / squares.iter().sum::<f64>();
+    squares.iter().map(|square| factor * square).collect()
+}
+
+/// Functions at the nodes, without gradients; each weight is the node's share.
+fn at_nodes(mesh: &Mesh, functions: &Functions, shares: &[f64]) -> Result<Samples, Refused> {
+    let mut samples = Samples::default();
+    let mut row = Row::default();
+    for (&at, &share) in mesh.nodes.iter().zip(shares) {
+        functions.evaluate(at, false, &mut row)?;
+        samples.push(at, share, row.values());
+    }
+    Ok(samples)
+}
