@@ -38,6 +38,7 @@
 //! | [`thick_cylinder`] | thick cylinder under internal pressure, plane strain |
 //! | [`yielding_cylinder`] | the same of incompressible material that yields |
 //! | [`bilinear`] | bar or film that yields, strained to and fro |
+//! | [`relaxing_solid`] | bar, film and shear of a solid whose shear modulus relaxes |
 //! | [`circular_plate`], [`square_plate`] | clamped plates under uniform pressure |
 //! | [`cantilever`] | beam under an end load, with shear |
 //!
@@ -74,6 +75,7 @@ pub mod medium;
 pub mod melting_front;
 pub mod quadrature;
 pub mod radiating_lump;
+pub mod relaxing_solid;
 pub mod resistive_contact;
 pub mod resting_paste;
 pub mod slab;

@@ -51,6 +51,7 @@ mod phases;
 mod power;
 mod recovered_stress;
 mod reduced;
+mod relaxation;
 mod replay;
 mod reservoirs;
 mod rings;

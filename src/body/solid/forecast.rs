@@ -74,6 +74,8 @@ const YIELDING: f64 = 1.1e-5;
 const YIELDING_SECTION: f64 = 2e-5;
 const WITH_TABLES: f64 = 2.5;
 const WITH_CREEP: f64 = 11.0;
+/// Time of a body with moduli that relax, over that of one that stays elastic: a step is compared with its halves.
+const WITH_RELAXATION: f64 = 4.0;
 /// Memory per node of a body with yielding parts [B].
 const YIELDING_MEMORY: f64 = 8e3;
 /// Modes through layers: cube of the number of nodes along z per second, on each thread.
@@ -177,7 +179,11 @@ fn yielding_time(solid: &Solid, geometry: Geometry) -> f64 {
     });
     let creeps = materials.iter().any(|own| own.law.deformation().creeps());
     let base = if geometry == Geometry::Box { YIELDING } else { YIELDING_SECTION };
-    let more = if creeps { WITH_CREEP } else { 1.0 };
+    let more = match (creeps, solid.relaxes()) {
+        (true, _) => WITH_CREEP,
+        (false, true) => WITH_RELAXATION,
+        (false, false) => 1.0,
+    };
     base * more * if has_tables { WITH_TABLES } else { 1.0 }
 }
 

@@ -9,9 +9,12 @@ mod elastoplastic;
 mod law;
 mod overstress;
 mod plastic_history;
+mod relaxation;
+mod shift;
 pub mod stress;
 pub mod stress_rate;
 mod thermoelastic;
+mod viscoelastic;
 mod viscoplastic;
 mod yielding;
 
@@ -23,7 +26,10 @@ pub use elastoplastic::{
 pub use law::{Deformation, Elastic, FlowLaw, Keys, Law, Need, Response};
 pub use overstress::{Overstress, Parted};
 pub use plastic_history::PlasticHistory;
+pub use relaxation::{Branch, Present, Relaxation, Relaxed};
+pub use shift::Shift;
 pub use thermoelastic::{Thermoelastic, ThermoelasticLaw};
+pub use viscoelastic::{Relaxing, Viscoelastic, ViscoelasticLaw};
 pub use viscoplastic::{Creep, Flow, Viscoplastic, ViscoplasticLaw};
 pub use yielding::Yielding;
 
@@ -103,4 +109,6 @@ solid_laws! {
     Elastoplastic(ElastoplasticLaw) = "elastoplastic",
     /// The same, but flow takes time: creep, or viscoplasticity beyond a yield stress.
     Viscoplastic(ViscoplasticLaw) = "viscoplastic",
+    /// Thermo-elasticity whose moduli relax: the generalised Maxwell model.
+    Viscoelastic(ViscoelasticLaw) = "viscoelastic",
 }

@@ -5,6 +5,8 @@
 
 mod element;
 mod grid;
+mod halves;
+mod kept;
 mod locking;
 mod newton;
 mod nodal;
