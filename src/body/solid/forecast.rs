@@ -14,6 +14,7 @@ use crate::method::fem::{
     Geometry, Mesh, Plan, expected_entries, factor_memory, memory_of_row, particle_cost,
     solver_memory, suits_conjugate_gradients,
 };
+use crate::method::inelastic::{MOST_KEPT, MOST_POISSON};
 use crate::scene::{CellShape, CellValues, Coupling, Load, Scene, Solid};
 
 #[derive(Debug, Clone, PartialEq)]
@@ -132,9 +133,10 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
         }
     }
     if plan.inelastic.is_some() {
-        further_memory += YIELDING_MEMORY * nodes;
-        if !is_yielding_box {
-            further_memory += factor_memory(geometry, unknowns[1]);
+        further_memory += (YIELDING_MEMORY + memory_of_branches(solid)) * nodes;
+        if !is_yielding_box || becomes_incompressible(solid) {
+            let kept = if solid.relaxes() { MOST_KEPT } else { 1 };
+            further_memory += (kept + 1) as f64 * factor_memory(geometry, unknowns[1]);
         }
         nonlinear_time += yielding_time(solid, geometry) * nodes / threads;
     }
@@ -168,6 +170,28 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
             + passes * links / PRODUCT_RATE,
         notes: plan.notes,
     }
+}
+
+/// Returns true if moduli relax to a ratio of Poisson at which the stiffness of a box has to be factored.
+fn becomes_incompressible(solid: &Solid) -> bool {
+    let start = solid.initial_temperature;
+    solid.materials_of_layers().into_iter().any(|material| {
+        let Some(relaxing) = material.law.deformation().relaxing() else { return false };
+        let Some(law) = material.at(start).law() else { return false };
+        let [bulk, shear] = relaxing.lasting();
+        let bulk = bulk * (law.lame_first() + law.shear_modulus() / 1.5);
+        let shear = shear * law.shear_modulus();
+        0.5 * (3.0 * bulk - 2.0 * shear) > MOST_POISSON * (3.0 * bulk + shear)
+    })
+}
+
+/// Memory per node of the history of moduli that relax [B]: quadratic elements have some four points for each node, and a
+/// step compares five states.
+fn memory_of_branches(solid: &Solid) -> f64 {
+    let materials = solid.materials_of_layers().into_iter();
+    let laws = materials.filter_map(|own| own.law.deformation().relaxing());
+    let branches = laws.map(|own| 7 + own.bulk_relaxation.len() + 6 * own.shear_relaxation.len());
+    8.0 * 4.0 * 5.0 * branches.max().unwrap_or(0) as f64
 }
 
 /// Time per node for the equilibrium in a step [s].

@@ -35,6 +35,16 @@ pub struct Relaxing {
 
 impl Part for Relaxing {}
 
+impl Relaxing {
+    /// Fractions of the bulk and of the shear modulus that remain.
+    pub fn lasting(&self) -> [f64; 2] {
+        [&self.bulk_relaxation, &self.shear_relaxation].map(|branches| {
+            let relaxing: f64 = branches.iter().map(|branch| branch.fraction).sum();
+            (1.0 - relaxing).max(0.0)
+        })
+    }
+}
+
 impl Deformation for ViscoelasticLaw {
     fn elasticity(&self) -> &Elasticity {
         &self.elasticity

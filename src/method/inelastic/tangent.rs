@@ -26,11 +26,11 @@ use crate::method::fem::{Mesh, MeshFace, Parity};
 use crate::runtime::parallel::Team;
 
 /// Poisson's ratio up to which conjugate gradients need few iterations.
-const MOST_POISSON: f64 = 0.45;
+pub const MOST_POISSON: f64 = 0.45;
 
 /// Number of kept factors, and of kept inverses of elasticity, where moduli relax: steps have two lengths, and none for
 /// what is instantaneous.
-const MOST_KEPT: usize = 4;
+pub const MOST_KEPT: usize = 4;
 
 /// Solver for changes of displacement.
 pub struct TangentSolver {

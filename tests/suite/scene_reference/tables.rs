@@ -4,7 +4,7 @@ use impinge::limits::keyword;
 use serde_json::Value;
 
 /// Headings of `docs/scene.md` with a table, and where in the schema the table that they describe stands.
-pub const SECTIONS: [(&str, &str); 34] = [
+pub const SECTIONS: [(&str, &str); 36] = [
     ("The whole", ""),
     ("`fidelity`", "/$defs/Fidelity"),
     ("`solver`", "/$defs/Solver"),
@@ -17,6 +17,8 @@ pub const SECTIONS: [(&str, &str); 34] = [
     ("`melting` of a material", "/$defs/Melting"),
     ("`frozen` of a fluid", "/$defs/Frozen"),
     ("`creep` of a material", "/$defs/Creep"),
+    ("`shear_relaxation` of a material", "/$defs/Branch"),
+    ("`shift` of a material", "/$defs/Shift"),
     ("`layers` of a solid", "/$defs/Layer"),
     ("`sph` of a solid", "/$defs/SphSettings"),
     ("`mesh` of a solid", "/$defs/Mesh"),
