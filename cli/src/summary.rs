@@ -12,8 +12,8 @@ const BALANCED: f64 = 1e-9;
 /// The same with particle conduction, which conserves heat only approximately on graded meshes.
 const BALANCED_BY_PARTICLES: f64 = 5e-2;
 
-/// Outputs of a body that are zero until it yields or creeps.
-const IS_FLOW: [&str; 2] = ["max_plastic_strain", "plastic_work"];
+/// Totals of a body with a history of deformation.
+const IS_FLOW: [&str; 4] = [".max_plastic_strain", ".plastic_work", ".dissipated", ".stored"];
 
 /// Heat balance of a body [J].
 #[derive(Debug, Clone, PartialEq)]

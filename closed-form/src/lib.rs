@@ -40,6 +40,7 @@
 //! | [`drawn_rubber`] | neo-Hookean bar, sheet and block that are drawn (numerical) |
 //! | [`bouncing_ball`] | elastic ball that bounces off a rigid plane |
 //! | [`bilinear`] | bar or film that yields, strained to and fro |
+//! | [`relaxing_solid`] | bar, film and shear of a solid whose shear modulus relaxes |
 //! | [`circular_plate`], [`square_plate`] | clamped plates under uniform pressure |
 //! | [`cantilever`] | beam under an end load, with shear |
 //!
@@ -78,6 +79,7 @@ pub mod medium;
 pub mod melting_front;
 pub mod quadrature;
 pub mod radiating_lump;
+pub mod relaxing_solid;
 pub mod resistive_contact;
 pub mod resting_paste;
 pub mod slab;

@@ -47,8 +47,8 @@ pub enum BodyError {
     Equilibrium { body: String, error: InelasticError },
     /// Loads on a body modelled by one part are not symmetric about its planes of symmetry.
     #[error(
-        "{body}: forces are not even about the planes of symmetry, which a body that yields needs (allowed: forces that \
-         are, or `symmetry = \"none\"`)"
+        "{body}: forces are not even about the planes of symmetry, which a body that yields or relaxes needs (allowed: \
+         forces that are, or `symmetry = \"none\"`)"
     )]
     Uneven { body: String },
     #[error("{0}")]

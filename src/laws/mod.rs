@@ -24,6 +24,9 @@ pub use part::{Part, PartVisitor};
 pub use property::{Curve, Property, PropertyError, Table};
 pub use solid::{
     Creep, Elastic, Elastoplastic, FlowLaw, Law, OfTemperature, Overstress, Parted, PlasticHistory,
-    PointConstants, PointTangent, Response, SolidLaw, Thermoelastic, Viscoplastic, admissible,
-    constant, stress, stress_rate,
+    PointConstants, PointTangent, Relaxation, Response, SolidLaw, Thermoelastic, Viscoelastic,
+    Viscoplastic, admissible, constant, stress, stress_rate,
 };
+
+/// Molar gas constant R [J/(mol K)], exact since the SI of 2019.
+const GAS_CONSTANT: f64 = 8.314_462_618_153_24;

@@ -278,6 +278,13 @@ pub static SHEAR_TIME: Range<'static> = Range {
     highest: 1e5,  // polymer solutions 1e3
     mistakes: TIMES,
 };
+pub static RELAXATION_TIME: Range<'static> = Range {
+    what: "the relaxation time",
+    unit: "s",
+    lowest: 1e-13, // vibrations of molecules
+    highest: 1e20, // glasses far below their transition
+    mistakes: Cow::Borrowed(&[]),
+};
 pub static ACTIVATION_ENERGY: Range<'static> = Range {
     what: "the activation energy of flow",
     unit: "J/mol",

@@ -23,7 +23,7 @@ pub struct LargeStrain {
     /// `{ ball = { radius = R } }`, `{ disc = { radius = R, thickness = T } }` or `{ box = [LX, LY, LZ] }`.
     pub shape: SolidShape,
     /// Material of the body: a table, or the name of a `[material.NAME]`.
-    #[schemars(extend("condition" = "`model = \"neo_hookean\"`"))]
+    #[schemars(extend("condition" = "`model`: `neo_hookean`, `viscoelastic`, `elastoplastic`"))]
     pub material: MaterialChoice,
     /// Uniform temperature, at which constants are taken [K].
     #[schemars(transform = own_temperature())]

@@ -267,6 +267,21 @@ impl Solid {
         self.materials_of_layers().into_iter().any(Material::yields)
     }
 
+    /// Returns true if moduli of part of the body relax.
+    pub fn relaxes(&self) -> bool {
+        let mut materials = self.materials_of_layers().into_iter();
+        materials.any(|material| material.law.deformation().relaxing().is_some())
+    }
+
+    /// Returns true if stress is linear but for the relaxation of moduli.
+    pub fn only_relaxes(&self) -> bool {
+        let is_linear = |material: &Material| {
+            let law = material.law.deformation();
+            !law.yields() && law.properties().iter().all(|(_, own)| own.is_constant())
+        };
+        self.relaxes() && self.materials_of_layers().into_iter().all(is_linear)
+    }
+
     /// Temperature at which the body is free of thermal stress [K].
     pub fn temperature_without_stress(&self) -> f64 {
         self.stress_free_temperature.unwrap_or(self.initial_temperature)

@@ -81,7 +81,7 @@ impl Scene {
             return obstacle(Place::Level, message, "full, auto");
         }
         if self.asks_mechanics(name) && !solid.deforms_linearly() {
-            let message = "a reduced model is elastic: nothing yields or creeps";
+            let message = "a reduced model is elastic: nothing yields, relaxes or creeps";
             return obstacle(Place::Level, message, "full, auto");
         }
         if !solid.peaks.is_empty() {

@@ -540,7 +540,8 @@ pub struct Fidelity {
     #[serde(default)]
     pub level: FidelityLevel,
     /// Relative tolerance of outputs, over their range in the default experiment [1]. Times 10 K, it is the tolerance
-    /// of an inner step of nonlinear heat; a tenth of it, times the largest elastic strain, that of a creep step.
+    /// of an inner step of nonlinear heat; a tenth of it, times the largest elastic strain, that of a
+    /// step of creep or relaxation.
     #[serde(default = "default_tolerance")]
     #[schemars(transform = within(0.0, 1.0, "1", "")
         .open()

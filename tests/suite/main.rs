@@ -52,6 +52,7 @@ mod phases;
 mod power;
 mod recovered_stress;
 mod reduced;
+mod relaxation;
 mod replay;
 mod reproducing;
 mod reservoirs;

@@ -20,7 +20,7 @@ const IMPACT: &str = include_str!("../scenes/impact.toml");
 /// stands there with a key that there is not, and keys that choose the section's type.
 type Section = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
-const SECTIONS: [Section; 39] = [
+const SECTIONS: [Section; 41] = [
     ("The whole", PLATE, "stop_time =", "zz = 1\nstop_time =", &[]),
     ("`fidelity`", PLATE, "level =", "zz = 1\nlevel =", &[]),
     ("`solver`", PLATE, "stop_time =", "solver = { zz = 1 }\nstop_time =", &[]),
@@ -52,7 +52,7 @@ const SECTIONS: [Section; 39] = [
         PLATE,
         "\"thermoelastic\"",
         "\"viscoplastic\", zz = 1",
-        &["model", "substance", "at", "hardening"],
+        &["model", "substance", "at", "hardening", "shear_relaxation", "bulk_relaxation", "shift"],
     ),
     (
         "`melting` of a material",
@@ -74,6 +74,20 @@ const SECTIONS: [Section; 39] = [
         "\"thermoelastic\"",
         "\"elastoplastic\", hardening = { zz = 1 }",
         &[],
+    ),
+    (
+        "`shear_relaxation` of a material",
+        PLATE,
+        "\"thermoelastic\"",
+        "\"viscoelastic\", shear_relaxation = [{ zz = 1 }]",
+        &[],
+    ),
+    (
+        "`shift` of a material",
+        PLATE,
+        "\"thermoelastic\"",
+        "\"viscoelastic\", shear_relaxation = [], shift = { law = \"wlf\", zz = 1 }",
+        &["law", "activation_energy"],
     ),
     ("`layers` of a solid", PLATE, "material = {", "layers = [{ zz = 1 }] # {", &[]),
     ("`sph` of a solid", PLATE, "heat = \"fem\"", "heat = \"sph\"\nsph = { zz = 1 }", &[]),

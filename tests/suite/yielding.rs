@@ -325,7 +325,7 @@ fn what_does_not_yield_deforms_as_in_elasticity() {
         let off: Vec<f64> = found.iter().zip(&wanted).map(|(f, w)| f - w).collect();
         let scale = largest(&wanted);
         assert!(largest(&off) < 1e-12 * scale, "{:?}: {:e}", mesh.geometry, largest(&off) / scale);
-        assert_eq!(problem.dissipated_energy(&state), 0.0);
+        assert_eq!(problem.plastic_work(&state), 0.0);
         // And comes back to where it was.
         problem.advance(&mut state, &uniform(&mesh, FREE_OF_STRESS), &[]).unwrap();
         assert!(largest(&state) < 1e-12 * scale, "{:e}", largest(&state) / scale);
@@ -385,7 +385,7 @@ fn energy_error(mesh: &Mesh, material: [f64; 6], steps: usize) -> f64 {
         (points, u, forces) = (read, moved, now);
     }
     let stored: f64 = points.iter().map(|point| point.volume * point.stored).sum();
-    let dissipated = problem.dissipated_energy(&state);
+    let dissipated = problem.plastic_work(&state);
     assert!(dissipated > 0.0 && stored > 0.0);
     (work - stored - dissipated).abs() / dissipated
 }
@@ -437,7 +437,7 @@ fn half_and_quarter_bodies_are_parts_of_the_whole() {
             let stress = problem.nodal_values(&state, &cold).unwrap().stress;
             let list: Vec<([f64; 3], [f64; 6])> =
                 (0..mesh.nodes()).map(|n| (at(n), stress[n])).collect();
-            (list, problem.dissipated_energy(&state))
+            (list, problem.plastic_work(&state))
         };
         let (whole, dissipated) = solve(&brick([side.to_vec(), side.to_vec(), z.clone()], order));
         let mut quarter = brick([side[2..].to_vec(), side[2..].to_vec(), z], order);

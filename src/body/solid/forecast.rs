@@ -14,6 +14,7 @@ use crate::method::fem::{
     Geometry, Mesh, Plan, expected_entries, factor_memory, memory_of_row, particle_cost,
     solver_memory, suits_conjugate_gradients,
 };
+use crate::method::inelastic::{MOST_KEPT, MOST_POISSON};
 use crate::scene::{CellShape, CellValues, Coupling, Load, Scene, Solid};
 
 #[derive(Debug, Clone, PartialEq)]
@@ -74,6 +75,8 @@ const YIELDING: f64 = 1.1e-5;
 const YIELDING_SECTION: f64 = 2e-5;
 const WITH_TABLES: f64 = 2.5;
 const WITH_CREEP: f64 = 11.0;
+/// Time of a body with moduli that relax, over that of one that stays elastic: a step is compared with its halves.
+const WITH_RELAXATION: f64 = 4.0;
 /// Memory per node of a body with yielding parts [B].
 const YIELDING_MEMORY: f64 = 8e3;
 /// Modes through layers: cube of the number of nodes along z per second, on each thread.
@@ -130,9 +133,10 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
         }
     }
     if plan.inelastic.is_some() {
-        further_memory += YIELDING_MEMORY * nodes;
-        if !is_yielding_box {
-            further_memory += factor_memory(geometry, unknowns[1]);
+        further_memory += (YIELDING_MEMORY + memory_of_branches(solid)) * nodes;
+        if !is_yielding_box || becomes_incompressible(solid) {
+            let kept = if solid.relaxes() { MOST_KEPT } else { 1 };
+            further_memory += (kept + 1) as f64 * factor_memory(geometry, unknowns[1]);
         }
         nonlinear_time += yielding_time(solid, geometry) * nodes / threads;
     }
@@ -168,6 +172,28 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
     }
 }
 
+/// Returns true if moduli relax to a ratio of Poisson at which the stiffness of a box has to be factored.
+fn becomes_incompressible(solid: &Solid) -> bool {
+    let start = solid.initial_temperature;
+    solid.materials_of_layers().into_iter().any(|material| {
+        let Some(relaxing) = material.law.deformation().relaxing() else { return false };
+        let Some(law) = material.at(start).law() else { return false };
+        let [bulk, shear] = relaxing.lasting();
+        let bulk = bulk * (law.lame_first() + law.shear_modulus() / 1.5);
+        let shear = shear * law.shear_modulus();
+        0.5 * (3.0 * bulk - 2.0 * shear) > MOST_POISSON * (3.0 * bulk + shear)
+    })
+}
+
+/// Memory per node of the history of moduli that relax [B]: quadratic elements have some four points for each node, and a
+/// step compares five states.
+fn memory_of_branches(solid: &Solid) -> f64 {
+    let materials = solid.materials_of_layers().into_iter();
+    let laws = materials.filter_map(|own| own.law.deformation().relaxing());
+    let branches = laws.map(|own| 7 + own.bulk_relaxation.len() + 6 * own.shear_relaxation.len());
+    8.0 * 4.0 * 5.0 * branches.max().unwrap_or(0) as f64
+}
+
 /// Time per node for the equilibrium in a step [s].
 fn yielding_time(solid: &Solid, geometry: Geometry) -> f64 {
     let materials = solid.materials_of_layers();
@@ -177,7 +203,11 @@ fn yielding_time(solid: &Solid, geometry: Geometry) -> f64 {
     });
     let creeps = materials.iter().any(|own| own.law.deformation().creeps());
     let base = if geometry == Geometry::Box { YIELDING } else { YIELDING_SECTION };
-    let more = if creeps { WITH_CREEP } else { 1.0 };
+    let more = match (creeps, solid.relaxes()) {
+        (true, _) => WITH_CREEP,
+        (false, true) => WITH_RELAXATION,
+        (false, false) => 1.0,
+    };
     base * more * if has_tables { WITH_TABLES } else { 1.0 }
 }
 

@@ -142,6 +142,16 @@ impl SolidReader<'_> {
         self.body.plastic_work(self.state)
     }
 
+    /// Energy dissipated by relaxation [J].
+    pub fn relaxation_loss(&self) -> f64 {
+        self.body.relaxation_loss(self.state)
+    }
+
+    /// Elastic energy, and that of hardening [J].
+    pub fn stored_energy(&mut self) -> Result<f64, BodyError> {
+        self.body.stored_energy(self.state, self.memo.heat(self.body, self.state))
+    }
+
     pub fn fallback_particles(&self) -> f64 {
         self.body.solid.fallback_particles().unwrap_or(0) as f64
     }

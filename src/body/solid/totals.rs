@@ -24,11 +24,13 @@ enum Offered {
     Melting,
     /// Those that yield.
     Yielding,
+    /// Those whose moduli relax.
+    Relaxing,
     /// Those whose mechanics is modelled.
     Mechanical,
 }
 
-const TOTALS: [Total; 11] = [
+const TOTALS: [Total; 13] = [
     Total {
         descriptor: Descriptor {
             key: "max_temperature",
@@ -110,6 +112,18 @@ const TOTALS: [Total; 11] = [
         rate: |_| Err(BodyError::NoRate),
     },
     Total {
+        descriptor: heat("dissipated", "energy that relaxation has dissipated"),
+        of: Offered::Relaxing,
+        read: |reader| Ok(reader.relaxation_loss()),
+        rate: |_| Err(BodyError::NoRate),
+    },
+    Total {
+        descriptor: heat("stored", "elastic energy of the body"),
+        of: Offered::Relaxing,
+        read: |reader| reader.stored_energy(),
+        rate: |_| Err(BodyError::NoRate),
+    },
+    Total {
         descriptor: stress("max_von_mises", "highest von Mises stress of the body"),
         of: Offered::Mechanical,
         read: |reader| Ok(reader.max_stress()?[0]),
@@ -142,6 +156,7 @@ pub fn offered_totals(scene: &Scene, (name, solid): (&str, &Solid)) -> Vec<(usiz
         Offered::OfParticles => solid.sph().is_some(),
         Offered::Melting => solid.melts(),
         Offered::Yielding => solid.yields() && scene.asks_mechanics(name),
+        Offered::Relaxing => solid.relaxes() && scene.asks_mechanics(name),
         Offered::Mechanical => scene.asks_mechanics(name),
     };
     let totals = TOTALS.iter().enumerate().filter(|(_, total)| is_offered(total));
@@ -153,7 +168,7 @@ pub fn direct(place: usize) -> Direct {
 }
 
 pub fn is_mechanical(place: usize) -> bool {
-    TOTALS[place].of == Offered::Mechanical
+    matches!(TOTALS[place].of, Offered::Mechanical | Offered::Relaxing)
 }
 
 pub fn read(reader: &mut SolidReader, place: usize) -> Result<f64, BodyError> {

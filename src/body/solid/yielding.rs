@@ -1,10 +1,7 @@
 //! Solids with history-dependent stress: their mechanics advances with their heat.
 
-use std::sync::Arc;
-
 use super::SolidBody;
 use crate::body::{Acts, BodyError};
-use crate::laws::FlowLaw;
 use crate::math::cholesky::SolverError;
 use crate::method::fem::{Deformation, Plan, Remembered, SolidLoads, Temperatures};
 use crate::method::inelastic::{
@@ -13,7 +10,7 @@ use crate::method::inelastic::{
 use crate::runtime::allowance::Allowance;
 use crate::state::{Field, Layout, Per};
 
-/// The mechanics of a solid that yields, or whose elastic constants depend on the temperature.
+/// The mechanics of a solid that yields or relaxes, or whose elastic constants depend on the temperature.
 pub struct Yielding {
     problem: InelasticProblem,
     layout: StateLayout,
@@ -64,11 +61,6 @@ impl Yielding {
     /// Returns `None` if stress follows linearly from deformation and temperature, or is not requested.
     pub fn of(plan: &Plan, tolerance: f64, threads: usize) -> Result<Option<Self>, SolverError> {
         let Some(laws) = &plan.inelastic else { return Ok(None) };
-        let start = plan.initial_temperature;
-        let is_bounded = |law: &Arc<dyn FlowLaw>| {
-            law.over_step(start, 0.0).is_some_and(|constants| constants.yield_stress.is_finite())
-        };
-        let yields = laws.iter().any(is_bounded);
         let problem = InelasticProblem::new(&plan.mesh, laws.clone(), &plan.supports, threads);
         let problem = problem.map_err(|error| match error {
             InelasticError::Solver(error) => error,
@@ -77,6 +69,7 @@ impl Yielding {
         let sided = plan.mesh.nodes_of_sided();
         let level = |node: usize| sided.iter().position(|&other| other == node);
         let levels = (0..plan.mesh.axes[2].len()).filter_map(level).collect();
+        let yields = problem.yields();
         Ok(Some(Self { layout: problem.layout(), problem, levels, yields, tolerance }))
     }
 
@@ -100,7 +93,8 @@ impl Yielding {
             .with(
                 field(
                     "history",
-                    "plastic and back strain [1], accumulated strain [1], dissipation [J/m³]",
+                    "plastic and back strain [1], accumulated strain [1], dissipation [J/m³]; where moduli relax \
+                     also strain and elastic strain of the branches [1]",
                     Per::Point,
                 ),
                 history.len(),
@@ -115,7 +109,8 @@ impl SolidBody {
     }
 
     /// Advances heat and mechanics to the equilibrium at the end, in parts. A part is halved if temperatures have an
-    /// extremum within it, so that plastic strain sees the warmest moment, or if it finds no equilibrium.
+    /// extremum within it, so that plastic strain sees the warmest moment, if moduli relax while temperatures do not
+    /// change linearly, or if it finds no equilibrium.
     ///
     /// Received heat changes linearly over the whole step, so such a step is not cut.
     pub(super) fn advance_yielding(
@@ -145,7 +140,8 @@ impl SolidBody {
         if halves == 0 || !self.turns(advance, [&start, state], acts)? {
             match self.balance(yielding, (&start[..self.heat_len], state), acts, allowance) {
                 // Increments of creep are already cut.
-                Err(BodyError::Equilibrium { .. }) if halves > 0 && !yielding.problem.creeps() => {}
+                Err(BodyError::Equilibrium { .. })
+                    if halves > 0 && !yielding.problem.takes_time() => {}
                 result => return result,
             }
         }
@@ -159,9 +155,10 @@ impl SolidBody {
         Ok(())
     }
 
-    /// Returns true if temperatures between two states exceed those at its ends. The margin is the tolerance times the
-    /// rise that makes a held body yield, or a tenth of the temperatures' own change if that is larger. Monotonic
-    /// changes of a place, at any pace, do not count.
+    /// Returns true if temperatures between two states exceed those at its ends, in a body that yields. The margin is the
+    /// tolerance times the rise that makes a held body yield, or a tenth of the temperatures' own change if that is
+    /// larger. Monotonic changes of a place, at any pace, do not count. Where moduli relax, any change counts that is not
+    /// linear, by its effect on the stress.
     fn turns(
         &self,
         advance: &Advance,
@@ -169,7 +166,7 @@ impl SolidBody {
         acts: &Acts,
     ) -> Result<bool, BodyError> {
         let yielding = advance.yielding;
-        if !yielding.yields {
+        if !yielding.yields && !yielding.problem.relaxes() {
             return Ok(false);
         }
         let at = |time: f64, heat: &[f64]| {
@@ -193,7 +190,12 @@ impl SolidBody {
                 now.iter().zip(&ranges).map(|(&own, range)| range.beyond(own)).fold(0.0, f64::max);
             let hottest = now.iter().copied().fold(0.0, f64::max);
             let counts = yielding.problem.rise_to_yield(hottest).max(LEAST * change.max(most));
-            if most > yielding.tolerance * counts {
+            if yielding.yields && most > yielding.tolerance * counts {
+                return Ok(true);
+            }
+            let ends = [&first[..], &last[..]];
+            let uneven = yielding.problem.unevenness(ends, (look, &now), acts.duration);
+            if uneven > yielding.tolerance {
                 return Ok(true);
             }
         }
@@ -221,7 +223,7 @@ impl SolidBody {
         };
         let end = at(acts.duration, heat)?;
         // Rate-independent flow depends on the end of the step alone.
-        let start = yielding.problem.creeps().then(|| at(0.0, before)).transpose()?;
+        let start = yielding.problem.takes_time().then(|| at(0.0, before)).transpose()?;
         let start = start.as_ref().unwrap_or(&end);
         let increment = Increment {
             temperatures: [&start.0, &end.0],
@@ -305,11 +307,28 @@ impl SolidBody {
         self.yielding.as_ref().map_or(0.0, largest)
     }
 
+    /// Elastic energy and that of hardening [J].
+    pub(super) fn stored_energy(
+        &self,
+        state: &[f64],
+        temperatures: &Temperatures,
+    ) -> Result<f64, BodyError> {
+        let Some(yielding) = &self.yielding else { return Ok(0.0) };
+        let nodal = self.nodal_temperatures(yielding, temperatures);
+        let stored = yielding.problem.stored_energy(&state[self.heat_len..], &nodal);
+        stored.map_err(|error| self.inelastic_error(error))
+    }
+
     /// Energy dissipated by yielding [J].
     pub(super) fn plastic_work(&self, state: &[f64]) -> f64 {
-        let work =
-            |yielding: &Yielding| yielding.problem.dissipated_energy(&state[self.heat_len..]);
+        let work = |yielding: &Yielding| yielding.problem.plastic_work(&state[self.heat_len..]);
         self.yielding.as_ref().map_or(0.0, work)
+    }
+
+    /// Energy dissipated by relaxation [J].
+    pub(super) fn relaxation_loss(&self, state: &[f64]) -> f64 {
+        let loss = |yielding: &Yielding| yielding.problem.relaxation_loss(&state[self.heat_len..]);
+        self.yielding.as_ref().map_or(0.0, loss)
     }
 }
 

@@ -18,7 +18,8 @@ use super::law::{Deformation, FlowLaw, Need, Response};
 use super::neo_hookean::moduli;
 use super::overstress::{Overstress, Parted};
 use super::{
-    Elasticity, PlasticHistory, Saturating, Saturation, Thermoelastic, Yielding, law_of_parts,
+    Elasticity, PlasticHistory, Relaxation, Saturating, Saturation, Thermoelastic, Yielding,
+    law_of_parts,
 };
 use crate::laws::Property;
 
@@ -118,6 +119,8 @@ pub struct PointConstants {
     pub kinematic: f64,
     /// Overstress of viscous flow beyond the yield surface.
     pub overstress: Overstress,
+    /// Reduced time of the step, in which moduli relax [s].
+    pub reduced_time: f64,
 }
 
 /// Change of a point's stress: `dσ = K dθ 1 + A de + B n (n:de)` with the change θ of volume and e of shape.
@@ -212,6 +215,7 @@ impl Elastoplastic {
             isotropic: (self.isotropic)(temperature),
             kinematic: (self.kinematic)(temperature),
             overstress: Overstress::NONE,
+            reduced_time: 0.0,
         };
         constants.is_sensible().then_some(constants)
     }
@@ -362,7 +366,7 @@ impl From<Elastoplastic> for Arc<dyn FlowLaw> {
 
 /// Response with given constants; NaN without any.
 pub(super) fn respond_at(
-    constants: Option<PointConstants>,
+    (constants, relaxation): (Option<PointConstants>, Option<&Relaxation>),
     strain: &[f64; 6],
     old: &[f64],
     new: &mut [f64],
@@ -374,16 +378,27 @@ pub(super) fn respond_at(
     let volume = strain[0] + strain[1] + strain[2];
     let mut shape = *strain;
     shape[..3].iter_mut().for_each(|e| *e -= volume / 3.0);
-    let (before, mut after) = (PlasticHistory::read(old), PlasticHistory::default());
-    let (mut stress, tangent) = constants.return_to_yield(&shape, &before, &mut after);
-    after.write(new);
-    let pressure = constants.bulk * (volume - 3.0 * constants.thermal_strain);
+    let dilatation = volume - 3.0 * constants.thermal_strain;
+    let (mut stress, pressure, tangent) = match relaxation {
+        Some(relaxation) => {
+            let found = relaxation.respond(&constants, (&shape, dilatation), old, new);
+            (found.stress, found.pressure, found.tangent)
+        }
+        None => {
+            let mut after = PlasticHistory::default();
+            let before = PlasticHistory::read(old);
+            let (stress, tangent) = constants.return_to_yield(&shape, &before, &mut after);
+            after.write(new);
+            (stress, constants.bulk * dilatation, tangent)
+        }
+    };
+    let dissipated = |history: &[f64]| PlasticHistory::read(history).dissipated;
     stress[..3].iter_mut().for_each(|s| *s += pressure);
     // Symmetric: columns equal rows.
     let rows = std::array::from_fn(|j| {
         tangent.of_strain(&std::array::from_fn(|i| f64::from(u8::from(i == j))))
     });
-    Response { stress, tangent: rows, dissipation: after.dissipated - before.dissipated }
+    Response { stress, tangent: rows, dissipation: dissipated(new) - dissipated(old) }
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::elastoplastic::respond_at;
 use super::large_strain::LargeStrainLaw;
-use super::{Elasticity, PlasticHistory, PointConstants, Thermoelastic};
+use super::{Elasticity, PlasticHistory, PointConstants, Relaxation, Relaxing, Thermoelastic};
 use crate::laws::{Part, Property};
 
 /// Constants of a law as groups of keys.
@@ -38,6 +38,11 @@ pub trait Deformation: Keys {
         false
     }
 
+    /// Keys of moduli that relax; `None` if none does.
+    fn relaxing(&self) -> Option<&Relaxing> {
+        None
+    }
+
     /// Returns true if the law is one of large strain alone.
     fn is_of_large_strain(&self) -> bool {
         false
@@ -55,7 +60,8 @@ pub trait Deformation: Keys {
 
     /// Returns true if stress is a linear function of deformation and temperature alone.
     fn is_linear(&self) -> bool {
-        !self.yields() && self.properties().iter().all(|(_, property)| property.is_constant())
+        let has_history = self.yields() || self.relaxing().is_some();
+        !has_history && self.properties().iter().all(|(_, property)| property.is_constant())
     }
 
     /// Returns the flow law, stress-free at a temperature [K].
@@ -113,6 +119,16 @@ pub trait FlowLaw: Send + Sync {
     /// Returns the constants at a temperature [K] over a step [s]; `None` if they are invalid.
     fn over_step(&self, temperature: f64, duration: f64) -> Option<PointConstants>;
 
+    /// Returns the constants over a step [s] in which the temperature changes linearly [K].
+    fn over_change(&self, temperatures: [f64; 2], duration: f64) -> Option<PointConstants> {
+        self.over_step(temperatures[1], duration)
+    }
+
+    /// Relaxation of moduli; `None` if none relaxes.
+    fn relaxation(&self) -> Option<&Relaxation> {
+        None
+    }
+
     /// Returns true if strain continues under constant stress.
     fn creeps(&self) -> bool {
         false
@@ -121,7 +137,7 @@ pub trait FlowLaw: Send + Sync {
 
 impl<F: FlowLaw> Law for F {
     fn history_len(&self) -> usize {
-        PlasticHistory::LEN
+        PlasticHistory::LEN + self.relaxation().map_or(0, Relaxation::history_len)
     }
 
     /// NaN if the constants are invalid at this temperature.
@@ -133,7 +149,7 @@ impl<F: FlowLaw> Law for F {
         old: &[f64],
         new: &mut [f64],
     ) -> Response {
-        respond_at(self.over_step(temperature, duration), strain, old, new)
+        respond_at((self.over_step(temperature, duration), self.relaxation()), strain, old, new)
     }
 }
 

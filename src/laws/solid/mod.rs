@@ -12,9 +12,12 @@ mod neo_hookean;
 mod overstress;
 mod plastic_history;
 mod saturating;
+mod relaxation;
+mod shift;
 pub mod stress;
 pub mod stress_rate;
 mod thermoelastic;
+mod viscoelastic;
 mod viscoplastic;
 mod yielding;
 
@@ -27,8 +30,11 @@ pub use law::{Deformation, Elastic, FlowLaw, Keys, Law, Need, Response};
 pub use neo_hookean::NeoHookeanLaw;
 pub use overstress::{Overstress, Parted};
 pub use plastic_history::PlasticHistory;
+pub use relaxation::{Branch, Present, Relaxation, Relaxed};
 pub use saturating::{Saturating, Saturation};
+pub use shift::Shift;
 pub use thermoelastic::{Thermoelastic, ThermoelasticLaw};
+pub use viscoelastic::{Relaxing, Viscoelastic, ViscoelasticLaw};
 pub use viscoplastic::{Creep, Flow, Viscoplastic, ViscoplasticLaw};
 pub use yielding::Yielding;
 
@@ -108,6 +114,8 @@ solid_laws! {
     Elastoplastic(ElastoplasticLaw) = "elastoplastic",
     /// The same, but flow takes time: creep, or viscoplasticity beyond a yield stress.
     Viscoplastic(ViscoplasticLaw) = "viscoplastic",
+    /// Thermo-elasticity whose moduli relax: the generalised Maxwell model.
+    Viscoelastic(ViscoelasticLaw) = "viscoelastic",
     /// Rubber and gels of large strain: compressible neo-Hooke.
     NeoHookean(NeoHookeanLaw) = "neo_hookean",
 }

@@ -144,7 +144,7 @@ impl Plan {
         let newton = newton.map(|tolerance| newton_plan(solid, &mesh, tolerance));
         notes.extend(newton.as_ref().map(note_on_newton));
         let inelastic = is_inelastic.then(|| inelastic_laws(solid, &mesh));
-        notes.extend(inelastic.as_ref().map(|_| NOTE_ON_HISTORY.to_owned()));
+        notes.extend(inelastic.as_ref().map(|laws| note_on_history(solid, laws)));
         let stress_free_rise = solid.temperature_without_stress() - solid.initial_temperature;
         let initial_temperature = solid.initial_temperature;
         Self {
@@ -358,8 +358,19 @@ fn newton_plan(solid: &Solid, mesh: &Mesh, tolerance: f64) -> NewtonPlan {
 }
 
 /// Note on history-dependent stress.
-const NOTE_ON_HISTORY: &str = "stress depends on what the body went through: equilibrium is found at the end of every \
-                               communication step, between which each place deforms straight on";
+fn note_on_history(solid: &Solid, laws: &[Arc<dyn FlowLaw>]) -> String {
+    if !laws.iter().any(|law| law.relaxation().is_some()) {
+        return "stress depends on what the body went through: equilibrium is found at the end of every communication step, \
+                between which each place deforms straight on"
+            .to_owned();
+    }
+    let order = if solid.only_relaxes() { "fourth" } else { "second" };
+    format!(
+        "moduli relax by a generalised Maxwell model, exactly where strain and temperature change linearly over a \
+         communication step; otherwise it is halved, by a method of {order} order, until strain errs by a tenth of \
+         `fidelity.tolerance`"
+    )
+}
 
 fn inelastic_laws(solid: &Solid, mesh: &Mesh) -> Vec<Arc<dyn FlowLaw>> {
     let mut materials = solid.materials_of_layers();

@@ -3,12 +3,15 @@
 use super::locking::{LockingTreatment, MOST_MODES, SmallFactor};
 use super::problem::PointState;
 use super::shapes::{Scratch, Shapes};
-use crate::laws::{PlasticHistory, PointConstants, PointTangent};
+use crate::laws::solid::Present;
+use crate::laws::{PlasticHistory, PointConstants, PointTangent, Relaxation};
 
 /// Tables shared by all elements.
 pub struct Kit {
     pub shapes: Shapes,
     pub treatment: LockingTreatment,
+    /// Length of the history of a point.
+    pub history: usize,
 }
 
 /// Input of the element loop.
@@ -21,6 +24,8 @@ pub struct Given<'a> {
     pub constants: &'a [PointConstants],
     /// Histories of the points after the last accepted step.
     pub old: &'a [f64],
+    /// Relaxation of the moduli of the layer, if they relax.
+    pub relaxation: Option<&'a Relaxation>,
 }
 
 /// Response of elements.
@@ -67,6 +72,40 @@ fn matrix(tangent: &PointTangent) -> [[f64; 6]; 6] {
 
 /// Strain up to which rounding scales: in a collapsing body strains grow without bound, but the residual forces do not.
 const MOST_STRAIN: f64 = 0.1;
+
+/// Computes the response of a point: stress of the change of shape and of volume [Pa], the tangent, and the largest
+/// component of plastic strain.
+fn respond(
+    (constants, relaxation): (&PointConstants, Option<&Relaxation>),
+    (shape, dilatation): (&[f64; 6], f64),
+    old: &[f64],
+    new: &mut [f64],
+) -> ([f64; 6], f64, PointTangent, f64) {
+    if let Some(relaxation) = relaxation {
+        let found = relaxation.respond(constants, (shape, dilatation), old, new);
+        return (found.stress, found.pressure, found.tangent, 0.0);
+    }
+    let mut history = PlasticHistory::default();
+    let (stress, mut tangent) =
+        constants.return_to_yield(shape, &PlasticHistory::read(old), &mut history);
+    history.write(new);
+    tangent.along = tangent.along.max(2.0 * LEAST * constants.shear - tangent.all);
+    (stress, constants.bulk * dilatation, tangent, largest(&history.plastic_strain))
+}
+
+/// Computes stress and energy of a point from its plastic history.
+fn present(
+    constants: &PointConstants,
+    (shape, dilatation): (&[f64; 6], f64),
+    history: &PlasticHistory,
+) -> Present {
+    let elastic: [f64; 6] = std::array::from_fn(|i| shape[i] - history.plastic_strain[i]);
+    let stress = constants.elastic_tangent().of_shape(&elastic);
+    let pressure = constants.bulk * dilatation;
+    let work: f64 = stress.iter().zip(&elastic).map(|(s, e)| s * e).sum();
+    let stored = 0.5 * (work + pressure * dilatation) + constants.hardening_energy(history);
+    Present { stress, pressure, stored }
+}
 
 /// The largest magnitude of a tensor's components.
 fn largest(tensor: &[f64; 6]) -> f64 {
@@ -163,17 +202,15 @@ impl Kit {
             let dilatation = self.split(&volumes, |q| constants[q].thermal_strain, strains);
             let mut most = 0.0_f64;
             for q in 0..points {
-                let at = (e * points + q) * PlasticHistory::LEN;
-                let old = PlasticHistory::read(&given.old[at..]);
-                let mut new = PlasticHistory::default();
-                let (stress, mut tangent) =
-                    constants[q].return_to_yield(&strains[q], &old, &mut new);
-                new.write(&mut answer.new[at..at + PlasticHistory::LEN]);
-                tangent.along = tangent.along.max(2.0 * LEAST * constants[q].shear - tangent.all);
+                let at = (e * points + q) * self.history;
+                let own = at..at + self.history;
+                let change = (&strains[q], dilatation[q]);
+                let (old, new) = (&given.old[own.clone()], &mut answer.new[own]);
+                let (stress, pressure, tangent, plastic) =
+                    respond((&constants[q], given.relaxation), change, old, new);
                 answer.tangents[e * points + q] = tangent;
-                pressures[q] = constants[q].bulk * dilatation[q];
-                let strain =
-                    totals[q] + constants[q].thermal_strain.abs() + largest(&new.plastic_strain);
+                pressures[q] = pressure;
+                let strain = totals[q] + constants[q].thermal_strain.abs() + plastic;
                 let moduli = constants[q].bulk + constants[q].shear;
                 let rounded = moduli * strain.min(MOST_STRAIN);
                 most = most.max(largest(&stress) + pressures[q].abs() + rounded);
@@ -204,15 +241,15 @@ impl Kit {
             let first = out.len();
             let mut pressures = Vec::with_capacity(points);
             for (q, (constants, shape)) in constants.iter().zip(&mut *strains).enumerate() {
-                let history =
-                    PlasticHistory::read(&given.old[(e * points + q) * PlasticHistory::LEN..]);
-                let elastic: [f64; 6] =
-                    std::array::from_fn(|i| shape[i] - history.plastic_strain[i]);
-                *shape = constants.elastic_tangent().of_shape(&elastic);
-                pressures.push(constants.bulk * dilatation[q]);
-                let work: f64 = shape.iter().zip(&elastic).map(|(s, e)| s * e).sum();
-                let stored = 0.5 * (work + pressures[q] * dilatation[q])
-                    + constants.hardening_energy(&history);
+                let own = &given.old[(e * points + q) * self.history..][..self.history];
+                let change = (&*shape, dilatation[q]);
+                let Present { stress: of_shape, pressure, stored } = match given.relaxation {
+                    Some(relaxation) => relaxation.present(constants, change, own),
+                    None => present(constants, change, &PlasticHistory::read(own)),
+                };
+                *shape = of_shape;
+                pressures.push(pressure);
+                let history = PlasticHistory::read(own);
                 let mut stress = *shape;
                 let off = pressures[q] - (stress[0] + stress[1] + stress[2]) / 3.0;
                 stress[..3].iter_mut().for_each(|s| *s += off);

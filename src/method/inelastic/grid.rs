@@ -3,7 +3,7 @@
 use super::element::{Answer, Given, Kit, Known};
 use super::locking::LockingTreatment;
 use super::shapes::{Scratch, Shapes};
-use crate::laws::{PlasticHistory, PointConstants, PointTangent};
+use crate::laws::{PointConstants, PointTangent, Relaxation};
 use crate::method::fem::{Geometry, Mesh};
 use crate::runtime::parallel::Team;
 
@@ -44,7 +44,8 @@ const NOTHING: f64 = 1e-15;
 const BATCH: usize = 32;
 
 impl Grid {
-    pub fn new(mesh: &Mesh) -> Self {
+    /// `history` is the length of the history of a point.
+    pub fn new(mesh: &Mesh, history: usize) -> Self {
         let shapes = Shapes::new(mesh);
         let treatment = LockingTreatment::new(&shapes, mesh.order());
         let order = mesh.order();
@@ -56,7 +57,14 @@ impl Grid {
             Geometry::Axisymmetric => a % n + plane * (a / n),
         };
         let offsets = (0..shapes.nodes).map(offset).collect();
-        Self { kit: Kit { shapes, treatment }, order, nodes: mesh.nodes(), columns, plane, offsets }
+        Self {
+            kit: Kit { shapes, treatment, history },
+            order,
+            nodes: mesh.nodes(),
+            columns,
+            plane,
+            offsets,
+        }
     }
 
     pub fn elements(&self) -> usize {
@@ -172,7 +180,7 @@ impl Grid {
         Iterate {
             displacement: vec![0.0; self.unknowns()],
             amplitudes: vec![0.0; elements * modes],
-            new: vec![0.0; self.points() * PlasticHistory::LEN],
+            new: vec![0.0; self.points() * self.kit.history],
             tangents: vec![none; self.points()],
             forces: vec![0.0; self.unknowns()],
             mode_forces: vec![0.0; elements * modes],
@@ -180,22 +188,22 @@ impl Grid {
         }
     }
 
-    /// Updates an iterate's response to its displacements and amplitudes.
+    /// Updates an iterate's response to its displacements and amplitudes; `relaxation` is that of each layer.
     pub fn respond(
         &self,
         team: &Team,
-        constants: &[PointConstants],
+        (constants, relaxation): (&[PointConstants], &[Option<&Relaxation>]),
         old: &[f64],
         iterate: &mut Iterate,
     ) {
         let (count, modes) = (self.per_layer(), self.kit.treatment.modes());
-        let points = self.kit.shapes.points;
+        let (points, history) = (self.kit.shapes.points, self.kit.history);
         let Iterate { displacement, amplitudes, new, tangents, forces, mode_forces, scales } =
             iterate;
         let mut items = Vec::new();
         let mut on_modes = mode_forces.chunks_mut((count * modes).max(1));
         for ((new, tangents), scales) in new
-            .chunks_mut(count * points * PlasticHistory::LEN)
+            .chunks_mut(count * points * history)
             .zip(tangents.chunks_mut(count * points))
             .zip(scales.chunks_mut(count))
         {
@@ -220,10 +228,11 @@ impl Grid {
                         displacement: &u,
                         amplitudes: &amplitudes[at(modes)],
                         constants: &constants[at(points)],
-                        old: &old[at(points * PlasticHistory::LEN)],
+                        old: &old[at(points * history)],
+                        relaxation: relaxation[layer.number],
                     };
                     let mut answer = Answer {
-                        new: &mut new[within(points * PlasticHistory::LEN)],
+                        new: &mut new[within(points * history)],
                         tangents: &mut tangents[within(points)],
                         forces: &mut f,
                         mode_forces: &mut mode_forces[within(modes)],

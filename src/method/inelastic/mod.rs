@@ -5,6 +5,8 @@
 
 mod element;
 mod grid;
+mod halves;
+mod kept;
 mod locking;
 mod newton;
 mod nodal;
@@ -19,3 +21,4 @@ pub use newton::Progress;
 pub use problem::{InelasticError, InelasticProblem, PointState, StateLayout};
 pub use reading::NodalValues;
 pub use substeps::Increment;
+pub use tangent::{MOST_KEPT, MOST_POISSON};

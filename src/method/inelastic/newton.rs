@@ -8,7 +8,7 @@
 use super::grid::{Grid, Iterate};
 use super::problem::InelasticError;
 use super::tangent::TangentSolver;
-use crate::laws::PointConstants;
+use crate::laws::{PointConstants, Relaxation};
 use crate::math::separable::dot;
 use crate::runtime::allowance::Allowance;
 use crate::runtime::parallel::Team;
@@ -42,6 +42,8 @@ pub struct Step<'a> {
     pub solver: &'a TangentSolver,
     pub team: &'a Team,
     pub constants: &'a [PointConstants],
+    /// Of each layer of elements.
+    pub relaxation: &'a [Option<&'a Relaxation>],
     pub old: &'a [f64],
     /// Nodal forces.
     pub load: &'a [f64],
@@ -90,7 +92,7 @@ impl Step<'_> {
     }
 
     fn respond(&self, iterate: &mut Iterate) {
-        self.grid.respond(self.team, self.constants, self.old, iterate);
+        self.grid.respond(self.team, (self.constants, self.relaxation), self.old, iterate);
     }
 
     /// Returns the residual forces of the displacements.

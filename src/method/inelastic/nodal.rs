@@ -10,7 +10,7 @@ use super::element::Given;
 use super::grid::{Grid, Iterate};
 use super::problem::{InelasticProblem, PointState};
 use super::shapes::Scratch;
-use crate::laws::{PlasticHistory, PointConstants};
+use crate::laws::{PointConstants, Relaxation};
 use crate::math::gauss::gauss_legendre;
 use crate::math::separable::{Side, transform};
 use crate::method::fem::recovery::{Beyond, Recovery};
@@ -18,11 +18,12 @@ use crate::method::fem::{Geometry, Mesh};
 use crate::runtime::parallel::Team;
 
 impl Grid {
-    /// Returns all points under the displacements of an iterate, with their present histories.
+    /// Returns all points under the displacements of an iterate, with their present histories; `relaxation` is that of
+    /// each layer.
     pub fn read(
         &self,
         team: &Team,
-        constants: &[PointConstants],
+        (constants, relaxation): (&[PointConstants], &[Option<&Relaxation>]),
         history: &[f64],
         iterate: &Iterate,
     ) -> Vec<PointState> {
@@ -38,7 +39,8 @@ impl Grid {
                     displacement: &u,
                     amplitudes: &iterate.amplitudes[at(modes)],
                     constants: &constants[at(points)],
-                    old: &history[at(points * PlasticHistory::LEN)],
+                    old: &history[at(points * self.kit.history)],
+                    relaxation: relaxation[layer],
                 };
                 self.kit.read(&given, &mut scratch, &mut out);
             }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::grid::{Grid, Iterate};
 use super::newton::{Progress, Step};
 use super::tangent::TangentSolver;
-use crate::laws::{FlowLaw, PlasticHistory, PointConstants};
+use crate::laws::{FlowLaw, PlasticHistory, PointConstants, PointTangent, Relaxation};
 use crate::math::cholesky::SolverError;
 use crate::method::fem::elastic::Support;
 use crate::method::fem::free_faces::FreeFaces;
@@ -36,6 +36,11 @@ pub enum InelasticError {
          creep: its coefficient is in 1/(s Paⁿ))"
     )]
     TooFast { steps: usize, done: f64 },
+    #[error(
+        "{steps} inner steps came no further than {done:e} s: moduli relax too quickly for them (allowed: shorter \
+         communication steps, or longer relaxation times)"
+    )]
+    TooQuick { steps: usize, done: f64 },
     #[error(transparent)]
     Halted(#[from] Halt),
     #[error(transparent)]
@@ -51,8 +56,10 @@ pub struct StateLayout {
     /// elements.
     pub amplitudes: std::ops::Range<usize>,
     /// Histories of each element's points, both x fastest: [`PlasticHistory::LEN`] numbers each, in the order of
-    /// [`PlasticHistory::read`].
+    /// [`PlasticHistory::read`], then those of [`Relaxation`] and zeros where another layer needs more.
     pub history: std::ops::Range<usize>,
+    /// Length of the history of a point.
+    pub of_point: usize,
     /// Points of an element: (p + 1)³ of a brick of order p, (p + 2)² of a ring.
     pub points: usize,
 }
@@ -99,9 +106,13 @@ impl InelasticProblem {
             let what = "the list of laws";
             return Err(InelasticError::Length { what, given: laws.len(), wanted: layers });
         }
-        let grid = Grid::new(mesh);
+        let further = laws.iter().filter_map(|law| law.relaxation()).map(Relaxation::history_len);
+        let of_point = PlasticHistory::LEN + further.max().unwrap_or(0);
+        let grid = Grid::new(mesh, of_point);
         let reference = reference(&laws)?;
-        let solver = aside(|| TangentSolver::new(mesh, &reference, supports, &Team::new(threads)));
+        let relaxed = after_all_time(&laws);
+        let constants = (&reference, relaxed.as_deref());
+        let solver = aside(|| TangentSolver::new(mesh, constants, supports, &Team::new(threads)));
         let free_faces = FreeFaces::of(mesh, supports);
         Ok(Self { mesh: mesh.clone(), laws, grid, free_faces, solver, threads })
     }
@@ -111,14 +122,40 @@ impl InelasticProblem {
         self.laws.iter().any(|law| law.creeps())
     }
 
+    /// Returns true if a part of the body may yield.
+    pub fn yields(&self) -> bool {
+        let is_bounded = |law: &Arc<dyn FlowLaw>| {
+            let own = law.over_step(law.stress_free_temperature(), 0.0);
+            own.is_some_and(|own| own.yield_stress.is_finite())
+        };
+        self.laws.iter().any(is_bounded)
+    }
+
+    /// Returns true if moduli of a part of the body relax.
+    pub fn relaxes(&self) -> bool {
+        self.laws.iter().any(|law| law.relaxation().is_some())
+    }
+
+    /// Returns true if strain or stress changes at rest.
+    pub fn takes_time(&self) -> bool {
+        self.creeps() || self.relaxes()
+    }
+
+    /// Relaxation of each layer of elements.
+    pub(super) fn relaxation(&self) -> Vec<Option<&Relaxation>> {
+        (0..self.grid.layers()).map(|layer| self.law(layer).relaxation()).collect()
+    }
+
     pub fn layout(&self) -> StateLayout {
         let displacement = self.grid.unknowns();
         let amplitudes = displacement + self.grid.elements() * self.grid.kit.treatment.modes();
-        let history = amplitudes + self.grid.points() * PlasticHistory::LEN;
+        let of_point = self.grid.kit.history;
+        let history = amplitudes + self.grid.points() * of_point;
         StateLayout {
             displacement: 0..displacement,
             amplitudes: displacement..amplitudes,
             history: amplitudes..history,
+            of_point,
             points: self.grid.kit.shapes.points,
         }
     }
@@ -131,20 +168,16 @@ impl InelasticProblem {
     /// Largest memory of a step beyond the state [B].
     pub fn memory(&self) -> f64 {
         // Constants, tangents twice, histories new and old; in linear bricks also the triangle of a matrix.
-        const POINT: f64 = 8.0 * (8.0 + 2.0 * 9.0 + 2.0 * PlasticHistory::LEN as f64);
+        let of_point = 8.0 * (9.0 + 2.0 * 9.0 + 2.0 * self.grid.kit.history as f64);
         // Vectors of Newton's method and of conjugate gradients.
         const VECTORS: f64 = 24.0;
         let unknowns = self.grid.unknowns() as f64;
         let own = self.grid.kit.unknowns() as f64;
         let triangles =
             if self.grid.kit.treatment.modes() > 0 { 0.5 * own * (own + 1.0) } else { 0.0 };
-        let factor = match self.solver.is_factored() {
-            true => {
-                1.2 * expected_entries(self.mesh.geometry, self.grid.unknowns()) + 60.0 * unknowns
-            }
-            false => 0.0,
-        };
-        POINT * self.grid.points() as f64
+        let factor = self.solver.factors() as f64
+            * (1.2 * expected_entries(self.mesh.geometry, self.grid.unknowns()) + 60.0 * unknowns);
+        of_point * self.grid.points() as f64
             + 8.0 * (VECTORS * unknowns + triangles * self.grid.elements() as f64 + factor)
     }
 
@@ -171,19 +204,21 @@ impl InelasticProblem {
         forces: &[f64],
         duration: f64,
     ) -> Result<Progress, InelasticError> {
-        self.advance_within(state, temperatures, forces, duration, &Allowance::default())
+        let change = [temperatures; 2];
+        self.advance_within(state, change, forces, duration, &Allowance::default())
     }
 
-    /// Advances like [`Self::advance_over`], within an allowance of work.
+    /// Advances like [`Self::advance_over`] from nodal temperatures to others [K], within an allowance of work.
     pub(super) fn advance_within(
         &self,
         state: &mut [f64],
-        temperatures: &[f64],
+        temperatures: [&[f64]; 2],
         forces: &[f64],
         duration: f64,
         allowance: &Allowance,
     ) -> Result<Progress, InelasticError> {
-        self.check(state, temperatures)?;
+        self.check(state, temperatures[0])?;
+        self.check(state, temperatures[1])?;
         let unknowns = self.grid.unknowns();
         if !forces.is_empty() && forces.len() != unknowns {
             let what = "the list of nodal forces";
@@ -196,13 +231,14 @@ impl InelasticProblem {
     fn advance_here(
         &self,
         state: &mut [f64],
-        temperatures: &[f64],
+        temperatures: [&[f64]; 2],
         forces: &[f64],
         duration: f64,
         allowance: &Allowance,
     ) -> Result<Progress, InelasticError> {
         let team = Team::new(self.threads);
-        let constants = self.constants(temperatures, duration, &team)?;
+        let constants = self.constants_over(temperatures, duration, &team)?;
+        let relaxation = self.relaxation();
         let layout = self.layout();
         let mut iterate = self.iterate(state);
         let load = match forces.is_empty() {
@@ -215,6 +251,7 @@ impl InelasticProblem {
                 solver: &self.solver,
                 team: &team,
                 constants: &constants,
+                relaxation: &relaxation,
                 old: &state[layout.history.clone()],
                 load: &load,
                 allowance,
@@ -260,24 +297,36 @@ impl InelasticProblem {
         if self.laws.len() == 1 { &*self.laws[0] } else { &*self.laws[layer] }
     }
 
-    /// Constants of all points over a step [s].
+    /// Constants of all points over a step [s] at constant temperatures.
     pub(super) fn constants(
         &self,
         temperatures: &[f64],
         duration: f64,
         team: &Team,
     ) -> Result<Vec<PointConstants>, InelasticError> {
+        self.constants_over([temperatures; 2], duration, team)
+    }
+
+    /// Constants of all points over a step [s] in which temperatures change.
+    fn constants_over(
+        &self,
+        temperatures: [&[f64]; 2],
+        duration: f64,
+        team: &Team,
+    ) -> Result<Vec<PointConstants>, InelasticError> {
         let shapes = &self.grid.kit.shapes;
         let layers = team.map(self.grid.layers(), |layer| {
             let mut out = Vec::with_capacity(self.grid.per_layer() * shapes.points);
-            let mut at = vec![0.0; shapes.points];
+            let mut at = [vec![0.0; shapes.points], vec![0.0; shapes.points]];
             for e in 0..self.grid.per_layer() {
                 let place = self.grid.place(layer, e);
-                let nodal: Vec<f64> =
-                    self.grid.nodes_of(place).map(|node| temperatures[node]).collect();
-                shapes.interpolate(&nodal, &mut at);
-                for &temperature in &at {
-                    let constants = self.law(layer).over_step(temperature, duration);
+                for (at, temperatures) in at.iter_mut().zip(temperatures) {
+                    let nodes = self.grid.nodes_of(place);
+                    let nodal: Vec<f64> = nodes.map(|node| temperatures[node]).collect();
+                    shapes.interpolate(&nodal, at);
+                }
+                for (&start, &temperature) in at[0].iter().zip(&at[1]) {
+                    let constants = self.law(layer).over_change([start, temperature], duration);
                     out.push(constants.ok_or(InelasticError::Constants { layer, temperature })?);
                 }
             }
@@ -302,6 +351,32 @@ impl InelasticProblem {
         self.laws.iter().filter_map(rise).fold(f64::INFINITY, f64::min)
     }
 
+    /// Returns the effect of temperatures that do not change linearly over a duration [s], relative to the stress, where
+    /// moduli relax: `now` are nodal temperatures at a part of it, between those at its ends [K].
+    pub fn unevenness(
+        &self,
+        [first, last]: [&[f64]; 2],
+        (part, now): (f64, &[f64]),
+        duration: f64,
+    ) -> f64 {
+        let mut laws: Vec<&Relaxation> = Vec::new();
+        for own in self.laws.iter().filter_map(|law| law.relaxation()) {
+            if !laws.contains(&own) {
+                laws.push(own);
+            }
+        }
+        let ends = || first.iter().zip(last);
+        let change = ends().zip(now).map(|((a, b), now)| (b - a).abs().max((now - a).abs()));
+        let change = change.fold(f64::MIN_POSITIVE, f64::max);
+        let nodes = ends().zip(now);
+        let of_node = |((a, b), now): ((&f64, &f64), &f64)| {
+            let even = a + part * (b - a);
+            let of_law = |law: &&Relaxation| law.unevenness([even, *now], duration, change);
+            if *now == even { 0.0 } else { laws.iter().map(of_law).fold(0.0, f64::max) }
+        };
+        nodes.map(of_node).fold(0.0, f64::max)
+    }
+
     /// Returns all quadrature points with the histories of a state.
     pub fn points(
         &self,
@@ -313,7 +388,8 @@ impl InelasticProblem {
         let constants = self.constants(temperatures, 0.0, &team)?;
         let iterate = self.iterate(state);
         let history = &state[self.layout().history];
-        Ok(self.grid.read(&team, &constants, history, &iterate))
+        let relaxation = self.relaxation();
+        Ok(self.grid.read(&team, (&constants, &relaxation), history, &iterate))
     }
 
     /// Returns the displacements, with the components of a node together [m].
@@ -323,26 +399,63 @@ impl InelasticProblem {
 
     /// Largest accumulated plastic strain of all quadrature points [1].
     pub fn max_plastic_strain(&self, state: &[f64]) -> f64 {
-        let histories = state[self.layout().history].chunks_exact(PlasticHistory::LEN);
+        let layout = self.layout();
+        let histories = state[layout.history].chunks_exact(layout.of_point);
         histories.map(|history| PlasticHistory::read(history).accumulated).fold(0.0, f64::max)
     }
 
-    /// Returns the energy dissipated by the body, including mirror images [J].
-    pub fn dissipated_energy(&self, state: &[f64]) -> f64 {
+    /// Returns the energy dissipated by plastic flow, including mirror images [J].
+    pub fn plastic_work(&self, state: &[f64]) -> f64 {
+        self.dissipated(state, |relaxation| relaxation.is_none())
+    }
+
+    /// Returns the energy dissipated by relaxation, including mirror images [J].
+    pub fn relaxation_loss(&self, state: &[f64]) -> f64 {
+        self.dissipated(state, |relaxation| relaxation.is_some())
+    }
+
+    /// Returns the energy dissipated by some layers.
+    fn dissipated(&self, state: &[f64], counts: fn(Option<&Relaxation>) -> bool) -> f64 {
         let shapes = &self.grid.kit.shapes;
-        let mut histories = state[self.layout().history].chunks_exact(PlasticHistory::LEN);
+        let layout = self.layout();
+        let mut histories = state[layout.history].chunks_exact(layout.of_point);
         let mut sum = 0.0;
         for layer in 0..self.grid.layers() {
             for e in 0..self.grid.per_layer() {
                 for (volume, history) in
                     shapes.volumes(self.grid.place(layer, e)).into_iter().zip(&mut histories)
                 {
-                    sum += volume * PlasticHistory::read(history).dissipated;
+                    if counts(self.law(layer).relaxation()) {
+                        sum += volume * PlasticHistory::read(history).dissipated;
+                    }
                 }
             }
         }
         sum * self.mesh.copies()
     }
+
+    /// Returns the elastic energy of the body, with that of hardening, including mirror images [J].
+    pub fn stored_energy(
+        &self,
+        state: &[f64],
+        temperatures: &[f64],
+    ) -> Result<f64, InelasticError> {
+        let points = self.points(state, temperatures)?;
+        let sum: f64 = points.iter().map(|point| point.volume * point.stored).sum();
+        Ok(sum * self.mesh.copies())
+    }
+}
+
+/// Tangents of the laws after everything has relaxed; `None` if nothing does.
+fn after_all_time(laws: &[Arc<dyn FlowLaw>]) -> Option<Vec<PointTangent>> {
+    laws.iter().find(|law| law.relaxation().is_some())?;
+    let tangent = |law: &Arc<dyn FlowLaw>| {
+        let own = law.over_step(law.stress_free_temperature(), 0.0)?;
+        let own = PointConstants { reduced_time: f64::INFINITY, ..own };
+        let tangent = |relaxation: &Relaxation| relaxation.tangent(&own);
+        Some(law.relaxation().map_or_else(|| own.elastic_tangent(), tangent))
+    };
+    laws.iter().map(tangent).collect()
 }
 
 /// Constants that represent all layers: their means at the stress-free temperatures.

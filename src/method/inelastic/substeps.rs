@@ -44,18 +44,23 @@ impl InelasticProblem {
         state: &mut [f64],
         increment: &Increment,
     ) -> Result<(), InelasticError> {
-        if !self.creeps() || increment.duration <= 0.0 {
-            let [_, temperatures] = increment.temperatures;
+        if increment.duration <= 0.0 || !self.takes_time() {
+            let temperatures = [increment.temperatures[1]; 2];
             return self
                 .advance_to(state, temperatures, increment.forces[1], 0.0, increment)
                 .map(drop);
         }
+        if !self.creeps() {
+            return self.advance_by_halves(state, increment);
+        }
         let mut now = state.to_vec();
         // Changes since the last step are instantaneous.
-        self.advance_to(&mut now, increment.temperatures[0], increment.forces[0], 0.0, increment)?;
+        let first = [increment.temperatures[0]; 2];
+        self.advance_to(&mut now, first, increment.forces[0], 0.0, increment)?;
         let (mut done, mut part) = (0.0, 1.0_f64);
         let mut rates = self.rates(&now, increment.temperatures[0])?;
         let mut strain = rates.strain.max(LEAST_STRAIN);
+        let mut before = increment.temperatures[0].to_vec();
         let mut steps = 0;
         while steps < MOST_STEPS {
             steps += 1;
@@ -65,7 +70,8 @@ impl InelasticProblem {
             let forces = between(increment.forces, end);
             let mut next = now.clone();
             let length = part * increment.duration;
-            match self.advance_to(&mut next, &temperatures, &forces, length, increment) {
+            let change = [&before[..], &temperatures[..]];
+            match self.advance_to(&mut next, change, &forces, length, increment) {
                 Ok(_) => {}
                 Err(InelasticError::NoEquilibrium { .. }) if part > LEAST_PART => {
                     part *= LEAST_RATIO;
@@ -85,7 +91,7 @@ impl InelasticProblem {
                 part *= if ratio.is_nan() { LEAST_RATIO } else { ratio.max(LEAST_RATIO) };
                 continue;
             }
-            (now, rates, done) = (next, ahead, end);
+            (now, rates, done, before) = (next, ahead, end, temperatures);
             if done >= 1.0 {
                 state.copy_from_slice(&now);
                 return Ok(());
@@ -98,7 +104,7 @@ impl InelasticProblem {
     fn advance_to(
         &self,
         state: &mut [f64],
-        temperatures: &[f64],
+        temperatures: [&[f64]; 2],
         forces: &[f64],
         duration: f64,
         increment: &Increment,
@@ -120,7 +126,7 @@ impl InelasticProblem {
     fn error(&self, states: [&[f64]; 2], rates: &Rates, length: f64) -> f64 {
         let layout = self.layout();
         let [before, after] =
-            states.map(|state| state[layout.history.clone()].chunks_exact(PlasticHistory::LEN));
+            states.map(|state| state[layout.history.clone()].chunks_exact(layout.of_point));
         let of_point = |((old, new), rate): ((&[f64], &[f64]), &Option<f64>)| {
             let grown =
                 PlasticHistory::read(new).accumulated - PlasticHistory::read(old).accumulated;
@@ -138,6 +144,6 @@ struct Rates {
     strain: f64,
 }
 
-fn between([start, end]: [&[f64]; 2], part: f64) -> Vec<f64> {
+pub(super) fn between([start, end]: [&[f64]; 2], part: f64) -> Vec<f64> {
     start.iter().zip(end).map(|(a, b)| a + part * (b - a)).collect()
 }

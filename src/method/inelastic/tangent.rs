@@ -4,10 +4,14 @@
 //! constants differ. Corrections of quadratic elements are computed from their points, those of linear ones, with
 //! condensed enhanced strains, are matrices of 24 rows. Conjugate gradients are preconditioned by the fast inverse of
 //! elasticity. In sections and in nearly incompressible bodies the tangent is factored, and also in a box where
-//! conjugate gradients fail.
+//! conjugate gradients fail. Where moduli relax, elasticity is that of each layer over the step.
+
+use std::ops::Range;
+use std::sync::Arc;
 
 use super::element::Kit;
 use super::grid::{Grid, Iterate};
+use super::kept::{Kept, representative, runs};
 use super::shapes::Scratch;
 use crate::laws::{PointConstants, PointTangent, Thermoelastic};
 use crate::math::cholesky::{SolverError, SparseCholesky};
@@ -22,12 +26,24 @@ use crate::method::fem::{Mesh, MeshFace, Parity};
 use crate::runtime::parallel::Team;
 
 /// Poisson's ratio up to which conjugate gradients need few iterations.
-const MOST_POISSON: f64 = 0.45;
+pub const MOST_POISSON: f64 = 0.45;
+
+/// Number of kept factors, and of kept inverses of elasticity, where moduli relax: steps have two lengths, and none for
+/// what is instantaneous.
+pub const MOST_KEPT: usize = 4;
 
 /// Solver for changes of displacement.
 pub struct TangentSolver {
-    /// Matrix-free elasticity and its fast inverse, if they are suitable.
-    bricks: Option<Bricks>,
+    mesh: Mesh,
+    /// Free nodes of a box; `None` in a section and in a box that can move.
+    free: Option<[[Range<usize>; 3]; 3]>,
+    /// Matrix-free elasticity and its fast inverse, if they are suitable at all times.
+    bricks: Option<Arc<Bricks>>,
+    /// The same for tangents of the layers that relax; `None` if none does.
+    relaxed: Option<Kept<Vec<PointTangent>, Bricks>>,
+    factors: Kept<Vec<(PointTangent, usize)>, SparseCholesky>,
+    /// True if the tangent may have to be factored.
+    is_factored: bool,
     /// Flags of held displacements, node after node.
     held: Vec<bool>,
     /// Elimination order of the free displacements.
@@ -38,8 +54,41 @@ pub struct TangentSolver {
 struct Bricks {
     stiffness: BrickStiffness,
     inverse: BrickInverse,
-    /// The elastic tangent of these.
-    reference: PointTangent,
+    /// The elastic tangent of these in each layer of elements.
+    references: Vec<PointTangent>,
+}
+
+impl Bricks {
+    /// `tangents` are those of the layers of the body.
+    fn new(
+        mesh: &Mesh,
+        tangents: &[PointTangent],
+        free: &[[Range<usize>; 3]; 3],
+        team: &Team,
+    ) -> Self {
+        let laws: Vec<Thermoelastic> = tangents.iter().map(elastic_law).collect();
+        let elements = 0..mesh.axes[2].elements();
+        Self {
+            inverse: BrickInverse::new(mesh, &laws, free, team),
+            stiffness: BrickStiffness::new(mesh, &laws, free.clone()),
+            references: elements.map(|e| tangents[mesh.layering.layer_of(e)]).collect(),
+        }
+    }
+}
+
+/// Elasticity with a tangent.
+fn elastic_law(&PointTangent { bulk, all, .. }: &PointTangent) -> Thermoelastic {
+    let shear = 0.5 * all;
+    Thermoelastic {
+        young: 9.0 * bulk * shear / (3.0 * bulk + shear),
+        poisson: (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear)),
+        expansion: 0.0,
+    }
+}
+
+/// Returns true if conjugate gradients need few iterations.
+fn suits(tangent: &PointTangent) -> bool {
+    elastic_law(tangent).poisson <= MOST_POISSON
 }
 
 /// Elements of a layer whose tangent is not elastic, and the differences.
@@ -60,23 +109,19 @@ struct Corrected<'a> {
 }
 
 impl TangentSolver {
-    /// `reference` holds constants that represent the body.
+    /// `reference` holds constants that represent the body, `relaxed` the tangents of the layers of elements after
+    /// everything has relaxed, if something does.
     pub fn new(
         mesh: &Mesh,
-        reference: &PointConstants,
+        (reference, relaxed): (&PointConstants, Option<&[PointTangent]>),
         supports: &[(MeshFace, Support)],
         team: &Team,
     ) -> Self {
-        let (bulk, shear) = (reference.bulk, reference.shear);
-        let law = Thermoelastic {
-            young: 9.0 * bulk * shear / (3.0 * bulk + shear),
-            poisson: (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear)),
-            expansion: 0.0,
-        };
-        let laws = vec![law.clone(); mesh.layering.count()];
+        let reference = reference.elastic_tangent();
+        let references = vec![reference; mesh.layering.count()];
         let elastic = ElasticProblem::new(ElasticSetup {
             mesh: mesh.clone(),
-            laws: laws.to_vec(),
+            laws: references.iter().map(elastic_law).collect(),
             supports: supports.to_vec(),
             threads: 1,
         });
@@ -92,18 +137,49 @@ impl TangentSolver {
             0 => Reach { first: vec![0], last: vec![0] },
             n => Reach::of_elements(n, axis.order),
         });
-        let suits = degrees == 3 && law.poisson <= MOST_POISSON;
-        let bricks = elastic.free_nodes(parity).filter(|_| suits).map(|free| Bricks {
-            inverse: BrickInverse::new(mesh, &laws, &free, team),
-            stiffness: BrickStiffness::new(mesh, &laws, free),
-            reference: reference.elastic_tangent(),
-        });
-        Self { bricks, held, order, reach }
+        let free = (degrees == 3).then(|| elastic.free_nodes(parity)).flatten();
+        let fixed = free.as_ref().filter(|_| relaxed.is_none() && suits(&reference));
+        let bricks = fixed.map(|free| Arc::new(Bricks::new(mesh, &references, free, team)));
+        let is_factored = match relaxed {
+            Some(relaxed) => free.is_none() || !relaxed.iter().all(suits),
+            None => bricks.is_none(),
+        };
+        let most = if relaxed.is_some() { MOST_KEPT } else { 1 };
+        Self {
+            mesh: mesh.clone(),
+            free,
+            bricks,
+            relaxed: relaxed.map(|_| Kept::new(MOST_KEPT)),
+            factors: Kept::new(most),
+            is_factored,
+            held,
+            order,
+            reach,
+        }
     }
 
-    /// Returns true if the tangent is factored.
-    pub fn is_factored(&self) -> bool {
-        self.bricks.is_none()
+    /// Returns the largest number of factors at a time; zero if the tangent is never factored.
+    pub fn factors(&self) -> usize {
+        if self.is_factored { self.factors.most() + 1 } else { 0 }
+    }
+
+    /// Returns matrix-free elasticity near the tangents of an iterate, if it is suitable.
+    fn bricks(&self, grid: &Grid, iterate: &Iterate, team: &Team) -> Option<Arc<Bricks>> {
+        let Some(kept) = &self.relaxed else { return self.bricks.clone() };
+        let free = self.free.as_ref()?;
+        let of_layer = grid.per_layer() * grid.kit.shapes.points;
+        let layers = (0..self.mesh.layering.count()).map(|layer| self.mesh.layer_elements(layer));
+        let tangents: Vec<PointTangent> = layers
+            .map(|own| representative(&iterate.tangents[own.start * of_layer..own.end * of_layer]))
+            .collect();
+        if !tangents.iter().all(suits) {
+            return None;
+        }
+        kept.get(&tangents).or_else(|| {
+            let bricks = Arc::new(Bricks::new(&self.mesh, &tangents, free, team));
+            kept.keep(tangents, bricks.clone());
+            Some(bricks)
+        })
     }
 
     /// Sets held displacements to zero.
@@ -128,9 +204,9 @@ impl TangentSolver {
         tolerance: f64,
         team: &Team,
     ) -> Result<(Vec<f64>, usize), SolverError> {
-        if let Some(bricks) = &self.bricks {
-            let layers = corrections(grid, bricks, iterate, team);
-            let operator = Corrected { grid, bricks, layers: &layers, team };
+        if let Some(bricks) = self.bricks(grid, iterate, team) {
+            let layers = corrections(grid, &bricks, iterate, team);
+            let operator = Corrected { grid, bricks: &bricks, layers: &layers, team };
             if let Ok(found) = conjugate_gradients::solve(&operator, load, tolerance, team) {
                 return Ok(found);
             }
@@ -145,16 +221,19 @@ impl TangentSolver {
         load: &[f64],
         team: &Team,
     ) -> Result<Vec<f64>, SolverError> {
+        // Only tangents that are the same all over a layer recur.
+        let key = runs(&iterate.tangents, grid.layers());
+        let known = key.as_ref().and_then(|key| self.factors.get(key));
+        let cholesky = match known {
+            Some(cholesky) => cholesky,
+            None => {
+                let cholesky = Arc::new(self.factor(grid, iterate, team)?);
+                key.into_iter().for_each(|key| self.factors.keep(key, cholesky.clone()));
+                cholesky
+            }
+        };
         let degrees = grid.kit.shapes.degrees;
-        let matrix = self.assemble(grid, iterate, team);
-        let mut number = vec![usize::MAX; self.held.len()];
         let free = || (0..self.held.len()).filter(|&i| !self.held[i]);
-        free().enumerate().for_each(|(k, i)| number[i] = k);
-        let order: Vec<usize> = self.order.iter().map(|&i| number[i]).collect();
-        let triangle = lower_triangle(&matrix, degrees, &number);
-        drop(matrix);
-        let cholesky = SparseCholesky::factor(&triangle, &order, team.threads())?;
-        drop(triangle);
         let place = |i: usize| i % degrees * grid.nodes + i / degrees;
         let mut solution: Vec<f64> = free().map(|i| load[place(i)]).collect();
         cholesky.solve_in_place(&mut solution);
@@ -163,6 +242,22 @@ impl TangentSolver {
             out[place(i)] = value;
         }
         Ok(out)
+    }
+
+    fn factor(
+        &self,
+        grid: &Grid,
+        iterate: &Iterate,
+        team: &Team,
+    ) -> Result<SparseCholesky, SolverError> {
+        let matrix = self.assemble(grid, iterate, team);
+        let mut number = vec![usize::MAX; self.held.len()];
+        let free = (0..self.held.len()).filter(|&i| !self.held[i]);
+        free.enumerate().for_each(|(k, i)| number[i] = k);
+        let order: Vec<usize> = self.order.iter().map(|&i| number[i]).collect();
+        let triangle = lower_triangle(&matrix, grid.kit.shapes.degrees, &number);
+        drop(matrix);
+        SparseCholesky::factor(&triangle, &order, team.threads())
     }
 
     fn assemble(&self, grid: &Grid, iterate: &Iterate, team: &Team) -> StencilMatrix {
@@ -201,13 +296,14 @@ impl TangentSolver {
 
 /// Finds where the tangent differs from that of elasticity.
 fn corrections(grid: &Grid, bricks: &Bricks, iterate: &Iterate, team: &Team) -> Vec<Corrections> {
-    let (points, reference) = (grid.kit.shapes.points, bricks.reference);
-    let differs = |t: &PointTangent| {
-        // Rounding of constants that are the same.
-        let same = |a: f64, b: f64| (a - b).abs() <= 1e-14 * b;
-        !(same(t.bulk, reference.bulk) && same(t.all, reference.all) && t.along == 0.0)
-    };
+    let points = grid.kit.shapes.points;
     team.map(grid.layers(), |layer| {
+        let reference = bricks.references[layer];
+        let differs = |t: &PointTangent| {
+            // Rounding of constants that are the same.
+            let same = |a: f64, b: f64| (a - b).abs() <= 1e-14 * b;
+            !(same(t.bulk, reference.bulk) && same(t.all, reference.all) && t.along == 0.0)
+        };
         let mut found = Corrections::default();
         let mut scratch = Scratch::default();
         // Neighbouring elements of equal size share one matrix of elasticity.

@@ -27,7 +27,8 @@ pub struct Twin {
     /// True if extremes of the body count. Those of stress may lie at edges where no mesh converges, so they count only
     /// if running maxima are requested.
     pub reads_extremes: bool,
-    /// True if stress depends on the history of the body, because it yields, creeps or has tabulated constants.
+    /// True if stress depends on the history of the body, because it yields, creeps or has tabulated constants; moduli that
+    /// relax alone do not count.
     pub has_history: bool,
     /// True if loads represent drops, whose heat does not depend on the mesh.
     pub has_drops: bool,
@@ -100,7 +101,11 @@ impl Twin {
         }
         twin.solver.method = Default::default();
         let solid = twin.meshed_mut(name)?;
-        let has_history = is_mechanical && !solid.deforms_linearly();
+        let only_relaxes = solid.only_relaxes();
+        if is_mechanical && only_relaxes {
+            simplified.push("moduli are the instantaneous ones at all times".to_owned());
+        }
+        let has_history = is_mechanical && !solid.deforms_linearly() && !only_relaxes;
         linearise(solid, has_history);
         solid.peaks.clear();
         if is_mechanical && !reads {

@@ -86,8 +86,9 @@ fn check_material(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
     let law = solid.material.material().law.deformation();
     if law.large_strain(solid.initial_temperature).is_none() {
         let message = "a solid of large strain cannot be made of this material";
-        let allowed = "`model = \"neo_hookean\"` with `young` and `poisson`; or `\"elastoplastic\"` with \
-                       `yield_stress`, too, without `kinematic_hardening`, with a `saturation` not below the yield stress";
+        let allowed = "`model = \"neo_hookean\"` with `young` and `poisson`; `\"viscoelastic\"` with \
+                       `shear_relaxation`, too, without `bulk_relaxation`; or `\"elastoplastic\"` with `yield_stress`, \
+                       without `kinematic_hardening`, with a `saturation` not below the yield stress";
         checker.refuse(&path.key("material"), message, allowed);
     }
 }

@@ -1,7 +1,7 @@
-//! Checks the constants of materials: tables, melting and yield.
+//! Checks the constants of materials: tables, melting, yield and relaxation.
 
 use super::{Checker, number};
-use crate::laws::solid::Need;
+use crate::laws::solid::{Branch, Need, Relaxing};
 use crate::laws::{Material, Melting, Property, PropertyError, Table};
 use crate::scene::locate::Path;
 
@@ -22,6 +22,31 @@ pub fn check(checker: &mut Checker, path: &Path, material: &Material) {
         melting(checker, &path.key("melting"), range);
     }
     needs(checker, path, material, material.law.deformation().needs());
+    material.law.deformation().relaxing().into_iter().for_each(|own| relaxing(checker, path, own));
+}
+
+/// Rounding of fractions that are to sum to 1.
+const ROUNDING: f64 = 1e-12;
+
+fn relaxing(checker: &mut Checker, path: &Path, relaxing: &Relaxing) {
+    let Relaxing { shear_relaxation, bulk_relaxation, .. } = relaxing;
+    let is_empty = shear_relaxation.is_empty() && bulk_relaxation.is_empty();
+    let message = "no modulus relaxes";
+    let allowed = "a branch or more, `{ fraction = g, time = τ }`, or model = \"thermoelastic\"";
+    checker.require(!is_empty, &path.key("shear_relaxation"), message, allowed);
+    let lists = [("shear_relaxation", shear_relaxation), ("bulk_relaxation", bulk_relaxation)];
+    for (key, branches) in lists {
+        fractions(checker, &path.key(key), branches);
+    }
+}
+
+fn fractions(checker: &mut Checker, path: &Path, branches: &[Branch]) {
+    let sum: f64 = branches.iter().map(|branch| branch.fraction).sum();
+    let message = format!(
+        "the fractions sum to {}: `young` and `poisson` are the instantaneous constants, of which no more can relax",
+        number(sum)
+    );
+    checker.require(sum <= 1.0 + ROUNDING, path, message, "fractions that sum to at most 1");
 }
 
 pub fn melting(checker: &mut Checker, path: &Path, Melting { solidus, liquidus, .. }: Melting) {

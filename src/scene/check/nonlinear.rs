@@ -52,7 +52,7 @@ pub fn check(checker: &mut Checker, path: &Path, solid: &Solid) {
     }
     let resists = |layer: &Layer| layer.contact_resistance.is_some_and(|r| r > 0.0);
     if !solid.deforms_linearly() && solid.layers.iter().flatten().any(resists) {
-        let message = "layers of a body that yields, or whose elastic constants depend on the temperature, touch \
+        let message = "layers of a body that yields or relaxes, or whose elastic constants depend on the temperature, touch \
                        without resistance";
         checker.refuse(&path.key("layers"), message, "no `contact_resistance`");
     }

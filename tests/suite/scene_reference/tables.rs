@@ -4,7 +4,7 @@ use impinge::limits::keyword;
 use serde_json::Value;
 
 /// Headings of `docs/scene.md` with a table, and where in the schema the table that they describe stands.
-pub const SECTIONS: [(&str, &str); 41] = [
+pub const SECTIONS: [(&str, &str); 43] = [
     ("The whole", ""),
     ("`fidelity`", "/$defs/Fidelity"),
     ("`solver`", "/$defs/Solver"),
@@ -18,6 +18,8 @@ pub const SECTIONS: [(&str, &str); 41] = [
     ("`frozen` of a fluid", "/$defs/Frozen"),
     ("`creep` of a material", "/$defs/Creep"),
     ("`hardening` of a material", "/$defs/Saturation"),
+    ("`shear_relaxation` of a material", "/$defs/Branch"),
+    ("`shift` of a material", "/$defs/Shift"),
     ("`layers` of a solid", "/$defs/Layer"),
     ("`sph` of a solid", "/$defs/SphSettings"),
     ("`mesh` of a solid", "/$defs/Mesh"),

@@ -3,11 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::laws::Part;
+use crate::laws::{GAS_CONSTANT, Part};
 use crate::limits::{knot, plausible, within};
-
-/// Molar gas constant R [J/(mol K)], exact since the SI of 2019.
-const GAS: f64 = 8.314_462_618_153_24;
 
 /// Factor `exp(E/R (1/T − 1/T_r))` of the viscous stress at a temperature T [K], 1 at the reference temperature T_r [K],
 /// with the activation energy E of flow [J/mol] (E. N. da C. Andrade, Nature 125 (1930) 309; H. Eyring, J. Chem. Phys. 4
@@ -26,7 +23,7 @@ pub struct Arrhenius {
 impl Arrhenius {
     #[inline]
     pub fn factor(&self, temperature: f64) -> f64 {
-        (self.energy / GAS * (1.0 / temperature - 1.0 / self.reference)).exp()
+        (self.energy / GAS_CONSTANT * (1.0 / temperature - 1.0 / self.reference)).exp()
     }
 }
 
@@ -51,7 +48,7 @@ mod tests {
         assert_eq!(law.factor(400.0), 1.0);
         // d ln µ/d(1/T) = E/R
         let slope = (law.factor(410.0) / law.factor(390.0)).ln() / (1.0 / 410.0 - 1.0 / 390.0);
-        assert!((slope * GAS / 50e3 - 1.0).abs() < 1e-12);
+        assert!((slope * GAS_CONSTANT / 50e3 - 1.0).abs() < 1e-12);
         assert!(law.factor(500.0) < 1.0 && law.factor(300.0) > 1.0);
     }
 }
