@@ -25,7 +25,7 @@ pub use droplet::{
 pub use error::BodyError;
 pub use forecast::{BodyForecast, DropletForecast, Forecast, ParticleForecast, forecast};
 pub use link::{Joint, Link, MOST_PARTS, Side};
-pub use read::{Descriptor, Direct, PeakPart, Reading, peaks, totals};
+pub use read::{Descriptor, Direct, PeakPart, Reading, flaw_quantities, peaks, totals};
 pub use reduced::{KeptReduction, forget_unused_reductions, keep_reduction};
 pub use solid::{PointQuantity, point_quantities};
 

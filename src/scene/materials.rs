@@ -267,6 +267,11 @@ impl Solid {
         self.materials_of_layers().into_iter().any(Material::yields)
     }
 
+    /// Returns true if part of the body has a distribution of flaws.
+    pub fn has_flaws(&self) -> bool {
+        self.materials_of_layers().into_iter().any(|own| own.fracture.weibull.is_some())
+    }
+
     /// Temperature at which the body is free of thermal stress [K].
     pub fn temperature_without_stress(&self) -> f64 {
         self.stress_free_temperature.unwrap_or(self.initial_temperature)

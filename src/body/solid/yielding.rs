@@ -114,6 +114,12 @@ impl SolidBody {
         &state[..self.heat_len]
     }
 
+    /// Returns the mechanical part of a state; empty without a history.
+    fn mechanics_of<'s>(&self, state: &'s [f64]) -> &'s [f64] {
+        let length = self.yielding.as_ref().map_or(0, |yielding| yielding.layout().len());
+        &state[self.heat_len..self.heat_len + length]
+    }
+
     /// Advances heat and mechanics to the equilibrium at the end, in parts. A part is halved if temperatures have an
     /// extremum within it, so that plastic strain sees the warmest moment, or if it finds no equilibrium.
     ///
@@ -208,7 +214,9 @@ impl SolidBody {
         acts: &Acts,
         allowance: &Allowance,
     ) -> Result<(), BodyError> {
-        let (heat, mechanics) = state.split_at_mut(self.heat_len);
+        let mechanics_len = yielding.layout().len();
+        let (heat, rest) = state.split_at_mut(self.heat_len);
+        let mechanics = &mut rest[..mechanics_len];
         let at = |time: f64, heat: &[f64]| {
             let inputs = acts.path.at(0, time);
             let mut loads = self.loads.assemble(&inputs, self.meshes());
@@ -284,7 +292,7 @@ impl SolidBody {
         let (Some(yielding), Some(temperatures)) = (&self.yielding, temperatures) else {
             return Ok(None);
         };
-        let mechanics = &state[self.heat_len..];
+        let mechanics = self.mechanics_of(state);
         let nodal = self.nodal_temperatures(yielding, temperatures);
         let values = yielding.problem.nodal_values(mechanics, &nodal);
         let NodalValues { stress, plastic_strain, back_strain } =
@@ -301,14 +309,14 @@ impl SolidBody {
     /// readings. It is zero without yielding.
     pub(super) fn max_plastic_strain(&self, state: &[f64]) -> f64 {
         let largest =
-            |yielding: &Yielding| yielding.problem.max_plastic_strain(&state[self.heat_len..]);
+            |yielding: &Yielding| yielding.problem.max_plastic_strain(self.mechanics_of(state));
         self.yielding.as_ref().map_or(0.0, largest)
     }
 
     /// Energy dissipated by yielding [J].
     pub(super) fn plastic_work(&self, state: &[f64]) -> f64 {
         let work =
-            |yielding: &Yielding| yielding.problem.dissipated_energy(&state[self.heat_len..]);
+            |yielding: &Yielding| yielding.problem.dissipated_energy(self.mechanics_of(state));
         self.yielding.as_ref().map_or(0.0, work)
     }
 }
