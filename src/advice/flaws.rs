@@ -14,15 +14,18 @@ const WORST_DEPTH: f64 = 1.13;
 const SHALLOW: f64 = 0.1;
 
 pub fn review(reviewer: &mut Reviewer) {
-    for (i, flaw) in reviewer.scene.flaw.iter().enumerate() {
-        let Some(solid) = reviewer.scene.solid(&flaw.body) else { continue };
-        let path = Path::default().key("flaw").index(i);
-        if solid.yields() {
-            reviewer.warn(&path.key("in"), warning::flaw_in_yielding_body());
-        }
-        if let Some(depth) = flaw.depth.given() {
-            peak(reviewer, &path, (flaw, depth), solid);
-            deep(reviewer, &path, (flaw, depth), solid);
+    let scene = reviewer.scene;
+    for (name, solid) in scene.solids() {
+        let own = scene.flaw.iter().enumerate().filter(|(_, flaw)| flaw.body == name);
+        for (i, flaw) in own {
+            let path = Path::default().key("flaw").index(i);
+            if solid.yields() {
+                reviewer.warn(&path.key("in"), warning::flaw_in_yielding_body());
+            }
+            if let Some(depth) = flaw.depth.given() {
+                peak(reviewer, &path, (flaw, depth), solid);
+                deep(reviewer, &path, (flaw, depth), solid);
+            }
         }
     }
 }

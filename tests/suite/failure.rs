@@ -125,7 +125,7 @@ fn what_was_reached_stays_and_grows_place_by_place() {
         trial.step(1e-3);
         let (so_far, now) =
             (trial.get("plate.failure_risk"), trial.get("plate.present_failure_risk"));
-        assert!(so_far >= highest && so_far >= now * (1.0 - 1e-6), "step {step}");
+        assert!(so_far >= highest * (1.0 - 1e-6) && so_far >= now * (1.0 - 1e-6), "step {step}");
         highest = so_far;
         singly = singly.max(now);
     }
@@ -133,7 +133,8 @@ fn what_was_reached_stays_and_grows_place_by_place() {
     // A flux into the body takes the tension away.
     trial.set("spot.heat_flux", 1e8);
     trial.step(5e-3);
-    assert_eq!(trial.get("plate.failure_risk"), highest);
+    let kept = trial.get("plate.failure_risk");
+    assert!(off(kept, highest) < 1e-4, "{kept} {highest}");
     assert!(trial.get("plate.present_failure_risk") < 0.1 * highest);
     let x = trial.get("plate.failure_place_x");
     assert!((x.abs() - 0.6e-3).abs() < 2e-4, "{x}");

@@ -4,7 +4,7 @@ use impinge::limits::keyword;
 use serde_json::Value;
 
 /// Headings of `docs/scene.md` with a table, and where in the schema the table that they describe stands.
-pub const SECTIONS: [(&str, &str); 34] = [
+pub const SECTIONS: [(&str, &str); 36] = [
     ("The whole", ""),
     ("`fidelity`", "/$defs/Fidelity"),
     ("`solver`", "/$defs/Solver"),
@@ -17,6 +17,7 @@ pub const SECTIONS: [(&str, &str); 34] = [
     ("`melting` of a material", "/$defs/Melting"),
     ("`frozen` of a fluid", "/$defs/Frozen"),
     ("`creep` of a material", "/$defs/Creep"),
+    ("`weibull` of a material", "/$defs/Weibull"),
     ("`layers` of a solid", "/$defs/Layer"),
     ("`sph` of a solid", "/$defs/SphSettings"),
     ("`mesh` of a solid", "/$defs/Mesh"),
@@ -35,6 +36,7 @@ pub const SECTIONS: [(&str, &str); 34] = [
     ("`start` of a load", "/$defs/LoadStart"),
     ("`range` of a load", "/$defs/LoadRange"),
     ("`[[probe]]`", "/$defs/Probe"),
+    ("`[[flaw]]`", "/$defs/Flaw"),
     ("`[[field]]`", "/$defs/Field"),
     ("`[[wall]]`", "/$defs/Wall"),
     ("`start` of a wall", "/$defs/WallStart"),

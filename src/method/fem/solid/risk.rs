@@ -11,7 +11,7 @@ use crate::math::gauss::gauss_legendre;
 use crate::math::lagrange::shape;
 use crate::method::fem::free_faces::is_inside;
 use crate::method::fem::plan::Plan;
-use crate::method::mesh::{Axis, Mesh, MeshFace};
+use crate::method::mesh::{Axis, Mesh};
 
 /// Flaws of a body.
 pub struct Flaws {
@@ -19,8 +19,16 @@ pub struct Flaws {
     layers: Vec<Option<FlawStatistics>>,
     /// Gauss rules of 1, 2, … points: place, weight and shape functions.
     rules: Vec<Vec<Point>>,
-    /// Nodes that bear risk: those of layers with flaws, or of their faces.
+    /// Elements of the layers with flaws, or the parts of their faces.
+    patches: Vec<Patch>,
+    /// Nodes of these.
     bears: Vec<bool>,
+}
+
+/// An element, or a part of a face, of a layer.
+struct Patch {
+    spans: [Span; 3],
+    layer: usize,
 }
 
 /// A Gauss point of an element along one axis.
@@ -33,10 +41,11 @@ struct Point {
 
 /// An element, or a node on a face, along one axis.
 #[derive(Clone, Copy)]
-struct Span<'m> {
-    axis: &'m Axis,
+struct Span {
     /// The element; `None` for a single node.
     element: Option<usize>,
+    /// Number of nodes.
+    count: usize,
     /// First node, in the list with doubled interfaces along z.
     first: usize,
     /// Place of that node on the axis.
@@ -51,6 +60,8 @@ const MOST_POINTS: usize = 48;
 /// Points of an element in which the power hardly varies, and of one whose share of the risk is below [`MINOR`].
 const LEAST_POINTS: f64 = 3.0;
 const POINTS_OF_MINOR: f64 = 2.0;
+/// Share of the largest equivalent stress below which tension may be rounding.
+const NEGLIGIBLE: f64 = 1e-6;
 /// Further points of an element whose stress passes through zero.
 const POINTS_AT_ZERO: f64 = 24.0;
 /// Share of the largest contribution below which an element counts as minor, and sum of such shares that is left out.
@@ -74,119 +85,124 @@ impl Flaws {
             };
             gauss_legendre(count).into_iter().map(point).collect()
         };
-        let mut flaws =
-            Self { layers, rules: (1..=MOST_POINTS).map(rule).collect(), bears: Vec::new() };
-        let mut bears = vec![false; plan.mesh.sided_nodes()];
-        for (spans, _) in flaws.patches(&plan.mesh) {
-            for_nodes(&plan.mesh, &spans, |_, node| bears[node] = true);
+        let mesh = &plan.mesh;
+        let patches = patches(mesh, &layers);
+        let mut bears = vec![false; mesh.sided_nodes()];
+        for patch in &patches {
+            patch.for_nodes(mesh, |_, node| bears[node] = true);
         }
-        flaws.bears = bears;
-        Some(flaws)
+        Some(Self { layers, rules: (1..=MOST_POINTS).map(rule).collect(), patches, bears })
     }
 
-    /// Elements of the layers with flaws, or the parts of their faces, each with its layer.
-    fn patches<'m>(&self, mesh: &'m Mesh) -> Vec<([Span<'m>; 3], &FlawStatistics)> {
-        let all = |axis: usize| {
-            let own = &mesh.axes[axis];
-            (0..own.elements().max(1)).map(move |element| Span::of(mesh, axis, element))
-        };
-        let mut list = Vec::new();
-        let mut add = |xs: &[Span<'m>], ys: &[Span<'m>], layer: usize, zs: &[Span<'m>]| {
-            let Some(statistics) = &self.layers[layer] else { return };
-            for &z in zs {
-                for &y in ys {
-                    list.extend(xs.iter().map(|&x| ([x, y, z], statistics)));
-                }
-            }
-        };
-        let [xs, ys] = [all(0).collect::<Vec<_>>(), all(1).collect::<Vec<_>>()];
-        for layer in 0..mesh.layering.count() {
-            let zs: Vec<Span> =
-                mesh.layer_elements(layer).map(|element| Span::of(mesh, 2, element)).collect();
-            let Some(statistics) = &self.layers[layer] else { continue };
-            if let Extent::Volume(_) = statistics.extent {
-                add(&xs, &ys, layer, &zs);
-                continue;
-            }
-            for high in [false, true] {
-                let is_outer = layer == if high { mesh.layering.count() - 1 } else { 0 };
-                if is_outer {
-                    add(&xs, &ys, layer, &[Span::end(mesh, 2, high)]);
-                }
-                let is_face = |axis: usize| {
-                    mesh.axes[axis].elements() > 0 && (high || !is_inside(mesh, axis))
-                };
-                if is_face(0) {
-                    add(&[Span::end(mesh, 0, high)], &ys, layer, &zs);
-                }
-                if is_face(1) {
-                    add(&xs, &[Span::end(mesh, 1, high)], layer, &zs);
-                }
-            }
-        }
-        list
+    /// The distribution of a patch.
+    fn of_patch(&self, patch: &Patch) -> &FlawStatistics {
+        self.layers[patch.layer].as_ref().expect("patches are those of layers with flaws")
     }
 }
 
-impl<'m> Span<'m> {
-    fn of(mesh: &'m Mesh, axis: usize, element: usize) -> Self {
+/// Elements of the layers with flaws, or the parts of their faces.
+fn patches(mesh: &Mesh, layers: &[Option<FlawStatistics>]) -> Vec<Patch> {
+    let all = |axis: usize| -> Vec<Span> {
+        let count = mesh.axes[axis].elements().max(1);
+        (0..count).map(|element| Span::of(mesh, axis, element)).collect()
+    };
+    let mut list = Vec::new();
+    let mut add = |layer: usize, xs: &[Span], ys: &[Span], zs: &[Span]| {
+        for &z in zs {
+            for &y in ys {
+                list.extend(xs.iter().map(|&x| Patch { spans: [x, y, z], layer }));
+            }
+        }
+    };
+    let (xs, ys) = (all(0), all(1));
+    let top = mesh.layering.count() - 1;
+    for (layer, statistics) in layers.iter().enumerate() {
+        let Some(statistics) = statistics else { continue };
+        let elements = mesh.layer_elements(layer);
+        let zs: Vec<Span> = elements.map(|element| Span::of(mesh, 2, element)).collect();
+        if let Extent::Volume(_) = statistics.extent {
+            add(layer, &xs, &ys, &zs);
+            continue;
+        }
+        for high in [false, true] {
+            if layer == if high { top } else { 0 } {
+                add(layer, &xs, &ys, &[Span::end(mesh, 2, high)]);
+            }
+            let is_face =
+                |axis: usize| mesh.axes[axis].elements() > 0 && (high || !is_inside(mesh, axis));
+            if is_face(0) {
+                add(layer, &[Span::end(mesh, 0, high)], &ys, &zs);
+            }
+            if is_face(1) {
+                add(layer, &xs, &[Span::end(mesh, 1, high)], &zs);
+            }
+        }
+    }
+    list
+}
+
+impl Span {
+    fn of(mesh: &Mesh, axis: usize, element: usize) -> Self {
         let own = &mesh.axes[axis];
         if own.elements() == 0 {
-            return Self { axis: own, element: None, first: 0, node: 0 };
+            return Self { element: None, count: 1, first: 0, node: 0 };
         }
         let node = element * own.order;
         let below = if axis == 2 { mesh.layering.layer_of(element) } else { 0 };
-        Self { axis: own, element: Some(element), first: node + below, node }
+        Self { element: Some(element), count: own.order + 1, first: node + below, node }
     }
 
     /// The node at an end of an axis.
-    fn end(mesh: &'m Mesh, axis: usize, high: bool) -> Self {
-        let MeshFace { axis, high } = MeshFace { axis, high };
-        let node = if high { mesh.axes[axis].len() - 1 } else { 0 };
-        let first = if high { mesh.sided_counts()[axis] - 1 } else { 0 };
-        Self { axis: &mesh.axes[axis], element: None, first, node }
-    }
-
-    fn count(&self) -> usize {
-        self.element.map_or(1, |_| self.axis.order + 1)
+    fn end(mesh: &Mesh, axis: usize, high: bool) -> Self {
+        let last = |count: usize| if high { count - 1 } else { 0 };
+        let (first, node) = (last(mesh.sided_counts()[axis]), last(mesh.axes[axis].len()));
+        Self { element: None, count: 1, first, node }
     }
 
     /// Measure of the span: its length, or area along a radius.
-    fn measure(&self) -> f64 {
+    fn measure(&self, axis: &Axis) -> f64 {
         match self.element {
-            None => self.axis.weight_at(self.axis.nodes[self.node]),
+            None => axis.weight_at(axis.nodes[self.node]),
             Some(element) => {
-                let [a, b] = self.axis.bounds(element);
-                self.axis.weight_at(0.5 * (a + b)) * (b - a)
+                let [a, b] = axis.bounds(element);
+                axis.weight_at(0.5 * (a + b)) * (b - a)
             }
         }
     }
 
     /// Shape functions and measures of the points of a rule.
-    fn points(&self, rule: &[Point]) -> Vec<([f64; 3], f64)> {
+    fn points(&self, axis: &Axis, rule: &[Point]) -> Vec<([f64; 3], f64)> {
         let Some(element) = self.element else {
-            return vec![([1.0, 0.0, 0.0], self.measure())];
+            return vec![([1.0, 0.0, 0.0], self.measure(axis))];
         };
-        let [a, b] = self.axis.bounds(element);
+        let [a, b] = axis.bounds(element);
         let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
         let at = |point: &Point| {
-            let measure = self.axis.weight_at(middle + half * point.place);
+            let measure = axis.weight_at(middle + half * point.place);
             (point.shape, half * point.weight * measure)
         };
         rule.iter().map(at).collect()
     }
 }
 
-/// Passes each node of a patch, with its place among the patch's nodes.
-fn for_nodes(mesh: &Mesh, [x, y, z]: &[Span; 3], mut pass: impl FnMut(usize, usize)) {
-    let [nx, ny, _] = mesh.sided_counts();
-    for c in 0..z.count() {
-        for b in 0..y.count() {
-            for a in 0..x.count() {
-                let node = x.first + a + nx * (y.first + b + ny * (z.first + c));
-                pass(a + 3 * (b + 3 * c), node);
+impl Patch {
+    /// Passes each node with its place among the patch's nodes.
+    fn for_nodes(&self, mesh: &Mesh, mut pass: impl FnMut(usize, usize)) {
+        let [nx, ny, _] = mesh.sided_counts();
+        let [x, y, z] = &self.spans;
+        for c in 0..z.count {
+            for b in 0..y.count {
+                for a in 0..x.count {
+                    let node = x.first + a + nx * (y.first + b + ny * (z.first + c));
+                    pass(a + 3 * (b + 3 * c), node);
+                }
             }
         }
+    }
+
+    fn measure(&self, mesh: &Mesh) -> f64 {
+        let spans = self.spans.iter().zip(&mesh.axes);
+        spans.map(|(span, axis)| span.measure(axis)).product()
     }
 }
 
@@ -199,15 +215,15 @@ struct Local {
 }
 
 impl Local {
-    fn of(mesh: &Mesh, spans: &[Span; 3], equivalent: &[f64], scale: f64) -> Self {
+    fn of(mesh: &Mesh, patch: &Patch, equivalent: &[f64], scale: f64) -> Self {
         let (mut values, mut most, mut least) = ([0.0; 27], f64::NEG_INFINITY, f64::INFINITY);
-        for_nodes(mesh, spans, |place, node| {
+        patch.for_nodes(mesh, |place, node| {
             let value = equivalent[node] / scale;
             values[place] = value;
             most = most.max(value);
             least = least.min(value);
         });
-        Self { values, counts: spans.each_ref().map(Span::count), most, least }
+        Self { values, counts: patch.spans.map(|span| span.count), most, least }
     }
 
     /// Largest change along lines of nodes in the direction of an axis, over twice the largest value; negative values
@@ -321,18 +337,21 @@ impl SolidFem {
         let mut grows = vec![false; nodes];
         for (noted, now) in noted.chunks_exact_mut(nodes).zip(now.chunks_exact(nodes)) {
             grows.fill(false);
-            for (spans, _) in flaws.patches(&self.mesh) {
-                let mut any = false;
-                for_nodes(&self.mesh, &spans, |_, node| {
-                    any |= now[node] > 0.0 && now[node] > noted[node];
+            for patch in &flaws.patches {
+                let (mut before, mut after) = (0.0_f64, 0.0_f64);
+                patch.for_nodes(&self.mesh, |_, node| {
+                    before = before.max(noted[node]);
+                    after = after.max(now[node]);
                 });
-                if any {
-                    for_nodes(&self.mesh, &spans, |_, node| grows[node] = true);
+                if after > before {
+                    patch.for_nodes(&self.mesh, |_, node| grows[node] = true);
                 }
             }
+            let largest = noted.iter().chain(now).fold(0.0_f64, |most, value| most.max(*value));
+            let least = NEGLIGIBLE * largest;
             for ((noted, &now), grows) in noted.iter_mut().zip(now).zip(&grows) {
-                let is_replaced = *noted <= 0.0 && (*grows || now > 0.0);
-                if is_replaced || *noted == nothing || now > noted.max(0.0) {
+                let has_none = *noted <= least && (*grows || *noted == nothing);
+                if has_none || now > noted.max(0.0) {
                     *noted = now;
                 }
             }
@@ -359,25 +378,29 @@ impl SolidFem {
         if equivalent.iter().any(|value| value.is_nan()) {
             return f64::NAN;
         }
-        let patches = flaws.patches(&self.mesh);
-        let bound = |(spans, own): &([Span; 3], &FlawStatistics)| {
-            let local = Local::of(&self.mesh, spans, equivalent, own.strength);
-            if !(local.most > 0.0) {
-                return f64::NEG_INFINITY;
+        let patches = &flaws.patches;
+        let bound = |patch: &Patch| {
+            let own = flaws.of_patch(patch);
+            let local = Local::of(&self.mesh, patch, equivalent, own.strength);
+            match local.most > 0.0 {
+                true => {
+                    let share = patch.measure(&self.mesh) / own.extent.size();
+                    own.modulus * local.most.ln() + share.ln()
+                }
+                false => f64::NEG_INFINITY,
             }
-            let measure: f64 = spans.iter().map(Span::measure).product();
-            own.modulus * local.most.ln() + (measure / own.extent.size()).ln()
         };
         let bounds: Vec<f64> = patches.iter().map(bound).collect();
         let highest = bounds.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let least = highest + (LEFT_OUT / patches.len() as f64).ln();
         let minor = highest + MINOR.ln();
         let mut total = 0.0;
-        for ((spans, own), bound) in patches.iter().zip(bounds) {
+        for (patch, bound) in patches.iter().zip(bounds) {
             if bound < least || bound == f64::NEG_INFINITY {
                 continue;
             }
-            let local = Local::of(&self.mesh, spans, equivalent, own.strength);
+            let own = flaws.of_patch(patch);
+            let local = Local::of(&self.mesh, patch, equivalent, own.strength);
             let most = local.most;
             let relative = Local { values: local.values.map(|v| v / most), ..local };
             let relative = Local { most: 1.0, least: local.least / most, ..relative };
@@ -392,7 +415,7 @@ impl SolidFem {
                 let variation = relative.variation(axis);
                 let wanted = (few + (own.modulus * variation).ceil()).min(exact.max(few));
                 let count = ((wanted + (more * variation).ceil()) as usize).min(MOST_POINTS);
-                spans[axis].points(&flaws.rules[count - 1])
+                patch.spans[axis].points(&self.mesh.axes[axis], &flaws.rules[count - 1])
             });
             let integral = relative.integral(&points, |value| own.power(value));
             total += (own.modulus * most.ln()).exp() * integral / own.extent.size();
