@@ -23,24 +23,20 @@ class Result:
     risks: np.ndarray  # B so far and of the moment
     scratch: np.ndarray  # Pa √m
     worst: np.ndarray  # Pa √m and m
-    hoop: np.ndarray  # Pa, along the circumference of each ring at each time
-    temperature: np.ndarray  # K
+    stress: np.ndarray  # Pa, xx of each ring at each time: the mean of radial and hoop stress
 
 
 def simulate(fmu: Path) -> Result:
     names = ["plate.failure_risk", "plate.present_failure_risk", "scratch.stress_intensity"]
     names += ["worst.stress_intensity", "worst.depth"]
-    rings = [f"face.temperature[{i}]" for i in range(1, RINGS + 1)]
-    rings += [f"face.stress_xx[{i}]" for i in range(1, RINGS + 1)]
+    rings = [f"face.stress_xx[{i}]" for i in range(1, RINGS + 1)]
     rows = []
     with Unit(fmu) as unit:
         for step in range(round(STOP / STEP)):
             unit.step_to((step + 1) * STEP)
             rows.append([unit.time, *unit.get(names + rings)])
     rows = np.array(rows)
-    return Result(
-        rows[:, 0], rows[:, 1:3], rows[:, 3], rows[:, 4:6], rows[:, 6 + RINGS :], rows[:, 6 : 6 + RINGS]
-    )
+    return Result(rows[:, 0], rows[:, 1:3], rows[:, 3], rows[:, 4:6], rows[:, 6:])
 
 
 def report(result: Result):
@@ -62,7 +58,7 @@ def draw(result: Result, folder: Path):
     for time, colour in zip(SHOWN, shared.COLOURS, strict=False):
         at = np.argmin(abs(result.times - time))
         label = f"{time * 1e3:.1f} ms"
-        axes[0].plot(middles, result.hoop[at] * 1e-6, color=colour, label=label)
+        axes[0].plot(middles, result.stress[at] * 1e-6, color=colour, label=label)
     axes[0].axhline(0, color="0.6", lw=1)
     axes[0].set(xlabel="radius / mm", ylabel="stress of the surface, mean / MPa")
     axes[0].set_title("The film pulls what it cools")
@@ -85,22 +81,22 @@ def draw(result: Result, folder: Path):
         color="0.3",
     )
     axes[2].set(xlabel="time / ms", ylabel="stress intensity / (MPa √m)", ylim=(0, 0.9))
-    axes[2].set_title("A scratch opens, and closes again")
+    axes[2].set_title("Scratches open, and none grows")
     axes[2].legend(loc="lower right")
-    figure.suptitle("Water of 20 °C (2 mm, 0.7 m/s) on soda-lime glass of 150 °C")
+    figure.suptitle("Water of 20 °C (2 mm, 0.7 m/s) on soda-lime glass of 95 °C")
     shared.save(figure, folder, NAME)
 
 
 def check(result: Result):
     """The risk so far never falls, and no depth is worse than the worst."""
     so_far, present = result.risks.T
-    assert np.all(np.diff(so_far) >= -1e-4 * so_far[1:]), "the risk falls"
-    assert np.all(so_far >= present * (1 - 1e-4)), "more at once than ever"
+    assert np.all(np.diff(so_far) >= 0), "the risk falls"
+    assert np.all(so_far >= present * (1 - 1e-2)), "more at once than ever"
     assert np.all(result.worst[:, 0] >= result.scratch * (1 - 1e-3)), "a depth is worse"
     assert result.scratch.max() > 0.0, "the cold film opens the scratch"
     # The skin cannot be pulled more than if it took the temperature of the water.
-    most = 70e9 * 9e-6 * 130.0 / 0.8
-    assert result.hoop.max() < most, result.hoop.max()
+    most = 70e9 * 9e-6 * 75.0 / 0.8
+    assert result.stress.max() < most, result.stress.max()
 
 
 def main(given: list[str] | None = None):

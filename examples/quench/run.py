@@ -12,10 +12,10 @@ import shared  # noqa: E402
 from impinge import Unit  # noqa: E402
 
 NAME = "quench"
-STOP, STEP = 0.2, 2e-3  # s
+STOP, STEP = 0.1, 1e-3  # s
 WATER = 293.15  # K
-DROPS = [100.0, 150.0, 200.0, 250.0, 300.0, 400.0, 500.0]  # K
-SHOWN = 300.0  # K, the drop whose history is drawn
+DROPS = [200.0, 300.0, 400.0, 500.0, 600.0, 700.0, 800.0]  # K
+SHOWN = 600.0  # K, the drop whose history is drawn
 # The plate
 DENSITY, HEAT, CONDUCTIVITY = 3980.0, 880.0, 31.0
 YOUNG, POISSON, EXPANSION = 340e9, 0.22, 8e-6
@@ -91,7 +91,7 @@ def draw(result: Result, folder: Path):
     axes[0].plot(drops, -np.expm1(-scale * drops**MODULUS), color=shared.COLOURS[0])
     axes[0].plot(DROPS, -np.expm1(-result.risks[:, -1]), "o", color=shared.COLOURS[1])
     half = (np.log(2) / scale) ** (1 / MODULUS)
-    axes[0].annotate(f"half of the plates: {half:.0f} K", (half, 0.5), (half - 220, 0.62))
+    axes[0].annotate(f"half of the plates: {half:.0f} K", (half, 0.5), (210, 0.6))
     axes[0].plot(half, 0.5, "o", color="0.3")
     axes[0].set(xlabel="temperature above the water / K", ylabel="probability of failure P")
     axes[0].set_title("Who breaks: P = 1 − exp(−c ΔTᵐ)")
@@ -103,12 +103,11 @@ def draw(result: Result, folder: Path):
     axes[1].set_title(f"When: risk of ΔT = {SHOWN:.0f} K")
     axes[1].legend()
     stress, own = result.stresses[place] * 1e-6, result.intensities[place] * 1e-6
-    axes[2].plot(times, own, label="K of the scratch")
+    axes[2].plot(times, own)
     axes[2].axhline(3.8, color="0.5", lw=1)
-    axes[2].text(60, 3.85, "toughness", ha="right", color="0.4")
+    axes[2].text(60, 3.87, "toughness", ha="right", color="0.4")
     axes[2].set(xlabel="time / ms", ylabel="stress intensity / (MPa √m)", xlim=(0, 60), ylim=(0, 4.4))
-    axes[2].set_title(f"A scratch of 20 µm, at {stress.max():.0f} MPa")
-    axes[2].legend(loc="center right")
+    axes[2].set_title(f"A scratch of 20 µm, up to {stress.max():.0f} MPa")
     figure.suptitle("A plate of alumina, 1 mm thick, in cold water (20 kW/(m² K))")
     shared.save(figure, folder, NAME)
 
@@ -117,7 +116,7 @@ def check(result: Result):
     """B follows the m-th power of the drop of temperature, and the closed form away from the rim."""
     scaled = result.risks[:, -1] / np.array(DROPS) ** MODULUS
     assert np.ptp(scaled) < 1e-6 * scaled.mean(), scaled
-    assert np.all(np.diff(result.risks) >= -1e-4 * result.risks[:, 1:]), "the risk falls"
+    assert np.all(np.diff(result.risks) >= 0), "the risk falls"
     expected = closed_form(SHOWN, result.times)[-1]
     found = result.risks[DROPS.index(SHOWN), -1]
     assert abs(found / expected - 1) < 0.15, (found, expected)

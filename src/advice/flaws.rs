@@ -4,11 +4,13 @@ use super::Reviewer;
 use crate::limits::number;
 use crate::quantity::percent;
 use crate::scene::locate::Path;
-use crate::scene::{Flaw, FlawShape, Solid};
+use crate::scene::{Face, Flaw, FlawShape, Scene, Solid};
 use crate::warning;
 
 /// Depth over diffusion length √(κt) at which a suddenly cooled edge crack has its highest stress intensity.
 const WORST_DEPTH: f64 = 1.13;
+/// Biot number of the depth from which on convection is like a jump of the temperature.
+const SUDDEN: f64 = 1.0;
 /// Depth over the extent of the body behind it up to which the formula of a half plane holds: there a strip under
 /// uniform tension has 6 % more.
 const SHALLOW: f64 = 0.1;
@@ -22,12 +24,25 @@ pub fn review(reviewer: &mut Reviewer) {
             if solid.yields() {
                 reviewer.warn(&path.key("in"), warning::flaw_in_yielding_body());
             }
-            if let Some(depth) = flaw.depth.given() {
+            let Some(depth) = flaw.depth.given() else { continue };
+            if is_shocked(scene, (name, solid), depth) {
                 peak(reviewer, &path, (flaw, depth), solid);
-                deep(reviewer, &path, (flaw, depth), solid);
             }
+            deep(reviewer, &path, (flaw, depth), solid);
         }
     }
+}
+
+/// Returns true if the surface temperature may jump, seen from a depth [m]: it is prescribed, or convection or another
+/// body brings it about faster than heat reaches the depth.
+fn is_shocked(scene: &Scene, (name, solid): (&str, &Solid), depth: f64) -> bool {
+    let conductivity = solid.strata().into_iter().map(|layer| layer.constants.conductivity);
+    let conductivity = conductivity.fold(f64::INFINITY, f64::min);
+    let is_sudden = |face: &Face| {
+        let biot = face.convection.map_or(0.0, |own| own.coefficient * depth / conductivity);
+        face.temperature.is_some() || biot > SUDDEN
+    };
+    solid.faces.values().any(is_sudden) || scene.couplings_to(name).next().is_some()
 }
 
 /// Warns of steps in which the highest stress intensity after a shock comes and goes.

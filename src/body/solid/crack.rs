@@ -44,7 +44,7 @@ pub struct Crack {
     plane_modulus: f64,
     /// [Pa √m]
     toughness: f64,
-    /// Elements over the depth, of edge cracks of a given depth.
+    /// Elements over the depth, of edge cracks of a given depth on meshes that do not resolve the heat of a step.
     elements: Option<f64>,
 }
 
@@ -141,7 +141,14 @@ impl Crack {
         plan: &Plan,
     ) -> Vec<(usize, Self)> {
         let own = scene.flaw.iter().enumerate().filter(|(_, flaw)| flaw.body == name);
-        own.filter_map(|(place, flaw)| Some((place, Self::of(flaw, solid, plan)?))).collect()
+        // A mesh that resolves the heat of a step resolves its stress, also along shallower flaws.
+        let is_fine = plan.resolved_from <= scene.step;
+        let of = |(place, flaw): (usize, &Flaw)| {
+            let own = Self::of(flaw, solid, plan)?;
+            let elements = own.elements.filter(|_| !is_fine);
+            Some((place, Self { elements, ..own }))
+        };
+        own.filter_map(of).collect()
     }
 
     /// Returns `None` for an edge crack away from faces, which a checked scene excludes.

@@ -28,6 +28,7 @@ pub struct SolidMemo {
     /// Equivalent stress of flaws at the nodes, and its risk.
     equivalent_stress: Option<Vec<f64>>,
     present_risk: Option<f64>,
+    /// Largest risk so far.
     risk_so_far: Option<Risk>,
     /// The last point that was read: its components are read one after another.
     stress: Option<([f64; 3], [f64; 6])>,
@@ -298,6 +299,15 @@ impl SolidMemo {
     /// Discards the risk so far, as its running maxima change.
     pub fn forget_risk(&mut self) {
         self.risk_so_far = None;
+    }
+
+    /// Risk under the present stress, if it is already known.
+    pub fn known_risk(&self) -> Option<f64> {
+        self.present_risk
+    }
+
+    pub fn keep_present_risk(&mut self, risk: f64) {
+        self.present_risk = Some(risk);
     }
 
     pub fn stress_at(
