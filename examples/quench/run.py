@@ -106,14 +106,15 @@ def draw(result: Result, folder: Path):
     axes[2].plot(times, own)
     axes[2].axhline(3.8, color="0.5", lw=1)
     axes[2].text(60, 3.87, "toughness", ha="right", color="0.4")
-    axes[2].set(xlabel="time / ms", ylabel="stress intensity / (MPa √m)", xlim=(0, 60), ylim=(0, 4.4))
+    axes[2].set(xlabel="time / ms", ylabel="stress intensity / (MPa √m)")
+    axes[2].set(xlim=(0, 60), ylim=(0, 4.4))
     axes[2].set_title(f"A scratch of 20 µm, up to {stress.max():.0f} MPa")
     figure.suptitle("A plate of alumina, 1 mm thick, in cold water (20 kW/(m² K))")
     shared.save(figure, folder, NAME)
 
 
 def check(result: Result):
-    """B follows the m-th power of the drop of temperature, and the closed form away from the rim."""
+    """B follows the m-th power of the drop of temperature, and a wide plate away from the rim."""
     scaled = result.risks[:, -1] / np.array(DROPS) ** MODULUS
     assert np.ptp(scaled) < 1e-6 * scaled.mean(), scaled
     assert np.all(np.diff(result.risks) >= 0), "the risk falls"

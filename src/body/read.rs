@@ -39,7 +39,8 @@ pub enum Reading {
     Peak { which: usize, part: PeakPart },
     /// Error estimate of the body's outputs. It is known before time starts and not part of the body's state.
     Error,
-    /// Value of a flaw: its place among the scene's flaws, and that of the quantity among [flaw quantities](flaw_quantities).
+    /// Value of a flaw: its place among the scene's flaws, and that of the quantity among [those of
+    /// flaws](flaw_quantities).
     Flaw { flaw: usize, quantity: usize },
     /// Value of a cell of the wall below, or of the region beyond its cells; `quantity` is its place among the
     /// [quantities of walls](super::wall_quantities).

@@ -85,22 +85,22 @@ pub static WEIBULL_MODULUS: Range<'static> = Range {
 pub static STRENGTH: Range<'static> = Range {
     what: "the Weibull strength",
     unit: "Pa",
-    lowest: 1e5,    // concrete and bricks have some MPa
-    highest: 2e10,  // fibres of silica without flaws 14 GPa
+    lowest: 1e5,   // concrete and bricks have some MPa
+    highest: 2e10, // fibres of silica without flaws 14 GPa
     mistakes: Cow::Borrowed(&[scaled("MPa", 1e6), scaled("GPa", 1e9)]),
 };
 pub static TOUGHNESS: Range<'static> = Range {
     what: "the toughness",
     unit: "Pa √m",
-    lowest: 1e4,    // ice 1e5, aerogels less
-    highest: 1e9,   // tough steels 3e8
+    lowest: 1e4,  // ice 1e5, aerogels less
+    highest: 1e9, // tough steels 3e8
     mistakes: Cow::Borrowed(&[scaled("MPa √m", 1e6)]),
 };
 pub static FLAW: Range<'static> = Range {
     what: "the depth of a flaw",
     unit: "m",
-    lowest: 1e-8,  // pores of the finest ceramics
-    highest: 0.1,  // cracks in walls
+    lowest: 1e-8, // pores of the finest ceramics
+    highest: 0.1, // cracks in walls
     mistakes: LENGTHS,
 };
 pub static MELTING: Range<'static> = Range {

@@ -105,7 +105,8 @@ impl Flaw {
         let [nx, ny, nz] = self.unit_normal();
         // The axis that is least along the normal yields a direction across it.
         let along = [nx, ny, nz].map(f64::abs);
-        let least = (0..3).fold(0, |least, axis| if along[axis] < along[least] { axis } else { least });
+        let least =
+            (0..3).fold(0, |least, axis| if along[axis] < along[least] { axis } else { least });
         let mut axis = [0.0; 3];
         axis[least] = 1.0;
         let cross = |a: [f64; 3], b: [f64; 3]| {
@@ -116,9 +117,7 @@ impl Flaw {
         let first = across.map(|part| part / length);
         let second = cross([nx, ny, nz], first);
         let (sine, cosine) = (TAU * turn).sin_cos();
-        std::array::from_fn(|i| {
-            self.at[i] + distance * (cosine * first[i] + sine * second[i])
-        })
+        std::array::from_fn(|i| self.at[i] + distance * (cosine * first[i] + sine * second[i]))
     }
 
     /// Face on which the mouth of an edge crack lies; top and bottom take precedence.

@@ -3,7 +3,8 @@
 use super::inputs::cell_labels;
 use super::registry::{Output, Slot, Variable};
 use crate::body::{
-    Descriptor, PeakPart, PointQuantity, Reading, flaw_quantities, peaks, point_quantities, totals, wall_quantities,
+    Descriptor, PeakPart, PointQuantity, Reading, flaw_quantities, peaks, point_quantities, totals,
+    wall_quantities,
 };
 use crate::limits::Bounds;
 use crate::quantity::Quantity;

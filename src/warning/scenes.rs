@@ -93,8 +93,8 @@ rules! {
     "did you mean a disc, or a `mesh.spacing` of {spacing} m or less?"
 
     Check flaw_peak_missed(step, time)
-    "after a thermal shock the stress intensity of a flaw this deep is highest after {time} s, within a communication step \
-     of {step} s: outputs miss it"; "set a `step` of {time} s or less"
+    "after a thermal shock the stress intensity of a flaw this deep is highest after {time} s, within a communication \
+     step of {step} s: outputs miss it"; "set a `step` of {time} s or less"
 
     Check flaw_deep(part, most)
     "the crack is {part} of what is behind it, and its stress intensity is that of a half plane, which is too low by \

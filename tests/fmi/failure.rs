@@ -83,7 +83,8 @@ fn derivatives_of_flaws_are_exact_and_those_of_risks_refused() {
     let unit = busy(&[]);
     assert_eq!(unit.set("spot.heat_flux", -5e9), OK);
     assert_eq!(unit.step(unit.time(), 2e-8), OK);
-    let references = |names: &[&str]| names.iter().map(|name| unit.reference(name)).collect::<Vec<_>>();
+    let references =
+        |names: &[&str]| names.iter().map(|name| unit.reference(name)).collect::<Vec<_>>();
     let [flaw, input] = [references(&["scratch.stress_intensity"]), references(&["spot.pressure"])];
     let found = unit.directional_derivative(&flaw, &input, &[1.0])[0];
     let at = |pressure: f64| {

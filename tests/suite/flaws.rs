@@ -43,9 +43,10 @@ fn diffusion() -> f64 {
 #[test]
 fn shocked_edge_cracks_have_the_intensity_of_the_half_plane() {
     let depths = [0.1, 0.5, 1.0, 2.0, 3.0];
-    let flaws = depths.iter().enumerate().map(|(i, own)| {
-        scratch(&format!("s{i}"), &format!("{:e}", own * diffusion()))
-    });
+    let flaws = depths
+        .iter()
+        .enumerate()
+        .map(|(i, own)| scratch(&format!("s{i}"), &format!("{:e}", own * diffusion())));
     let flaws: String = flaws.chain([scratch("worst", "\"worst\"")]).collect();
     let accurate = "[fidelity]\ntolerance = 1e-3\n";
     let mut trial = Trial::new(&plate(1.0, "", &(flaws + accurate)));
@@ -79,8 +80,8 @@ fn uniform_tension_opens_cracks_from_every_face() {
             "at = [2e-4, 1e-4, -4e-3]\nnormal = [1.0, 0.0, 0.0]\ndepth = 1e-4\nshape = \"penny\"",
         ),
     ];
-    let text = plate(1.0, "stress_free_temperature = 613.15", &all.concat())
-        .replace("536.25", "573.15");
+    let text =
+        plate(1.0, "stress_free_temperature = 613.15", &all.concat()).replace("536.25", "573.15");
     let mut trial = Trial::new(&text);
     trial.step(0.01);
     let stress = 40.0 * PER_KELVIN;
@@ -110,7 +111,10 @@ fn closed_cracks_have_no_intensity_and_are_safe() {
 fn spotted(shape: &str, steps: f64, at: &str, load: &str) -> String {
     let flaws = [
         flaw("edge", &format!("at = {at}\nnormal = [0.6, 0.8, 0.0]\ndepth = 2e-4")),
-        flaw("penny", "at = [2e-4, 1e-4, -1.2e-4]\nnormal = [1.0, 1.0, 0.5]\ndepth = 1e-4\nshape = \"penny\""),
+        flaw(
+            "penny",
+            "at = [2e-4, 1e-4, -1.2e-4]\nnormal = [1.0, 1.0, 0.5]\ndepth = 1e-4\nshape = \"penny\"",
+        ),
     ];
     format!(
         "name = \"Plate\"\nstop_time = 1e-2\nstep = {}\n[body.plate]\nkind = \"solid\"\nshape = {{ {shape} }}\n\

@@ -367,10 +367,7 @@ impl Body for ReducedBody {
             },
             Reading::Mean { field, cell, .. } => value(self.values.mean(field, cell)),
             Reading::Total(place) => self.total(state, place),
-            Reading::Peak { .. }
-            | Reading::Flaw { .. }
-            | Reading::Cell { .. }
-            | Reading::Error => {
+            Reading::Peak { .. } | Reading::Flaw { .. } | Reading::Cell { .. } | Reading::Error => {
                 // It has neither running maxima nor flaws nor a wall, and its bounds report its error.
                 return Err(BodyError::NoSuchReading);
             }

@@ -1,8 +1,8 @@
 //! Stress intensity of flaws, from the stress of the body without them.
 //!
 //! An edge crack of depth a has `K = 2√(a/π) ∫₀¹ σ(xa) (1.3 − 0.3 x^{5/4})/√(1 − x²) dx` with the stress σ across its
-//! plane (H. Tada, P. C. Paris and G. R. Irwin, *The Stress Analysis of Cracks Handbook*, Del Research 1973: point forces
-//! on an edge crack of a half plane). A penny of radius a has the mean along its front,
+//! plane (H. Tada, P. C. Paris and G. R. Irwin, *The Stress Analysis of Cracks Handbook*, Del Research 1973: point
+//! forces on an edge crack of a half plane). A penny of radius a has the mean along its front,
 //! `K = 2√(a/π) ∫ σ̄(a sin θ) sin θ dθ` with the mean σ̄ over circles (I. N. Sneddon 1946, doi 10.1098/rspa.1946.0077).
 //! Both are sums over points with fixed weights, so one influence row has a whole flaw.
 //!
@@ -280,9 +280,10 @@ fn edge(
     let line = Line::of(&plan.mesh, flaw.at, inward, reach);
     // On an interface the layer above counts, so the deepest point stays within its own.
     let inside = 1.0 - 1e-12;
-    let points = line.distances().into_iter().map(|distance| {
-        std::array::from_fn(|i| flaw.at[i] + inside * distance * inward[i])
-    });
+    let points = line
+        .distances()
+        .into_iter()
+        .map(|distance| std::array::from_fn(|i| flaw.at[i] + inside * distance * inward[i]));
     let points = points.collect();
     match given {
         Some(depth) => {
@@ -300,9 +301,12 @@ fn edge(
 
 /// Distances from the mouth of an edge crack, above zero and ascending, at which elements end [m].
 fn element_ends(mesh: &Mesh, at: [f64; 3], inward: [f64; 3]) -> Vec<f64> {
-    let axis = (0..3).fold(0, |most, axis| {
-        if inward[axis].abs() > inward[most].abs() { axis } else { most }
-    });
+    let axis = (0..3).fold(
+        0,
+        |most, axis| {
+            if inward[axis].abs() > inward[most].abs() { axis } else { most }
+        },
+    );
     let is_radial = mesh.geometry == Geometry::Axisymmetric && axis < 2;
     let own = &mesh.axes[if is_radial { 0 } else { axis }];
     let (start, way) = match is_radial {

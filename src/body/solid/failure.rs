@@ -39,11 +39,8 @@ impl SolidBody {
     pub(super) fn layout_of_flaws(&self) -> Layout {
         let field = |name, words, per| Field { name, words, per, width: 1 };
         let risk = field("failure_risk", "largest risk of failure so far [1]", Per::Body);
-        let stress = field(
-            "equivalent_stress",
-            "largest equivalent stress of flaws so far [Pa]",
-            Per::Node,
-        );
+        let stress =
+            field("equivalent_stress", "largest equivalent stress of flaws so far [Pa]", Per::Node);
         match self.solid.risk_points() {
             0 => Layout::default(),
             count => Layout::default().with(risk, 1).with(stress, count),
@@ -81,8 +78,8 @@ impl SolidBody {
         wrong.map_or(Ok(()), |value| BodyError::unless_finite(value).map(|_| ()))
     }
 
-    /// Updates the running maxima to the observed values. The risk follows from the stresses; it is kept itself, so that
-    /// it never falls where these change the interpolation between them.
+    /// Updates the running maxima to the observed values. The risk follows from the stresses; it is kept itself, so
+    /// that it never falls where these change the interpolation between them.
     pub(super) fn note_flaws(&self, state: &mut [f64], memo: &mut SolidMemo) {
         let Some(flaws) = self.solid.flaws() else { return };
         memo.forget_risk();

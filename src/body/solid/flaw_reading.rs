@@ -79,11 +79,7 @@ impl SolidBody {
 }
 
 /// Signed stress intensity of a flaw of given depth, by its row or a solution; `None` if the depth is searched.
-fn signed(
-    reader: &mut SolidReader,
-    crack: &Crack,
-    flaw: usize,
-) -> Result<Option<f64>, BodyError> {
+fn signed(reader: &mut SolidReader, crack: &Crack, flaw: usize) -> Result<Option<f64>, BodyError> {
     match reader.flaw_by_row(flaw) {
         Some(value) => value.map(Some),
         None => crack.signed(reader),

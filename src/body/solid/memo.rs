@@ -7,7 +7,9 @@ use super::SolidBody;
 use super::failure::Risk;
 use super::rows::ByClass;
 use crate::body::{BodyError, Extreme, Memo};
-use crate::method::fem::{Deformation, Flaws, ImageStress, NodalFields, SolidFem, SolidLoads, Temperatures};
+use crate::method::fem::{
+    Deformation, Flaws, ImageStress, NodalFields, SolidFem, SolidLoads, Temperatures,
+};
 
 /// Loads on a solid, and lazily computed results of these and of a state.
 #[derive(Debug, Default)]
@@ -240,11 +242,7 @@ impl SolidMemo {
     }
 
     /// Stress at the nodes of all distinct images.
-    fn stresses(
-        &mut self,
-        body: &SolidBody,
-        state: &[f64],
-    ) -> Result<&[ImageStress], BodyError> {
+    fn stresses(&mut self, body: &SolidBody, state: &[f64]) -> Result<&[ImageStress], BodyError> {
         if self.stresses.is_none() {
             let (temperatures, deformation) = self.solve(body, state)?;
             let found = body.solid.stresses(temperatures, deformation);

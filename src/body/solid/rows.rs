@@ -170,8 +170,8 @@ impl Choice {
     pub fn note(&self) -> Option<String> {
         (self.rows > 0).then(|| {
             format!(
-                "{} components of stress and displacement at points and cells, and stress intensities of flaws, are read by \
-                 influence rows: each is solved for once, when it is first read, and costs a dot product from then on",
+                "{} components of stress and displacement at points and cells, and stress intensities of flaws, are \
+                 read by influence rows: each is solved for once, when it is first read, and costs a dot product from then on",
                 self.rows
             )
         })

@@ -148,15 +148,21 @@ const TOTALS: [Total; 17] = [
         read: |reader| reader.present_risk(),
         rate: |_| Err(BodyError::NoRate),
     },
-    place_of_risk("failure_place_x", "x of the place of the largest failure density so far", |reader| {
-        Ok(reader.risk_so_far()?.at[0])
-    }),
-    place_of_risk("failure_place_y", "y of the place of the largest failure density so far", |reader| {
-        Ok(reader.risk_so_far()?.at[1])
-    }),
-    place_of_risk("failure_place_z", "z of the place of the largest failure density so far", |reader| {
-        Ok(reader.risk_so_far()?.at[2])
-    }),
+    place_of_risk(
+        "failure_place_x",
+        "x of the place of the largest failure density so far",
+        |reader| Ok(reader.risk_so_far()?.at[0]),
+    ),
+    place_of_risk(
+        "failure_place_y",
+        "y of the place of the largest failure density so far",
+        |reader| Ok(reader.risk_so_far()?.at[1]),
+    ),
+    place_of_risk(
+        "failure_place_z",
+        "z of the place of the largest failure density so far",
+        |reader| Ok(reader.risk_so_far()?.at[2]),
+    ),
 ];
 
 /// Reader of a total.

@@ -103,7 +103,11 @@ fn prefix<'a>(
     match owners.get(name) {
         Some(owner) => {
             let message = format!("the name is taken by {owner}");
-            checker.refuse(&path, message, "a name for each body, load, probe, field, flaw and wall");
+            checker.refuse(
+                &path,
+                message,
+                "a name for each body, load, probe, field, flaw and wall",
+            );
         }
         None => {
             owners.insert(name, path);

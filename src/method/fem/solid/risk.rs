@@ -78,11 +78,8 @@ impl Flaws {
         }
         let order = plan.mesh.order();
         let rule = |count: usize| {
-            let point = |(place, weight): (f64, f64)| Point {
-                place,
-                weight,
-                shape: shape(order, place),
-            };
+            let point =
+                |(place, weight): (f64, f64)| Point { place, weight, shape: shape(order, place) };
             gauss_legendre(count).into_iter().map(point).collect()
         };
         let mesh = &plan.mesh;
@@ -235,8 +232,7 @@ impl Local {
         for i in 0..self.counts[others[0]] {
             for j in 0..self.counts[others[1]] {
                 let first = i * [1, 3, 9][others[0]] + j * [1, 3, 9][others[1]];
-                let line = (0..self.counts[axis])
-                    .map(|k| self.values[first + k * stride].max(0.0));
+                let line = (0..self.counts[axis]).map(|k| self.values[first + k * stride].max(0.0));
                 let [low, high] =
                     line.fold([f64::INFINITY, 0.0], |[low, high], v| [low.min(v), high.max(v)]);
                 most = most.max((high - low) / (2.0 * self.most - (high - low)));
@@ -297,18 +293,13 @@ impl SolidFem {
         deformation: &Deformation,
     ) -> Vec<ImageStress> {
         let nodal = self.nodal_strains(deformation);
-        let of_image =
-            |image| (image, self.stress_in(temperatures, deformation, &nodal, image));
+        let of_image = |image| (image, self.stress_in(temperatures, deformation, &nodal, image));
         self.images(&deformation.displacement).into_iter().map(of_image).collect()
     }
 
     /// Equivalent stress at the nodes of all images [Pa], continued to negative values as
     /// [`FlawStatistics::continued`] says; zero where there are no flaws.
-    pub fn equivalent_stress(
-        &self,
-        flaws: &Flaws,
-        stresses: &[ImageStress],
-    ) -> Vec<f64> {
+    pub fn equivalent_stress(&self, flaws: &Flaws, stresses: &[ImageStress]) -> Vec<f64> {
         let [nx, ny, _] = self.mesh.sided_counts();
         let of_image = |stress: &[[f64; 6]]| {
             let value = |(node, stress): (usize, &[f64; 6])| {
