@@ -44,6 +44,9 @@ pub enum Quantity {
     MomentumPerLength,
     ForcePerLength,
     HeatFlowPerLength,
+    StressIntensity,
+    /// Energy per area of a new crack.
+    EnergyPerArea,
 }
 
 /// A unit for display: `display value = factor · SI value + offset`.
@@ -59,7 +62,7 @@ const fn scaled(name: &'static str, factor: f64) -> Option<DisplayUnit> {
 }
 
 impl Quantity {
-    pub const ALL: [Quantity; 34] = [
+    pub const ALL: [Quantity; 36] = [
         Quantity::Time,
         Quantity::Temperature,
         Quantity::TemperatureDifference,
@@ -94,6 +97,8 @@ impl Quantity {
         Quantity::MomentumPerLength,
         Quantity::ForcePerLength,
         Quantity::HeatFlowPerLength,
+        Quantity::StressIntensity,
+        Quantity::EnergyPerArea,
     ];
 
     /// The quantity per metre of a plane model's depth; unchanged if independent of depth.
@@ -150,6 +155,8 @@ impl Quantity {
             Quantity::MomentumPerLength => "MomentumPerLength",
             Quantity::ForcePerLength => "ForcePerLength",
             Quantity::HeatFlowPerLength => "HeatFlowRatePerLength",
+            Quantity::StressIntensity => "StressIntensity",
+            Quantity::EnergyPerArea => "EnergyPerArea",
         }
     }
 
@@ -186,12 +193,14 @@ impl Quantity {
             Quantity::MomentumPerLength => "kg/s",
             Quantity::ForcePerLength => "N/m",
             Quantity::HeatFlowPerLength => "W/m",
+            Quantity::StressIntensity => "Pa.m(1/2)",
+            Quantity::EnergyPerArea => "J/m2",
         }
     }
 
-    /// Exponents of kg, m, s and K; angles count as numbers.
-    pub fn base_exponents(self) -> [i32; 4] {
-        match self {
+    /// Exponents of kg, m, s and K; angles count as numbers. `None` if one of them is no whole number.
+    pub fn base_exponents(self) -> Option<[i32; 4]> {
+        Some(match self {
             Quantity::Time => [0, 0, 1, 0],
             Quantity::Temperature | Quantity::TemperatureDifference => [0, 0, 0, 1],
             Quantity::HeatFlux => [1, 0, -3, 0],
@@ -221,7 +230,9 @@ impl Quantity {
             Quantity::MomentumPerLength => [1, 0, -1, 0],
             Quantity::ForcePerLength => [1, 0, -2, 0],
             Quantity::HeatFlowPerLength => [1, 1, -3, 0],
-        }
+            Quantity::StressIntensity => return None,
+            Quantity::EnergyPerArea => [1, 0, -2, 0],
+        })
     }
 
     /// Display unit, if it differs from the SI unit.
@@ -243,6 +254,7 @@ impl Quantity {
             Quantity::Mass => scaled("µg", 1e9),
             Quantity::Force => scaled("mN", 1e3),
             Quantity::HeatFlow => scaled("mW", 1e3),
+            Quantity::StressIntensity => scaled("MPa.m(1/2)", 1e-6),
             _ => None,
         }
     }
@@ -282,6 +294,8 @@ impl Quantity {
             Quantity::MomentumPerLength => 1e-5,
             Quantity::ForcePerLength => 1e1,
             Quantity::HeatFlowPerLength => 1e2,
+            Quantity::StressIntensity => 1e6,
+            Quantity::EnergyPerArea => 10.0,
         }
     }
 }

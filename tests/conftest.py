@@ -33,6 +33,7 @@ COARSE = {
         "depth_spacing = 4e-6, growth = 2.0",
         "\nspacing = 125e-6": "\nspacing = 250e-6",
     },
+    "drop_on_hot_glass": {"\nspacing = 80e-6": "\nspacing = 200e-6"},
     "droplet_impact": {
         "\nspacing = 2.5e-6": "\nspacing = 6e-6",
         "spacing = 7.5e-6, depth_spacing = 0.3e-6": "spacing = 20e-6, depth_spacing = 0.6e-6",

@@ -43,6 +43,8 @@
 //! | [`relaxing_solid`] | bar, film and shear of a solid whose shear modulus relaxes |
 //! | [`circular_plate`], [`square_plate`] | clamped plates under uniform pressure |
 //! | [`cantilever`] | beam under an end load, with shear |
+//! | [`brittle_failure`] | risk of failure by flaws: bending, thermal shock |
+//! | [`edge_crack`] | stress intensity of edge and penny-shaped cracks: uniform stress, thermal shock |
 //!
 //! [`medium`] holds the constants they share, [`fitted_range`] the ranges that fitted laws state, [`special`] the
 //! special functions, [`quadrature`] the integrals that no closed form is known for, and [`tridiagonal`] the
@@ -51,6 +53,7 @@
 pub mod bilinear;
 pub mod bonded_plate;
 pub mod bouncing_ball;
+pub mod brittle_failure;
 pub mod cantilever;
 pub mod ceasing_flow;
 pub mod circular_plate;
@@ -62,6 +65,7 @@ pub mod cooling_film;
 pub mod disc_pressure;
 pub mod drawn_rubber;
 pub mod drop_impact;
+pub mod edge_crack;
 pub mod fitted_range;
 pub mod free_plate;
 pub mod freezing_column;

@@ -4,6 +4,7 @@
 mod arrangement;
 mod cold;
 mod films;
+mod flaws;
 mod freezing;
 mod moved;
 mod particles;
@@ -55,6 +56,7 @@ fn found(scene: &Scene, (source, names_lines): (&Source, bool), schema: &Schema)
     arrangement::review(&mut reviewer);
     particles::review(&mut reviewer);
     films::review(&mut reviewer);
+    flaws::review(&mut reviewer);
     freezing::review(&mut reviewer);
     reviewer.found.sort_by_key(|(line, _)| *line);
     reviewer.found.into_iter().map(|(_, warning)| warning).collect()

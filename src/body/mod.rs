@@ -27,7 +27,7 @@ pub use error::BodyError;
 pub use forecast::{BodyForecast, DropletForecast, Forecast, ParticleForecast, forecast};
 pub use large_strain::LargeStrainForecast;
 pub use link::{Joint, Link, MOST_PARTS, Side};
-pub use read::{Descriptor, Direct, PeakPart, Reading, peaks, totals};
+pub use read::{Descriptor, Direct, PeakPart, Reading, flaw_quantities, peaks, totals};
 pub use reduced::{KeptReduction, forget_unused_reductions, keep_reduction};
 pub use solid::{PointQuantity, point_quantities};
 

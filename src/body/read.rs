@@ -2,7 +2,7 @@
 
 use super::{droplet, large_strain, reduced, reservoir, solid};
 use crate::quantity::Quantity;
-use crate::scene::{Body, Scene};
+use crate::scene::{Body, Flaw, Scene};
 
 /// Name and unit of a quantity, and the inputs that it follows without delay.
 #[derive(Debug, Clone, Copy)]
@@ -39,6 +39,9 @@ pub enum Reading {
     Peak { which: usize, part: PeakPart },
     /// Error estimate of the body's outputs. It is known before time starts and not part of the body's state.
     Error,
+    /// Value of a flaw: its place among the scene's flaws, and that of the quantity among [those of
+    /// flaws](flaw_quantities).
+    Flaw { flaw: usize, quantity: usize },
     /// Value of a cell of the wall below, or of the region beyond its cells; `quantity` is its place among the
     /// [quantities of walls](super::wall_quantities).
     Cell { quantity: usize, cell: usize },
@@ -57,6 +60,11 @@ pub enum PeakPart {
 /// Returns the running maxima of a scene's body, in the order of their numbers.
 pub fn peaks(scene: &Scene, name: &str) -> Vec<Descriptor> {
     scene.solid(name).map_or_else(Vec::new, solid::kept_peaks)
+}
+
+/// Returns the quantities that a scene's flaw offers, each with its place among all.
+pub fn flaw_quantities(flaw: &Flaw) -> Vec<(usize, Descriptor)> {
+    solid::flaw_quantities(flaw)
 }
 
 /// Returns the totals that a scene's body offers, each with its place in the table of its kind.

@@ -141,7 +141,9 @@ fn units(xml: &mut Xml, used: &BTreeSet<Quantity>) -> io::Result<()> {
             continue;
         }
         parent(xml, "Unit", &[("name", unit.into())], |xml| {
-            leaf(xml, "BaseUnit", &base_unit(*quantity))?;
+            if let Some(base) = base_unit(*quantity) {
+                leaf(xml, "BaseUnit", &base)?;
+            }
             let same_unit = used.iter().filter(|other| other.unit() == unit);
             same_unit
                 .filter_map(|other| other.display_unit())
@@ -151,11 +153,12 @@ fn units(xml: &mut Xml, used: &BTreeSet<Quantity>) -> io::Result<()> {
     Ok(())
 }
 
-fn base_unit(quantity: Quantity) -> Attributes {
-    let exponents = ["kg", "m", "s", "K"].into_iter().zip(quantity.base_exponents());
+/// Exponents of a unit, which FMI has only as whole numbers.
+fn base_unit(quantity: Quantity) -> Option<Attributes> {
+    let exponents = ["kg", "m", "s", "K"].into_iter().zip(quantity.base_exponents()?);
     let angle = ("rad", i32::from(quantity == Quantity::Angle));
     let all = exponents.chain([angle]).filter(|(_, e)| *e != 0);
-    all.map(|(name, e)| (name, e.to_string())).collect()
+    Some(all.map(|(name, e)| (name, e.to_string())).collect())
 }
 
 fn display_unit(unit: DisplayUnit) -> Attributes {

@@ -1,13 +1,13 @@
 //! terminalsAndIcons.xml: groups of variables and their positions on the unit's icon; FMI 3.0, section 2.4.9, also
 //! allowed in units of FMI 2.0.
 //!
-//! Every load, wall, probe, field and body is a terminal of its inputs and outputs.
+//! Every load, wall, probe, field, flaw and body is a terminal of its inputs and outputs.
 
 use std::collections::HashMap;
 use std::io;
 
 use super::description::{Attributes, Xml, document, leaf, parent};
-use crate::scene::{Field, Probe, Scene, Wall};
+use crate::scene::{Field, Flaw, Probe, Scene, Wall};
 use crate::variables::{ArrayRegistry, ArrayVariable, Causality, Registry};
 
 /// Folder of the file and of the icons.
@@ -195,7 +195,7 @@ fn extent(low: [f64; 2], high: [f64; 2]) -> [(&'static str, String); 4] {
     ]
 }
 
-/// Descriptions of the terminals of loads, probes, walls and fields by name, which are unique.
+/// Descriptions of the terminals of loads, probes, walls, fields and flaws by name, which are unique.
 fn descriptions(scene: &Scene) -> HashMap<&str, String> {
     let loads = scene.load.iter().map(|load| (load.name.as_str(), format!("load on {}", load.on)));
     let of_probe = |probe: &Probe| format!("values at a point of {}", probe.body);
@@ -207,7 +207,9 @@ fn descriptions(scene: &Scene) -> HashMap<&str, String> {
         None => format!("values on a grid of {}", field.body_and_place().0),
     };
     let fields = scene.field.iter().map(|field| (field.name.as_str(), of_field(field)));
-    loads.chain(probes).chain(walls).chain(fields).collect()
+    let of_flaw = |flaw: &Flaw| format!("flaw in {}", flaw.body);
+    let flaws = scene.flaw.iter().map(|flaw| (flaw.name.as_str(), of_flaw(flaw)));
+    loads.chain(probes).chain(walls).chain(fields).chain(flaws).collect()
 }
 
 /// Description of the terminal of a name; terminals that no table describes are bodies.

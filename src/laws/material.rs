@@ -1,4 +1,4 @@
-//! Materials: a law of heat joined with a law of deformation.
+//! Materials: a law of heat joined with a law of deformation and constants of fracture.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -8,16 +8,18 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::solid::{Elasticity, FlowLaw};
-use super::{Conduction, Constants, Part, PartVisitor, Property, SolidLaw};
+use super::{Brittleness, Conduction, Constants, Part, PartVisitor, Property, SolidLaw};
 use crate::substances;
 
-/// Thermal and mechanical law of a solid.
+/// Thermal and mechanical law of a solid, and constants of its fracture.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Material {
     #[serde(flatten)]
     pub heat: Conduction,
     #[serde(flatten)]
     pub law: SolidLaw,
+    #[serde(flatten)]
+    pub fracture: Brittleness,
 }
 
 impl Material {
@@ -25,6 +27,7 @@ impl Material {
     pub fn visit_parts(model: &str, visitor: &mut impl PartVisitor) {
         visitor.part::<Conduction>();
         SolidLaw::visit_parts(model, visitor);
+        visitor.part::<Brittleness>();
     }
 
     /// Returns the constants at a temperature [K], without latent heat.
@@ -49,8 +52,9 @@ impl Material {
 
     /// The number that the scene gives for a key; `None` if there is none, or a table.
     pub fn number(&mut self, key: &str) -> Option<&mut f64> {
-        let Self { heat, law } = self;
-        heat.number(key).or_else(|| law.parts_mut().into_iter().find_map(|part| part.number(key)))
+        let Self { heat, law, fracture } = self;
+        let of_law = law.parts_mut().into_iter().find_map(|part| part.number(key));
+        heat.number(key).or(of_law).or_else(|| fracture.number(key))
     }
 
     /// Returns true if the law allows permanent strain.
@@ -66,15 +70,15 @@ impl Material {
         self.law.deformation().flow_law(stress_free_temperature)
     }
 
-    /// Returns the material with constants at a temperature [K], without melting. A law with a history is kept unless
-    /// `elastic` is set.
+    /// Returns the material with constants at a temperature [K], without melting and fracture. A law with a history is
+    /// kept unless `elastic` is set.
     pub fn linearised(&self, temperature: f64, elastic: bool) -> Self {
         let heat = self.heat.linearised(temperature);
         let law = match elastic {
             true => self.law.deformation().elasticity().linearised(temperature).into(),
             false => self.law.clone(),
         };
-        Self { heat, law }
+        Self { heat, law, fracture: Brittleness::default() }
     }
 }
 
@@ -86,18 +90,29 @@ impl JsonSchema for Material {
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         let heat = Conduction::json_schema(generator);
+        let fracture = Brittleness::json_schema(generator);
         let mut schema = SolidLaw::json_schema(generator);
         let models = schema.get_mut("oneOf").and_then(Value::as_array_mut);
-        models.into_iter().flatten().for_each(|model| join(model, heat.as_value()));
+        models.into_iter().flatten().for_each(|model| {
+            join(model, heat.as_value());
+            append(model, fracture.as_value());
+        });
         if let Some(models) = schema.get_mut("oneOf").and_then(Value::as_array_mut) {
             models.push(substances::schema());
         }
         schema.insert(
             "description".into(),
-            "Conduction and a constitutive law, with their constants.".into(),
+            "Conduction, a constitutive law and fracture, with their constants.".into(),
         );
         schema
     }
+}
+
+/// Adds the keys of another table, all optional, at the end of a table.
+fn append(table: &mut Value, other: &Value) {
+    let Some(own) = table.get_mut("properties").and_then(Value::as_object_mut) else { return };
+    let other = other.get("properties").and_then(Value::as_object);
+    own.extend(other.cloned().unwrap_or_default());
 }
 
 /// Inserts the keys of another table behind the first key of a table, the tag, and forbids any others.

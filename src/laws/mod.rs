@@ -1,10 +1,12 @@
 //! Constitutive laws, one per file. Each owns its scene keys with their limits, its history and its response.
 //!
-//! A [`Material`] conducts heat by [`heat::Conduction`] and deforms by one of [`solid::SolidLaw`]; these types are also
-//! the parser, the schema and the documentation of a scene's `material` table.
+//! A [`Material`] conducts heat by [`heat::Conduction`], deforms by one of [`solid::SolidLaw`] and breaks as its
+//! [`fracture::Brittleness`] says; these types are also the parser, the schema and the documentation of a scene's
+//! `material` table.
 
 mod constants;
 pub mod fluid;
+pub mod fracture;
 pub mod heat;
 mod material;
 mod parameters;
@@ -14,6 +16,7 @@ pub mod solid;
 
 pub use constants::Constants;
 pub use fluid::{Fluid, Freezing, Frozen, Viscosity};
+pub use fracture::{Brittleness, Extent, FlawStatistics, Weibull};
 pub use heat::{
     Conduction, ConductionError, Enthalpy, EnthalpyPoint, Melting, MeltingError,
     radiative_coefficient, radiative_flux, radiative_slope,

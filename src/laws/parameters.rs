@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
-use super::{Conduction, Material, Part, PartVisitor, SolidLaw};
+use super::{Brittleness, Conduction, Material, Part, PartVisitor, SolidLaw};
 use crate::limits::Bounds;
 use crate::quantity::Quantity;
 
@@ -40,6 +40,7 @@ impl MaterialConstant {
         let mut found = Found(Vec::new());
         found.part::<Conduction>();
         SolidLaw::MODELS.iter().for_each(|model| SolidLaw::visit_parts(model, &mut found));
+        found.part::<Brittleness>();
         found.0
     }
 

@@ -75,6 +75,34 @@ pub static YIELD_STRESS: Range<'static> = Range {
     highest: 1e11, // of glass none is known; diamond 1e11
     mistakes: Cow::Borrowed(&[scaled("MPa", 1e6), scaled("GPa", 1e9)]),
 };
+pub static WEIBULL_MODULUS: Range<'static> = Range {
+    what: "the Weibull modulus",
+    unit: "1",
+    lowest: 2.0,   // ground window glass and porous ceramics have 3 to 5
+    highest: 60.0, // fibres of silica without flaws have 50 and more
+    mistakes: Cow::Borrowed(&[]),
+};
+pub static STRENGTH: Range<'static> = Range {
+    what: "the Weibull strength",
+    unit: "Pa",
+    lowest: 1e5,   // concrete and bricks have some MPa
+    highest: 2e10, // fibres of silica without flaws 14 GPa
+    mistakes: Cow::Borrowed(&[scaled("MPa", 1e6), scaled("GPa", 1e9)]),
+};
+pub static TOUGHNESS: Range<'static> = Range {
+    what: "the toughness",
+    unit: "Pa √m",
+    lowest: 1e4,  // ice 1e5, aerogels less
+    highest: 1e9, // tough steels 3e8
+    mistakes: Cow::Borrowed(&[scaled("MPa √m", 1e6)]),
+};
+pub static FLAW: Range<'static> = Range {
+    what: "the depth of a flaw",
+    unit: "m",
+    lowest: 1e-8, // pores of the finest ceramics
+    highest: 0.1, // cracks in walls
+    mistakes: LENGTHS,
+};
 pub static MELTING: Range<'static> = Range {
     what: "a temperature of melting",
     unit: "K",

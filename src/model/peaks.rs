@@ -50,7 +50,7 @@ impl Model {
     /// Updates the running maxima of a state with its present values; its inputs must be valid. A value equal to the
     /// earlier maximum leaves its time and place. An error changes nothing.
     pub fn note_peaks(&self, state: &mut State, cache: &mut Cache) -> Result<(), ModelError> {
-        if !self.peaks.is_empty() {
+        if self.keeps_maxima() {
             self.expect_room_to_step(state)?;
         }
         let noted = self.with_stack(|| self.note_peaks_here(state, cache));
@@ -63,7 +63,7 @@ impl Model {
         state: &mut State,
         cache: &mut Cache,
     ) -> Result<(), (usize, BodyError)> {
-        if self.peaks.is_empty() {
+        if !self.keeps_maxima() {
             return Ok(());
         }
         cache.update(self, state);
@@ -73,8 +73,23 @@ impl Model {
             let known = state.peaks.get(number).copied();
             Ok(known.filter(|known| known.highest.value >= now.highest.value).unwrap_or(now))
         });
-        state.peaks = peaks.collect::<Result<_, _>>()?;
+        let peaks = peaks.collect::<Result<Vec<_>, _>>()?;
+        let keep = || (0..self.bodies.len()).filter(|&place| self.bodies[place].keeps_field());
+        for place in keep() {
+            let (unknowns, memo) = (&state.bodies[place], cache.memo(place));
+            let observed = self.bodies[place].observe_field(unknowns, memo);
+            observed.map_err(|error| (place, error))?;
+        }
+        for place in keep() {
+            self.bodies[place].note_field(&mut state.bodies[place], cache.memo(place));
+        }
+        state.peaks = peaks;
         Ok(())
+    }
+
+    /// Returns true if a body has running maxima, of the whole body or of a field.
+    fn keeps_maxima(&self) -> bool {
+        !self.peaks.is_empty() || self.bodies.iter().any(|body| body.keeps_field())
     }
 
     /// Returns a part of a running maximum; before a maximum is noted, of the present value.

@@ -81,6 +81,7 @@ impl Scene {
         own.load.retain(|load| load.body_and_face().0 == name);
         own.probe.retain(|probe| probe.body == name);
         own.field.retain(|field| field.body_and_place().0 == name);
+        own.flaw.retain(|flaw| flaw.body == name);
         own.refinement.retain(|other, _| other == name);
         own.wall.clear();
         own.coupling.clear();
@@ -182,11 +183,19 @@ impl Scene {
         self.load.iter().filter(move |load| split_place(&load.on).is_some_and(|(on, _)| on == body))
     }
 
-    /// Returns true if a probe, a field or a running maximum has stresses or displacements of a body as outputs.
+    /// Returns true if a probe, a field, a flaw, a running maximum or a probability of failure needs stresses or
+    /// displacements of a body.
     pub fn gives_mechanics(&self, body: &str) -> bool {
+        let own = self.solid(body);
+        own.is_some_and(|solid| solid.has_stress_peaks() || solid.has_flaws())
+            || self.flaws_in(body).next().is_some()
+            || self.gives_mechanics_at_places(body)
+    }
+
+    /// Returns true if a probe or a field has stresses or displacements of a body as outputs.
+    pub fn gives_mechanics_at_places(&self, body: &str) -> bool {
         let mechanical = |gives: &[Gives]| gives.iter().any(Gives::is_mechanical);
-        self.solid(body).is_some_and(Solid::has_stress_peaks)
-            || self.probe.iter().any(|probe| probe.body == body && mechanical(&probe.gives))
+        self.probe.iter().any(|probe| probe.body == body && mechanical(&probe.gives))
             || self.field.iter().any(|field| field.body() == Some(body) && mechanical(&field.gives))
     }
 }

@@ -282,6 +282,11 @@ impl Solid {
         self.relaxes() && self.materials_of_layers().into_iter().all(is_linear)
     }
 
+    /// Returns true if part of the body has a distribution of flaws.
+    pub fn has_flaws(&self) -> bool {
+        self.materials_of_layers().into_iter().any(|own| own.fracture.weibull.is_some())
+    }
+
     /// Temperature at which the body is free of thermal stress [K].
     pub fn temperature_without_stress(&self) -> f64 {
         self.stress_free_temperature.unwrap_or(self.initial_temperature)

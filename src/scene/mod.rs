@@ -12,6 +12,7 @@ mod droplet_symmetry;
 mod error;
 mod excerpt;
 mod file;
+mod flaw;
 mod footprint;
 mod freezing;
 mod grid;
@@ -47,6 +48,7 @@ pub use droplet::{
 };
 pub use error::{Problem, SceneError};
 pub use file::{bytes_of, open_file};
+pub use flaw::{Flaw, FlawDepth, FlawGives, FlawShape, Worst};
 pub use footprint::Profile;
 pub use grid::{Grid, lateral_extents};
 pub use kinds::Drawn;

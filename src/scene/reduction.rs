@@ -84,6 +84,11 @@ impl Scene {
             let message = "a reduced model is elastic: nothing yields, relaxes or creeps";
             return obstacle(Place::Level, message, "full, auto");
         }
+        if solid.has_flaws() {
+            let message = "a reduced model computes only its probes and fields, not the probability of failure, which \
+                           needs the stress of the whole body";
+            return obstacle(Place::Level, message, "full, auto, or no `weibull`");
+        }
         if !solid.peaks.is_empty() {
             let message =
                 "a reduced model computes only its probes and fields, not the extremes of the body";

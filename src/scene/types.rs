@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::droplet::{Coupling, Droplet, Wall};
+use super::flaw::Flaw;
 use super::large_strain::{LargeStrain, SmallStrain, name_kind};
 use super::materials::MaterialChoice;
 use super::refinement::MeshFactors;
@@ -67,6 +68,9 @@ pub struct Scene {
     /// Tables `[[field]]`: points of grids and means over cells, whose values become arrays of outputs.
     #[serde(default)]
     pub field: Vec<Field>,
+    /// Tables `[[flaw]]`: cracks that are assumed in solids, whose stress intensity becomes an output.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub flaw: Vec<Flaw>,
     /// Tables `[[wall]]`: walls below droplets, whose temperatures become inputs; their heat and momentum become
     /// outputs.
     #[serde(default)]

@@ -60,6 +60,7 @@ impl<'a> Reach<'a> {
                 let found = totals.find(|(other, _)| *other == place);
                 found.map_or(Direct::Nothing, |(_, descriptor)| descriptor.direct)
             }
+            Reading::Flaw { .. } => Direct::TemperaturesAndTractions,
             Reading::Cell { .. } | Reading::Peak { .. } | Reading::Error => Direct::Nothing,
         };
         Self { body, direct }

@@ -3,7 +3,8 @@
 use super::inputs::cell_labels;
 use super::registry::{Output, Slot, Variable};
 use crate::body::{
-    Descriptor, PeakPart, PointQuantity, Reading, peaks, point_quantities, totals, wall_quantities,
+    Descriptor, PeakPart, PointQuantity, Reading, flaw_quantities, peaks, point_quantities, totals,
+    wall_quantities,
 };
 use crate::limits::Bounds;
 use crate::quantity::Quantity;
@@ -16,6 +17,9 @@ pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
     }
     for place in 0..scene.field.len() {
         of_field(scene, place, list);
+    }
+    for flaw in 0..scene.flaw.len() {
+        of_flaw(scene, flaw, list);
     }
     for name in in_order(scene) {
         of_body(scene, name, list);
@@ -96,6 +100,17 @@ fn of_field(scene: &Scene, field: usize, list: &mut Vec<Variable>) {
             let description = format!("{words}{words_of_place}");
             list.push(variable(variable_name, description, *measured, (body, reading)));
         }
+    }
+}
+
+/// Lists the outputs of a flaw, by its place among the scene's.
+fn of_flaw(scene: &Scene, flaw: usize, list: &mut Vec<Variable>) {
+    let own = &scene.flaw[flaw];
+    let body = place(scene, &own.body);
+    for (quantity, Descriptor { key, words, quantity: measured, .. }) in flaw_quantities(own) {
+        let reading = Reading::Flaw { flaw, quantity };
+        let description = format!("{words} of a flaw in {}", own.body);
+        list.push(variable(format!("{}.{key}", own.name), description, measured, (body, reading)));
     }
 }
 

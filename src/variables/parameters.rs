@@ -3,12 +3,15 @@
 use super::Parameter;
 use super::registry::{Slot, Value, Variable};
 use crate::limits::Bounds;
-use crate::scene::{Body, MOST_THREADS, Scene};
+use crate::scene::{Body, Constant, Flaw, MOST_THREADS, Scene};
 
 /// Constants of the scene that may be set until initialisation ends.
 pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
     for (name, body) in scene.bodies_by_kind() {
         of_body(name, body, list);
+    }
+    for (place, flaw) in scene.flaw.iter().enumerate() {
+        list.extend(flaw.depth.given().map(|depth| of_flaw((place, flaw), depth)));
     }
     list.push(Variable {
         name: "solver.threads".into(),
@@ -29,6 +32,20 @@ pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
         bounds: Bounds::default(),
         is_tunable: false,
     });
+}
+
+/// The depth of a flaw.
+fn of_flaw((place, flaw): (usize, &Flaw), depth: f64) -> Variable {
+    let constant = Constant::FlawDepth { flaw: place };
+    Variable {
+        name: format!("{}.depth", flaw.name),
+        description: format!("depth of a flaw in {}", flaw.body),
+        quantity: Some(constant.quantity()),
+        start: Some(Value::Real(depth)),
+        bounds: constant.bounds(),
+        slot: Slot::Parameter(Parameter { body: flaw.body.clone(), constant }),
+        is_tunable: false,
+    }
 }
 
 fn of_body(name: &str, body: &Body, list: &mut Vec<Variable>) {

@@ -64,6 +64,10 @@ rules! {
     "particles have made or lost {part} % of the heat, more than {most} %, as their distances grow too fast \
      (`heat_drift`)"; "set a `mesh.growth` nearer 1, or `heat = \"fem\"`"
 
+    Step flaw_unresolved(flaw, elements, finer)
+    "the mesh has {elements} elements over the depth of `{flaw}`, too few for the stress along it";
+    "set a `mesh.depth_spacing` of {finer} m or less"
+
     Step films_stack(most)
     "more than {most} films that still transfer heat lie on one place: heat and temperatures there stay between \
      those of drops and wall, but their accuracy is not known (docs/fidelity.md)";

@@ -92,6 +92,18 @@ rules! {
     "a mesh that the program chooses does not resolve a hole this small";
     "did you mean a disc, or a `mesh.spacing` of {spacing} m or less?"
 
+    Check flaw_peak_missed(step, time)
+    "after a thermal shock the stress intensity of a flaw this deep is highest after {time} s, within a communication \
+     step of {step} s: outputs miss it"; "set a `step` of {time} s or less"
+
+    Check flaw_deep(part, most)
+    "the crack is {part} of what is behind it, and its stress intensity is that of a half plane, which is too low by \
+     more than 6 %"; "a depth of {most} m or less is accurate"
+
+    Check flaw_in_yielding_body()
+    "the body yields, and the stress intensity of its flaws is that of linear elasticity, with the stress of the \
+     yielding body"; "do not rely on it where the stress has reached the yield stress"
+
     Check load_unresolved(apart, spacing)
     "the mesh does not resolve a load this small: nodes are {apart} m apart";
     "did you mean a `mesh.spacing` of {spacing} m or less?"

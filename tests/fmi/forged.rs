@@ -104,6 +104,11 @@ impl Forged {
         bytes
     }
 
+    /// Unknowns of a body.
+    pub fn body(&mut self, place: usize) -> &mut Vec<f64> {
+        &mut self.bodies[place]
+    }
+
     fn particles(&self) -> usize {
         (self.bodies[0].len() - BEFORE_PARTICLES) / NUMBERS_OF_A_PARTICLE
     }

@@ -2,6 +2,7 @@
 
 mod bounds;
 mod derivatives;
+mod failure;
 mod droplets;
 mod endurance;
 mod exports;

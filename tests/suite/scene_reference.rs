@@ -20,7 +20,7 @@ const IMPACT: &str = include_str!("../scenes/impact.toml");
 /// stands there with a key that there is not, and keys that choose the section's type.
 type Section = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
-const SECTIONS: [Section; 41] = [
+const SECTIONS: [Section; 43] = [
     ("The whole", PLATE, "stop_time =", "zz = 1\nstop_time =", &[]),
     ("`fidelity`", PLATE, "level =", "zz = 1\nlevel =", &[]),
     ("`solver`", PLATE, "stop_time =", "solver = { zz = 1 }\nstop_time =", &[]),
@@ -88,6 +88,13 @@ const SECTIONS: [Section; 41] = [
         "\"thermoelastic\"",
         "\"viscoelastic\", shear_relaxation = [], shift = { law = \"wlf\", zz = 1 }",
         &["law", "activation_energy"],
+    ),
+    (
+        "`weibull` of a material",
+        PLATE,
+        "density = 3950.0",
+        "density = 3950.0, weibull = { zz = 1 }",
+        &[],
     ),
     ("`layers` of a solid", PLATE, "material = {", "layers = [{ zz = 1 }] # {", &[]),
     ("`sph` of a solid", PLATE, "heat = \"fem\"", "heat = \"sph\"\nsph = { zz = 1 }", &[]),
@@ -173,6 +180,7 @@ const SECTIONS: [Section; 41] = [
     ("`start` of a load", PLATE, "start = {", "start = { zz = 1,", &[]),
     ("`range` of a load", PLATE, "carries =", "range = { zz = 1 }\ncarries =", &[]),
     ("`[[probe]]`", PLATE, "[[probe]]", "[[probe]]\nzz = 1", &[]),
+    ("`[[flaw]]`", PLATE, "[[probe]]", "[[flaw]]\nzz = 1\n[[probe]]", &[]),
     ("`[[field]]`", PLATE, "[[probe]]", "[[field]]\nzz = 1\n[[probe]]", &[]),
     ("`[[wall]]`", DROP, "[[wall]]", "[[wall]]\nzz = 1", &[]),
     ("`start` of a wall", DROP, "start = {", "start = { zz = 1,", &[]),

@@ -21,6 +21,19 @@ pub trait Maxima {
         Err(BodyError::NoSuchReading)
     }
 
+    /// Returns true if the state holds running maxima of a field.
+    fn keeps_field(&self) -> bool {
+        false
+    }
+
+    /// Computes the present values of that field and keeps them in the memo of the state and its loads.
+    fn observe_field(&self, _state: &[f64], _memo: &mut Memo) -> Result<(), BodyError> {
+        Ok(())
+    }
+
+    /// Updates the running maxima of that field to the values observed.
+    fn note_field(&self, _state: &mut [f64], _memo: &mut Memo) {}
+
     /// Refuses a running maximum that no run of this body produces, with the reason.
     fn check_peak(&self, _which: usize, _peak: &Extreme) -> Result<(), String> {
         Ok(())

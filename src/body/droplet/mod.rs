@@ -304,6 +304,7 @@ impl Body for DropletBody {
             Reading::Point { .. }
             | Reading::Mean { .. }
             | Reading::Peak { .. }
+            | Reading::Flaw { .. }
             | Reading::Error => return Err(BodyError::NoSuchReading),
         })
     }

@@ -48,8 +48,8 @@ impl Linear for ReducedBody {
                 Total::Bound(_) => 0.0,
                 _ => self.total(rates, place),
             },
-            Reading::Peak { .. } | Reading::Cell { .. } | Reading::Error => {
-                // It has neither running maxima nor a wall, and its bounds report its error.
+            Reading::Peak { .. } | Reading::Flaw { .. } | Reading::Cell { .. } | Reading::Error => {
+                // It has neither running maxima nor flaws nor a wall, and its bounds report its error.
                 return Err(BodyError::NoSuchReading);
             }
         })

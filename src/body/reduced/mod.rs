@@ -367,8 +367,8 @@ impl Body for ReducedBody {
             },
             Reading::Mean { field, cell, .. } => value(self.values.mean(field, cell)),
             Reading::Total(place) => self.total(state, place),
-            Reading::Peak { .. } | Reading::Cell { .. } | Reading::Error => {
-                // It has neither running maxima nor a wall, and its bounds report its error.
+            Reading::Peak { .. } | Reading::Flaw { .. } | Reading::Cell { .. } | Reading::Error => {
+                // It has neither running maxima nor flaws nor a wall, and its bounds report its error.
                 return Err(BodyError::NoSuchReading);
             }
         })

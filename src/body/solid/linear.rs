@@ -7,7 +7,7 @@
 use super::memo::SolidMemo;
 use super::point::point_quantities;
 use super::reader::SolidReader;
-use super::{SolidBody, totals};
+use super::{SolidBody, flaw_reading, totals};
 use crate::body::{BodyError, Linear, Memo, PeakPart, Reading};
 
 /// A solid and its change.
@@ -41,7 +41,7 @@ impl Linear for SolidBody {
 
     fn rates(&self, state: &[f64], memo: &Memo, change: &Memo) -> Vec<f64> {
         let loads = [memo, change].map(|memo| SolidMemo::of(memo).loads());
-        let rates = self.solid.rates(state, loads[0], loads[1]);
+        let rates = self.solid.rates(self.heat_of(state), loads[0], loads[1]);
         rates.expect("only bodies of linear heat are told as linear")
     }
 
@@ -62,6 +62,7 @@ impl Linear for SolidBody {
                 point_quantities()[quantity].mean_rate(&mut both, (field, cell))
             }
             Reading::Total(place) => totals::rate(&mut both, place),
+            Reading::Flaw { flaw, quantity } => flaw_reading::rate(&mut both, flaw, quantity),
             // Place and time stay constant until a new maximum is noted.
             Reading::Peak { which, part: PeakPart::Value } => self.highest_rate(&mut both, which),
             Reading::Peak { .. } | Reading::Error => Ok(0.0),

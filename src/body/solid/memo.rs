@@ -1,11 +1,15 @@
 //! Memo of a solid: its loads, and results computed when first needed.
 
 use std::any::Any;
+use std::borrow::Cow;
 
 use super::SolidBody;
+use super::failure::Risk;
 use super::rows::ByClass;
 use crate::body::{BodyError, Extreme, Memo};
-use crate::method::fem::{Deformation, NodalFields, SolidFem, SolidLoads, Temperatures};
+use crate::method::fem::{
+    Deformation, Flaws, ImageStress, NodalFields, SolidFem, SolidLoads, Temperatures,
+};
 
 /// Loads on a solid, and lazily computed results of these and of a state.
 #[derive(Debug, Default)]
@@ -21,6 +25,13 @@ pub struct SolidMemo {
     deformation: Option<Deformation>,
     hottest: Option<Extreme>,
     most_stressed: Option<[Extreme; 2]>,
+    /// Stress at the nodes, kept for bodies with flaws.
+    stresses: Option<Vec<ImageStress>>,
+    /// Equivalent stress of flaws at the nodes, and its risk.
+    equivalent_stress: Option<Vec<f64>>,
+    present_risk: Option<f64>,
+    /// Largest risk so far.
+    risk_so_far: Option<Risk>,
     /// The last point that was read: its components are read one after another.
     stress: Option<([f64; 3], [f64; 6])>,
     /// For each symmetry class: whether heat drives it, and whether instantaneous loads do.
@@ -215,10 +226,86 @@ impl SolidMemo {
         if let Some(known) = self.most_stressed {
             return Ok(known);
         }
-        let (temperatures, deformation) = self.solve(body, state)?;
-        let found = body.solid.most_stressed(temperatures, deformation);
+        let found = match body.solid.flaws() {
+            None => {
+                let (temperatures, deformation) = self.solve(body, state)?;
+                body.solid.most_stressed(temperatures, deformation)
+            }
+            Some(_) => {
+                let stresses = self.stresses(body, state)?.iter();
+                let borrowed = stresses.map(|(image, stress)| (*image, Cow::Borrowed(&stress[..])));
+                body.solid.most_stressed_of(borrowed)
+            }
+        };
         self.most_stressed = Some(found);
         Ok(found)
+    }
+
+    /// Stress at the nodes of all distinct images.
+    fn stresses(&mut self, body: &SolidBody, state: &[f64]) -> Result<&[ImageStress], BodyError> {
+        if self.stresses.is_none() {
+            let (temperatures, deformation) = self.solve(body, state)?;
+            let found = body.solid.stresses(temperatures, deformation);
+            self.stresses = Some(found);
+        }
+        Ok(self.stresses.as_deref().unwrap_or_default())
+    }
+
+    /// Equivalent stress of flaws at the nodes of all images.
+    pub fn equivalent_stress(
+        &mut self,
+        body: &SolidBody,
+        flaws: &Flaws,
+        state: &[f64],
+    ) -> Result<&[f64], BodyError> {
+        if self.equivalent_stress.is_none() {
+            let stresses = self.stresses(body, state)?;
+            let found = body.solid.equivalent_stress(flaws, stresses);
+            self.equivalent_stress = Some(found);
+        }
+        Ok(self.observed())
+    }
+
+    /// The equivalent stress that is already known; none otherwise.
+    pub fn observed(&self) -> &[f64] {
+        self.equivalent_stress.as_deref().unwrap_or_default()
+    }
+
+    /// Risk under the present stress.
+    pub fn present_risk(
+        &mut self,
+        body: &SolidBody,
+        flaws: &Flaws,
+        state: &[f64],
+    ) -> Result<f64, BodyError> {
+        if let Some(known) = self.present_risk {
+            return Ok(known);
+        }
+        let found = body.solid.risk(flaws, self.equivalent_stress(body, flaws, state)?);
+        self.present_risk = Some(found);
+        Ok(found)
+    }
+
+    pub fn risk_so_far(&self) -> Option<Risk> {
+        self.risk_so_far
+    }
+
+    pub fn keep_risk_so_far(&mut self, risk: Risk) {
+        self.risk_so_far = Some(risk);
+    }
+
+    /// Discards the risk so far, as its running maxima change.
+    pub fn forget_risk(&mut self) {
+        self.risk_so_far = None;
+    }
+
+    /// Risk under the present stress, if it is already known.
+    pub fn known_risk(&self) -> Option<f64> {
+        self.present_risk
+    }
+
+    pub fn keep_present_risk(&mut self, risk: f64) {
+        self.present_risk = Some(risk);
     }
 
     pub fn stress_at(

@@ -2,6 +2,9 @@
 
 mod acceptance;
 mod advance;
+mod crack;
+mod failure;
+mod flaw_reading;
 mod forecast;
 mod front;
 mod linear;
@@ -19,6 +22,7 @@ mod warnings;
 mod yielding;
 
 pub(super) use advance::PARTS_OF_A_FOOTPRINT;
+pub use flaw_reading::flaw_quantities;
 pub use forecast::{BodyForecast, PRODUCT_RATE, ParticleForecast, forecast_solid};
 pub(super) use loads::BodyLoads;
 pub(super) use means::means_of;
@@ -42,6 +46,7 @@ use crate::runtime::allowance::Allowance;
 use crate::scene::{FaceName, PeakOf, Scene, Shape, Solid};
 use crate::state::Layout;
 use crate::warning::Warning;
+use crack::Crack;
 use memo::SolidMemo;
 use port::Port;
 use reader::SolidReader;
@@ -66,6 +71,8 @@ pub struct SolidBody {
     /// Readings by influence rows.
     rows: Rows,
     shape: Shape,
+    /// Flaws, each with its place among the scene's.
+    cracks: Vec<(usize, Crack)>,
     /// Quantities with running maxima.
     peaks: Vec<PeakOf>,
     /// Relative tolerance of outputs.
@@ -99,7 +106,9 @@ impl SolidBody {
         let yielding = Yielding::of(&plan, scene.fidelity.tolerance, threads)?;
         let heat_mesh = heat_mesh(&plan);
         let means = means_of(scene, (name, solid), [&heat_mesh, fem.mesh()]);
-        let rows = Rows::new(Choice::of(scene, (name, solid), &plan), &fem, &means);
+        let cracks = Crack::of_scene(scene, (name, solid), &plan);
+        let choice = Choice::of(scene, (name, solid), &plan);
+        let rows = Rows::new(choice, &fem, &means, &cracks);
         Ok(Self {
             name: name.into(),
             means,
@@ -112,6 +121,7 @@ impl SolidBody {
             loads,
             ports,
             shape: solid.shape,
+            cracks,
             peaks: solid.peaks.clone(),
             tolerance: scene.fidelity.tolerance,
             threads,
@@ -143,7 +153,8 @@ impl SolidBody {
 
     fn own_layout(&self) -> Layout {
         let mechanics = self.yielding.as_ref().map(Yielding::layout);
-        self.solid.layout().then(mechanics.unwrap_or_default())
+        let layout = self.solid.layout().then(mechanics.unwrap_or_default());
+        layout.then(self.layout_of_flaws())
     }
 
     /// Meshes on which heat and forces act.
@@ -178,7 +189,8 @@ impl Body for SolidBody {
     fn initial_state(&self) -> Vec<f64> {
         let (nodes, start) = (self.solid.mesh().nodes(), self.solid.initial_temperature());
         let mechanics = self.yielding.as_ref().map(|yielding| yielding.initial_state(nodes, start));
-        self.solid.initial_state().into_iter().chain(mechanics.into_iter().flatten()).collect()
+        let heat = self.solid.initial_state().into_iter();
+        heat.chain(mechanics.into_iter().flatten()).chain(self.nothing_noted()).collect()
     }
 
     fn layout(&self, state: &[f64]) -> Option<Layout> {
@@ -187,7 +199,10 @@ impl Body for SolidBody {
 
     fn check_state(&self, state: &[f64], inputs: &[f64]) -> Result<(), String> {
         match self.own_layout().len() {
-            wanted if wanted == state.len() => self.check_heat(state, inputs),
+            wanted if wanted == state.len() => {
+                self.check_heat(state, inputs)?;
+                self.check_flaws(state)
+            }
             wanted => {
                 Err(format!("{} unknowns of {}; this body has {wanted}", state.len(), self.name))
             }
@@ -225,7 +240,7 @@ impl Body for SolidBody {
         let memo = SolidMemo::of(memo);
         let before = self.heat_balance(state);
         match &self.yielding {
-            None => self.advance_here(state, memo, acts, allowance)?,
+            None => self.advance_here(&mut state[..self.heat_len], memo, acts, allowance)?,
             Some(yielding) => {
                 self.advance_yielding(yielding, state, acts, allowance, |heat, acts| {
                     self.advance_here(heat, memo, acts, allowance)
@@ -248,6 +263,7 @@ impl Body for SolidBody {
                 point_quantities()[quantity].mean(&mut reader, (field, cell))
             }
             Reading::Total(place) => totals::read(&mut reader, place),
+            Reading::Flaw { flaw, quantity } => flaw_reading::read(&mut reader, flaw, quantity),
             Reading::Peak { .. } | Reading::Cell { .. } | Reading::Error => {
                 Err(BodyError::NoSuchReading)
             }
@@ -259,7 +275,10 @@ impl Body for SolidBody {
             Reading::Point { quantity, .. } | Reading::Mean { quantity, .. } => {
                 point_quantities()[quantity].descriptor.direct
             }
+            // Before risks are noted, they are the present ones.
+            Reading::Total(place) if totals::is_risk(place) => return true,
             Reading::Total(place) => totals::direct(place),
+            Reading::Flaw { .. } => Direct::TemperaturesAndTractions,
             // Before a maximum is noted, it equals the present value.
             Reading::Peak { .. } => return true,
             Reading::Cell { .. } | Reading::Error => Direct::Nothing,
@@ -295,6 +314,18 @@ impl Maxima for SolidBody {
         self.highest(&mut SolidReader { body: self, state, memo }, which)
     }
 
+    fn keeps_field(&self) -> bool {
+        self.solid.flaws().is_some()
+    }
+
+    fn observe_field(&self, state: &[f64], memo: &mut Memo) -> Result<(), BodyError> {
+        self.observe_flaws(state, SolidMemo::of_mut(memo))
+    }
+
+    fn note_field(&self, state: &mut [f64], memo: &mut Memo) {
+        self.note_flaws(state, SolidMemo::of_mut(memo));
+    }
+
     fn check_peak(&self, which: usize, peak: &Extreme) -> Result<(), String> {
         self.check_highest(which, peak)
     }
@@ -318,12 +349,15 @@ impl Advice for SolidBody {
     }
 
     fn warnings(&self, state: &[f64], occasion: Occasion) -> Vec<Warning> {
-        let found = match occasion {
-            Occasion::Step => warnings::of_particles(self, state),
-            Occasion::Response { .. } => None,
-            Occasion::End => warnings::of_fronts(self, state),
+        let found: Vec<_> = match occasion {
+            Occasion::Step => {
+                let particles = warnings::of_particles(self, state);
+                particles.into_iter().chain(warnings::of_flaws(self)).collect()
+            }
+            Occasion::Response { .. } => Vec::new(),
+            Occasion::End => warnings::of_fronts(self, state).into_iter().collect(),
         };
-        found.map(|finding| finding.at(&self.name)).into_iter().collect()
+        found.into_iter().map(|finding| finding.at(&self.name)).collect()
     }
 }
 
@@ -340,6 +374,10 @@ impl Resources for SolidBody {
             Reading::Mean { quantity, field, cell } => {
                 let quantity = &point_quantities()[quantity];
                 !solved && quantity.is_mechanical() && !self.rows.give_mean(quantity, (field, cell))
+            }
+            Reading::Flaw { flaw, .. } => !solved && !self.rows.give_flaw(flaw),
+            Reading::Total(place) if totals::is_risk(place) => {
+                memo.is_none_or(|memo| memo.observed().is_empty())
             }
             Reading::Total(place) => {
                 totals::is_mechanical(place) && !memo.is_some_and(SolidMemo::has_max_stress)
@@ -364,7 +402,7 @@ impl Resources for SolidBody {
     }
 
     fn steps_are_deep(&self) -> bool {
-        let notes_stress = self.peaks.iter().any(PeakOf::is_mechanical);
+        let notes_stress = self.peaks.iter().any(PeakOf::is_mechanical) || self.keeps_field();
         self.yielding.is_some() || !self.solid.conducts_linearly() || notes_stress
     }
 }

@@ -36,6 +36,7 @@ pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
         mesh.map(|mesh| note_on_mesh(mesh, solid.mesh.spacing.is_some(), scene.fidelity.tolerance));
     plan.notes.extend(chosen);
     plan.notes.extend(solid.has_stress_peaks().then(|| NOTE_ON_PEAKS.to_owned()));
+    plan.notes.extend(solid.has_flaws().then(|| NOTE_ON_FLAWS.to_owned()));
     plan.notes.extend(Choice::of(scene, (name, solid), &plan).note());
     plan
 }
@@ -62,6 +63,9 @@ fn note_on_mesh(mesh: &MeshFactors, is_own: bool, tolerance: f64) -> String {
 
 const NOTE_ON_PEAKS: &str = "stress is solved at every communication point, for its running maxima; twice where a \
                              traction or a prescribed temperature jumps there";
+
+const NOTE_ON_FLAWS: &str = "stress is solved at every communication point, for the largest that every flaw has met; \
+                             the state has a number more for each node of the whole body";
 
 /// Temperature differences to which a tolerance refers if heat advances in inner steps [K].
 const TEMPERATURES: f64 = 10.0;

@@ -65,6 +65,11 @@ impl SolidReader<'_> {
         self.by_rows().over_cell(cell, component)
     }
 
+    /// Signed stress intensity of a flaw by its row; `None` if it needs a solution.
+    pub fn flaw_by_row(&mut self, flaw: usize) -> Option<Result<f64, BodyError>> {
+        self.by_rows().of_flaw(flaw)
+    }
+
     /// [m]
     fn displacement_at(&mut self, point: [f64; 3]) -> Result<[f64; 3], BodyError> {
         let (_, deformation) = self.memo.solve(self.body, self.state)?;

@@ -10,6 +10,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::SolidBody;
+use super::crack::Crack;
 use super::memo::SolidMemo;
 use super::point::PointQuantity;
 use crate::body::BodyError;
@@ -28,6 +29,8 @@ pub struct Choice {
     points: Vec<([f64; 3], Kinds)>,
     /// Place of a field of cells among the scene's, and number of the cell.
     cells: Vec<(usize, usize, Kinds)>,
+    /// Places of flaws among the scene's.
+    flaws: Vec<usize>,
     /// Rows of each symmetry class.
     pub rows: usize,
 }
@@ -55,6 +58,8 @@ pub struct Rows {
     of_points: HashMap<[u64; 3], PartsOfAll>,
     /// By places of fields among the scene's, and numbers of cells.
     of_cells: HashMap<(usize, usize), PartsOfAll>,
+    /// By places of flaws among the scene's.
+    of_flaws: HashMap<usize, Parts>,
 }
 
 /// The rows of one reading, one for each symmetry class.
@@ -98,7 +103,8 @@ impl Choice {
     pub fn of(scene: &Scene, (name, solid): (&str, &Solid), plan: &Plan) -> Self {
         let mut choice = Self::default();
         // Running maxima of stress need a solution at every communication point anyway.
-        let Some(laws) = plan.law.as_ref().filter(|_| !solid.has_stress_peaks()) else {
+        let is_solved = solid.has_stress_peaks() || solid.has_flaws();
+        let Some(laws) = plan.law.as_ref().filter(|_| !is_solved) else {
             return choice;
         };
         let classes = plan.mesh.parities().len() as f64;
@@ -149,6 +155,13 @@ impl Choice {
                 }
             }
         }
+        for (place, flaw) in scene.flaw.iter().enumerate() {
+            let is_one_row = flaw.body == name && flaw.depth.given().is_some();
+            if is_one_row && ((choice.rows + 1) as f64) < most {
+                choice.rows += 1;
+                choice.flaws.push(place);
+            }
+        }
         choice.points.retain(|(_, kinds)| kinds.contains(&true));
         choice
     }
@@ -157,8 +170,8 @@ impl Choice {
     pub fn note(&self) -> Option<String> {
         (self.rows > 0).then(|| {
             format!(
-                "{} components of stress and displacement at points and cells are read by influence rows: each is solved \
-                 for once, when it is first read, and costs a dot product from then on",
+                "{} components of stress and displacement at points and cells, and stress intensities of flaws, are \
+                 read by influence rows: each is solved for once, when it is first read, and costs a dot product from then on",
                 self.rows
             )
         })
@@ -171,7 +184,12 @@ impl Rows {
         self.rows.len() as f64 * READINGS_OF_A_ROW <= states as f64
     }
 
-    pub fn new(choice: Choice, solid: &SolidFem, means: &[(usize, FaceMeans)]) -> Self {
+    pub fn new(
+        choice: Choice,
+        solid: &SolidFem,
+        means: &[(usize, FaceMeans)],
+        cracks: &[(usize, Crack)],
+    ) -> Self {
         let mut made = Self::default();
         let mut numbers: HashMap<([u64; 3], Component), usize> = HashMap::new();
         for (point, kinds) in choice.points {
@@ -211,6 +229,12 @@ impl Rows {
             });
             made.of_cells.insert((field, cell), own);
         }
+        for (place, crack) in cracks.iter().filter(|(place, _)| choice.flaws.contains(place)) {
+            if let Some(functional) = crack.functional(solid) {
+                made.rows.push(LazyRow::of(functional));
+                made.of_flaws.insert(*place, vec![(made.rows.len() - 1, [1.0; CLASSES])]);
+            }
+        }
         made
     }
 
@@ -224,6 +248,11 @@ impl Rows {
     /// Returns true if the mean of a quantity over a cell needs no solution.
     pub fn give_mean(&self, quantity: &PointQuantity, cell: (usize, usize)) -> bool {
         quantity.component().is_some_and(|component| self.of_cell(cell, component).is_some())
+    }
+
+    /// Returns true if the stress intensity of a flaw needs no solution.
+    pub fn give_flaw(&self, flaw: usize) -> bool {
+        self.of_flaws.contains_key(&flaw)
     }
 
     fn of_point(&self, point: [f64; 3], component: usize) -> Option<&Parts> {
@@ -287,6 +316,12 @@ impl Acting<'_> {
     ) -> Option<Result<f64, BodyError>> {
         let body = self.body;
         body.rows.of_cell(cell, component).map(|parts| self.sum(parts))
+    }
+
+    /// Signed stress intensity of a flaw; `None` if it needs a solution.
+    pub fn of_flaw(&mut self, flaw: usize) -> Option<Result<f64, BodyError>> {
+        let body = self.body;
+        body.rows.of_flaws.get(&flaw).map(|parts| self.sum(parts))
     }
 
     fn sum(&mut self, parts: &Parts) -> Result<f64, BodyError> {

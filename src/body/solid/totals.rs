@@ -28,9 +28,11 @@ enum Offered {
     Relaxing,
     /// Those whose mechanics is modelled.
     Mechanical,
+    /// Those with a distribution of flaws.
+    Breaking,
 }
 
-const TOTALS: [Total; 13] = [
+const TOTALS: [Total; 19] = [
     Total {
         descriptor: Descriptor {
             key: "max_temperature",
@@ -138,7 +140,61 @@ const TOTALS: [Total; 13] = [
         read: |reader| Ok(reader.max_stress()?[1]),
         rate: |both| Ok(both.max_stress_rate()?[1]),
     },
+    risk(
+        "failure_probability",
+        "probability that the body has failed by the largest stress of every place so far",
+        |reader| Ok(reader.risk_so_far()?.probability()),
+    ),
+    risk(
+        "failure_risk",
+        "number B of failures expected from the largest stress of every place so far",
+        |reader| Ok(reader.risk_so_far()?.value),
+    ),
+    Total {
+        descriptor: Descriptor {
+            direct: Direct::TemperaturesAndTractions,
+            ..risk_descriptor(
+                "present_failure_risk",
+                "number of failures expected from the present stress",
+            )
+        },
+        of: Offered::Breaking,
+        read: |reader| reader.present_risk(),
+        rate: |_| Err(BodyError::NoRate),
+    },
+    place_of_risk(
+        "failure_place_x",
+        "x of the place of the largest failure density so far",
+        |reader| Ok(reader.risk_so_far()?.at[0]),
+    ),
+    place_of_risk(
+        "failure_place_y",
+        "y of the place of the largest failure density so far",
+        |reader| Ok(reader.risk_so_far()?.at[1]),
+    ),
+    place_of_risk(
+        "failure_place_z",
+        "z of the place of the largest failure density so far",
+        |reader| Ok(reader.risk_so_far()?.at[2]),
+    ),
 ];
+
+/// Reader of a total.
+type Read = fn(&mut SolidReader) -> Result<f64, BodyError>;
+
+const fn risk_descriptor(key: &'static str, words: &'static str) -> Descriptor {
+    Descriptor { key, words, quantity: Quantity::Ratio, direct: Direct::Nothing }
+}
+
+const fn risk(key: &'static str, words: &'static str, read: Read) -> Total {
+    let descriptor = risk_descriptor(key, words);
+    Total { descriptor, of: Offered::Breaking, read, rate: |_| Err(BodyError::NoRate) }
+}
+
+const fn place_of_risk(key: &'static str, words: &'static str, read: Read) -> Total {
+    let descriptor = Descriptor { quantity: Quantity::Length, ..risk_descriptor(key, words) };
+    Total { descriptor, of: Offered::Breaking, read, rate: |_| Err(BodyError::NoRate) }
+}
 
 const fn heat(key: &'static str, words: &'static str) -> Descriptor {
     Descriptor { key, words, quantity: Quantity::Energy, direct: Direct::Nothing }
@@ -158,6 +214,7 @@ pub fn offered_totals(scene: &Scene, (name, solid): (&str, &Solid)) -> Vec<(usiz
         Offered::Yielding => solid.yields() && scene.asks_mechanics(name),
         Offered::Relaxing => solid.relaxes() && scene.asks_mechanics(name),
         Offered::Mechanical => scene.asks_mechanics(name),
+        Offered::Breaking => solid.has_flaws(),
     };
     let totals = TOTALS.iter().enumerate().filter(|(_, total)| is_offered(total));
     totals.map(|(place, total)| (place, total.descriptor)).collect()
@@ -169,6 +226,11 @@ pub fn direct(place: usize) -> Direct {
 
 pub fn is_mechanical(place: usize) -> bool {
     matches!(TOTALS[place].of, Offered::Mechanical | Offered::Relaxing)
+}
+
+/// Returns true for risks of failure.
+pub fn is_risk(place: usize) -> bool {
+    TOTALS[place].of == Offered::Breaking
 }
 
 pub fn read(reader: &mut SolidReader, place: usize) -> Result<f64, BodyError> {

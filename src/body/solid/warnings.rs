@@ -1,6 +1,7 @@
 //! Warnings about a state of a solid: heat of particles, and melting fronts.
 
 use super::SolidBody;
+use super::crack::Coarse;
 use crate::quantity::percent;
 use crate::warning::{self, Finding};
 
@@ -27,6 +28,15 @@ pub fn of_particles(body: &SolidBody, state: &[f64]) -> Option<Finding> {
     let part = body.solid.heat_drift(heat).abs() / passed;
     let [shown, most] = [part, MOST_DRIFT].map(|part| format!("{:.0}", 100.0 * part));
     (part > MOST_DRIFT).then(|| warning::particles_lose_heat(shown, most))
+}
+
+/// Returns the flaws along which the mesh is too coarse.
+pub fn of_flaws(body: &SolidBody) -> Vec<Finding> {
+    let coarse = body.cracks.iter().filter_map(|(_, crack)| crack.too_few_elements());
+    let finding = |Coarse { name, elements, finer }| {
+        warning::flaw_unresolved(name, format!("{elements:.1}"), format!("{finer:.0e}"))
+    };
+    coarse.map(finding).collect()
 }
 
 /// Returns `None` if nothing melts or the front keeps the tolerance.

@@ -108,6 +108,12 @@ impl SolidBody {
         &state[..self.heat_len]
     }
 
+    /// Returns the mechanical part of a state; empty without a history.
+    fn mechanics_of<'s>(&self, state: &'s [f64]) -> &'s [f64] {
+        let length = self.yielding.as_ref().map_or(0, |yielding| yielding.layout().len());
+        &state[self.heat_len..self.heat_len + length]
+    }
+
     /// Advances heat and mechanics to the equilibrium at the end, in parts. A part is halved if temperatures have an
     /// extremum within it, so that plastic strain sees the warmest moment, if moduli relax while temperatures do not
     /// change linearly, or if it finds no equilibrium.
@@ -210,7 +216,9 @@ impl SolidBody {
         acts: &Acts,
         allowance: &Allowance,
     ) -> Result<(), BodyError> {
-        let (heat, mechanics) = state.split_at_mut(self.heat_len);
+        let mechanics_len = yielding.layout().len();
+        let (heat, rest) = state.split_at_mut(self.heat_len);
+        let mechanics = &mut rest[..mechanics_len];
         let at = |time: f64, heat: &[f64]| {
             let inputs = acts.path.at(0, time);
             let mut loads = self.loads.assemble(&inputs, self.meshes());
@@ -286,7 +294,7 @@ impl SolidBody {
         let (Some(yielding), Some(temperatures)) = (&self.yielding, temperatures) else {
             return Ok(None);
         };
-        let mechanics = &state[self.heat_len..];
+        let mechanics = self.mechanics_of(state);
         let nodal = self.nodal_temperatures(yielding, temperatures);
         let values = yielding.problem.nodal_values(mechanics, &nodal);
         let NodalValues { stress, plastic_strain, back_strain } =
@@ -303,7 +311,7 @@ impl SolidBody {
     /// readings. It is zero without yielding.
     pub(super) fn max_plastic_strain(&self, state: &[f64]) -> f64 {
         let largest =
-            |yielding: &Yielding| yielding.problem.max_plastic_strain(&state[self.heat_len..]);
+            |yielding: &Yielding| yielding.problem.max_plastic_strain(self.mechanics_of(state));
         self.yielding.as_ref().map_or(0.0, largest)
     }
 
@@ -315,19 +323,19 @@ impl SolidBody {
     ) -> Result<f64, BodyError> {
         let Some(yielding) = &self.yielding else { return Ok(0.0) };
         let nodal = self.nodal_temperatures(yielding, temperatures);
-        let stored = yielding.problem.stored_energy(&state[self.heat_len..], &nodal);
+        let stored = yielding.problem.stored_energy(self.mechanics_of(state), &nodal);
         stored.map_err(|error| self.inelastic_error(error))
     }
 
     /// Energy dissipated by yielding [J].
     pub(super) fn plastic_work(&self, state: &[f64]) -> f64 {
-        let work = |yielding: &Yielding| yielding.problem.plastic_work(&state[self.heat_len..]);
+        let work = |yielding: &Yielding| yielding.problem.plastic_work(self.mechanics_of(state));
         self.yielding.as_ref().map_or(0.0, work)
     }
 
     /// Energy dissipated by relaxation [J].
     pub(super) fn relaxation_loss(&self, state: &[f64]) -> f64 {
-        let loss = |yielding: &Yielding| yielding.problem.relaxation_loss(&state[self.heat_len..]);
+        let loss = |yielding: &Yielding| yielding.problem.relaxation_loss(self.mechanics_of(state));
         self.yielding.as_ref().map_or(0.0, loss)
     }
 }

@@ -24,6 +24,21 @@ pub fn max_principal(stress: [f64; 6]) -> f64 {
     scale * (mean + 2.0 * spread * (ratio.acos() / 3.0).cos())
 }
 
+/// Principal stresses in descending order [Pa], the first of which is [`max_principal`].
+pub fn principals(stress: [f64; 6]) -> [f64; 3] {
+    let first = max_principal(stress);
+    let scale = scale(stress);
+    let [xx, yy, zz, xy, yz, xz] = stress.map(|s| s / scale);
+    // The other two are the roots of a quadratic: sum and product follow from trace and second invariant.
+    let high = first / scale;
+    let sum = xx + yy + zz - high;
+    let second = xx * yy + yy * zz + zz * xx - xy * xy - yz * yz - xz * xz;
+    let product = second - high * sum;
+    let half = 0.5 * sum;
+    let root = (half * half - product).max(0.0).sqrt();
+    [first, scale * (half + root).min(high), scale * (half - root)]
+}
+
 /// Power of two below the largest component. Scaled squares and cubes neither overflow nor underflow, and scaling
 /// causes no rounding. NaN if a component is not finite.
 fn scale(stress: [f64; 6]) -> f64 {
@@ -61,6 +76,26 @@ mod tests {
         let m = nalgebra::Matrix3::new(s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2]);
         let largest = m.symmetric_eigenvalues().max();
         assert!((max_principal(s) - largest).abs() < 1e-13);
+    }
+
+    #[test]
+    fn principals_are_eigenvalues_in_descending_order() {
+        let states = [
+            [3.0, -1.0, 2.0, 0.7, -0.4, 1.1],
+            [2.0, 2.0, 0.0, 0.0, 0.0, 0.0],
+            [-2.0, -2.0, 0.0, 0.0, 0.0, 0.0],
+            [-2.0, -2.0, -2.0, 0.0, 0.0, 0.0],
+            [0.0, 0.0, 0.0, 1.0, 1.0, 1.0],
+            [0.0; 6],
+        ];
+        for s in states {
+            let m = nalgebra::Matrix3::new(s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2]);
+            let mut wanted: Vec<f64> = m.symmetric_eigenvalues().iter().copied().collect();
+            wanted.sort_by(|a, b| b.total_cmp(a));
+            for (found, wanted) in principals(s).into_iter().zip(wanted) {
+                assert!((found - wanted).abs() < 2e-8, "{s:?}: {found} {wanted}");
+            }
+        }
     }
 
     #[test]

@@ -29,7 +29,7 @@ impl FreeFaces {
 }
 
 /// Returns true if the low end of an axis is a plane or axis of symmetry.
-fn is_inside(mesh: &Mesh, axis: usize) -> bool {
+pub fn is_inside(mesh: &Mesh, axis: usize) -> bool {
     match mesh.geometry {
         Geometry::Box => axis < 2 && mesh.mirrored[axis],
         Geometry::Axisymmetric => axis == 0 && mesh.axes[0].start() == 0.0,

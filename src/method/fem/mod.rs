@@ -35,8 +35,8 @@ pub use heat::{HeatLoads, HeatProblem, ModalRow, ThermalFace};
 pub use nonlinear::{NonlinearFailure, heat_mesh};
 pub use plan::{Mechanics, Plan, PlanRequest, Refinement};
 pub use solid::{
-    ClassRow, Deformation, Extreme, NodalFields, Remembered, SolidFem, SolidLoads, SolidModes,
-    Temperatures,
+    ClassRow, Deformation, Extreme, Flaws, ImageStress, NodalFields, Remembered, SolidFem,
+    SolidLoads, SolidModes, Temperatures,
 };
 pub use solver_choice::{
     expected_entries, factor_memory, solver_memory, suits_conjugate_gradients,

@@ -6,7 +6,7 @@ use super::elastic::Support;
 use super::fineness::{Fineness, Resolution};
 use super::heat::ThermalFace;
 use super::solver_choice::note_on_solver;
-use crate::laws::{Conduction, Constants, FlowLaw, Thermoelastic};
+use crate::laws::{Conduction, Constants, FlawStatistics, FlowLaw, Thermoelastic};
 use crate::method::mesh::{Axis, Weight};
 use crate::method::mesh::{Geometry, Mesh, MeshFace};
 use crate::scene::{
@@ -39,6 +39,8 @@ pub struct Plan {
     pub linear_heat: bool,
     /// Flow law of each layer of elements along z, from the lowest on; `None` if deformation is linear.
     pub inelastic: Option<Vec<Arc<dyn FlowLaw>>>,
+    /// Flaws in each layer, from the lowest on.
+    pub flaws: Vec<Option<FlawStatistics>>,
     /// Stress-free temperature above the initial one [K].
     pub stress_free_rise: f64,
     pub supports: Vec<(MeshFace, Support)>,
@@ -160,6 +162,7 @@ impl Plan {
             linear_heat: linear_heat || newton.is_some(),
             newton,
             inelastic,
+            flaws: flaws(solid),
             stress_free_rise,
             supports,
             notes,
@@ -380,6 +383,12 @@ fn inelastic_laws(solid: &Solid, mesh: &Mesh) -> Vec<Arc<dyn FlowLaw>> {
         materials.iter().map(|own| own.flow_law(stress_free)).collect();
     let elements = mesh.axes[2].elements();
     (0..elements).map(|element| laws[mesh.layering.layer_of(element)].clone()).collect()
+}
+
+/// Flaws in each layer, from the lowest on.
+fn flaws(solid: &Solid) -> Vec<Option<FlawStatistics>> {
+    let materials = solid.materials_of_layers().into_iter().rev();
+    materials.map(|own| own.fracture.weibull.map(|weibull| weibull.statistics())).collect()
 }
 
 fn note_on_newton(NewtonPlan { tolerance, .. }: &NewtonPlan) -> String {

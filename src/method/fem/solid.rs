@@ -5,6 +5,7 @@ mod influence;
 mod modal;
 mod recovered;
 mod remembered;
+mod risk;
 mod tangent;
 
 use std::sync::Arc;
@@ -30,6 +31,7 @@ pub use influence::ClassRow;
 pub use modal::SolidModes;
 use recovered::{FaceStresses, Recoveries};
 pub use remembered::Remembered;
+pub use risk::{Flaws, ImageStress};
 
 /// Everything that is known of a solid before time starts.
 pub struct SolidFem {
@@ -48,6 +50,7 @@ pub struct SolidFem {
     /// Flow law of each element along z; empty if stress follows from deformation alone.
     flow_laws: Vec<Arc<dyn FlowLaw>>,
     free_faces: FreeFaces,
+    flaws: Option<Flaws>,
 }
 
 /// Loads on a solid, or a derivative of them; every list has an entry for each symmetry class.
@@ -181,6 +184,7 @@ impl SolidFem {
             parities,
             flow_laws: plan.inelastic.clone().unwrap_or_default(),
             free_faces: FreeFaces::of(&plan.mesh, &plan.supports),
+            flaws: Flaws::of(plan),
         }
     }
 

@@ -1,4 +1,4 @@
-//! Checks everything outside bodies, loads, probes, fields and walls, and the names of all of these.
+//! Checks everything outside bodies, loads, probes, fields, flaws and walls, and the names of all of these.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use super::{Checker, number};
 use crate::scene::Naming;
 use crate::scene::locate::Path;
 
-/// Prefixes of variables that belong to no body, load, probe, field or wall.
+/// Prefixes of variables that belong to no body, load, probe, field, flaw or wall.
 const RESERVED: [&str; 2] = ["solver", "output"];
 /// Largest number of bytes of a name: files are named after it, and file names have at most 255 bytes with all endings.
 const LONGEST_NAME: usize = 200;
@@ -66,9 +66,10 @@ fn names(checker: &mut Checker) {
         scene.probe.iter().enumerate().map(|(i, probe)| (element("probe", i), &probe.name));
     let fields =
         scene.field.iter().enumerate().map(|(i, field)| (element("field", i), &field.name));
+    let flaws = scene.flaw.iter().enumerate().map(|(i, flaw)| (element("flaw", i), &flaw.name));
     let walls = scene.wall.iter().enumerate().map(|(i, wall)| (element("wall", i), &wall.name));
     let mut owners = BTreeMap::new();
-    for (path, name) in bodies.chain(loads).chain(probes).chain(fields).chain(walls) {
+    for (path, name) in bodies.chain(loads).chain(probes).chain(fields).chain(flaws).chain(walls) {
         prefix(checker, &mut owners, path, name);
     }
     if scene.naming == Naming::Flat {
@@ -102,7 +103,11 @@ fn prefix<'a>(
     match owners.get(name) {
         Some(owner) => {
             let message = format!("the name is taken by {owner}");
-            checker.refuse(&path, message, "a name for each body, load, probe, field and wall");
+            checker.refuse(
+                &path,
+                message,
+                "a name for each body, load, probe, field, flaw and wall",
+            );
         }
         None => {
             owners.insert(name, path);

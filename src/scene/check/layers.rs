@@ -41,6 +41,7 @@ fn layers(checker: &mut Checker, path: &Path, solid: &Solid, list: &[Layer]) {
         let place = place.key("contact_resistance");
         checker.require(fine, &place, message, "a layer below another one");
     }
+    one_kind_of_flaws(checker, &place, list);
     if sound && is_sound(&solid.shape) {
         thickness(checker, &place, solid, list);
     }
@@ -51,6 +52,21 @@ fn layers(checker: &mut Checker, path: &Path, solid: &Solid, list: &[Layer]) {
     }
     if solid.conducts_linearly() && checker.scene.solver.method != SolverMethod::Newton {
         lateral_convection(checker, path, solid);
+    }
+}
+
+/// Refuses layers with flaws in the volume next to layers with flaws on faces, whose densities do not compare.
+fn one_kind_of_flaws(checker: &mut Checker, path: &Path, list: &[Layer]) {
+    let of = |layer: &Layer| {
+        let weibull = layer.material.material().fracture.weibull?;
+        Some(weibull.area.is_some())
+    };
+    let first = list.iter().find_map(of);
+    let other = list.iter().position(|layer| of(layer).is_some_and(|own| Some(own) != first));
+    if let Some(other) = other {
+        let message = "flaws of one layer are in its volume, of another on its faces";
+        let path = path.index(other).key("material");
+        checker.refuse(&path, message, "`volume` in all layers, or `area` in all");
     }
 }
 

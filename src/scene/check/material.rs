@@ -2,7 +2,7 @@
 
 use super::{Checker, number};
 use crate::laws::solid::{Branch, Need, Relaxing};
-use crate::laws::{Material, Melting, Property, PropertyError, Table};
+use crate::laws::{Material, Melting, Property, PropertyError, Table, Weibull};
 use crate::scene::locate::Path;
 
 /// Checks the named materials.
@@ -20,6 +20,9 @@ pub fn check(checker: &mut Checker, path: &Path, material: &Material) {
     }
     if let Some(range) = material.heat.melting {
         melting(checker, &path.key("melting"), range);
+    }
+    if let Some(weibull) = material.fracture.weibull {
+        flaws(checker, &path.key("weibull"), &weibull);
     }
     needs(checker, path, material, material.law.deformation().needs());
     material.law.deformation().relaxing().into_iter().for_each(|own| relaxing(checker, path, own));
@@ -47,6 +50,21 @@ fn fractions(checker: &mut Checker, path: &Path, branches: &[Branch]) {
         number(sum)
     );
     checker.require(sum <= 1.0 + ROUNDING, path, message, "fractions that sum to at most 1");
+}
+
+/// Flaws are either in the volume or on faces.
+fn flaws(checker: &mut Checker, path: &Path, weibull: &Weibull) {
+    const EITHER: &str = "`volume = …` (m³) or `area = …` (m²)";
+    match (weibull.volume, weibull.area) {
+        (None, None) => {
+            checker.refuse(path, "flaws have neither a reference volume nor an area", EITHER);
+        }
+        (Some(_), Some(_)) => {
+            let message = "flaws are either in the volume or on the faces, not both";
+            checker.refuse(&path.key("area"), message, EITHER);
+        }
+        _ => {}
+    }
 }
 
 pub fn melting(checker: &mut Checker, path: &Path, Melting { solidus, liquidus, .. }: Melting) {

@@ -5,6 +5,7 @@ mod coupling;
 mod droplet;
 mod field;
 mod fidelity;
+mod flaw;
 mod field_cells;
 mod freezing;
 mod header;
@@ -54,6 +55,7 @@ pub fn check(scene: &Scene, source: &Source, schema: &Schema) -> Result<(), Scen
     load::check(&mut checker);
     probe::check(&mut checker);
     field::check(&mut checker);
+    flaw::check(&mut checker);
     wall::check(&mut checker);
     values::check(&mut checker);
     coupling::check(&mut checker);

@@ -45,7 +45,7 @@ fn side(checker: &mut Checker, path: &Path, probe: &Probe, solid: &Solid) {
     }
 }
 
-fn contains(shape: &Shape, [x, y, z]: [f64; 3]) -> bool {
+pub fn contains(shape: &Shape, [x, y, z]: [f64; 3]) -> bool {
     let within = match *shape {
         Shape::Box([lx, ly, _]) => fits(x.abs(), lx / 2.0) && fits(y.abs(), ly / 2.0),
         Shape::Disc(Disc { radius, .. }) => fits(x.hypot(y), radius),
@@ -53,7 +53,7 @@ fn contains(shape: &Shape, [x, y, z]: [f64; 3]) -> bool {
     within && is_in_depth(z, shape.thickness())
 }
 
-fn inside(shape: &Shape) -> String {
+pub fn inside(shape: &Shape) -> String {
     let [x, y] = lateral_extents(shape).map(|extent| number(extent / 2.0));
     let depth = number(-shape.thickness());
     match shape {

@@ -31,6 +31,10 @@ pub enum Constant {
         face: FaceName,
     },
     Droplet(&'static DropletConstant),
+    /// Depth of the scene's flaw of this number, in one of its bodies.
+    FlawDepth {
+        flaw: usize,
+    },
 }
 
 /// A constant as a unit names it.
@@ -50,6 +54,7 @@ impl Constant {
             Self::ContactResistance { .. } => Quantity::ThermalResistance,
             Self::ConvectionCoefficient { .. } => Quantity::HeatTransferCoefficient,
             Self::Droplet(constant) => constant.quantity,
+            Self::FlawDepth { .. } => Quantity::Length,
         }
     }
 
@@ -64,7 +69,7 @@ impl Constant {
     /// Dependence of outputs at time zero on the constant.
     pub fn at_start(&self) -> AtStart {
         match self {
-            Self::InitialTemperature => AtStart::PoleAtZero,
+            Self::InitialTemperature | Self::FlawDepth { .. } => AtStart::PoleAtZero,
             Self::Material(constant) | Self::LayerMaterial { constant, .. } => constant.start,
             Self::ContactResistance { .. } | Self::ConvectionCoefficient { .. } => AtStart::Never,
             Self::Droplet(constant) => constant.start,

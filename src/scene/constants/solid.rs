@@ -119,6 +119,7 @@ pub fn places<'a>(solid: &'a mut Solid, constant: &Constant) -> Vec<&'a mut f64>
             let face = solid.faces.get_mut(face).expect("offered by this very face");
             vec![&mut face.convection.as_mut().expect("offered as convective").coefficient]
         }
+        Constant::FlawDepth { .. } => panic!("the scene itself holds its flaws"),
         Constant::Droplet(_) => panic!("a solid has no constants of droplets"),
     }
 }

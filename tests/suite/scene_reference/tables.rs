@@ -4,7 +4,7 @@ use impinge::limits::keyword;
 use serde_json::Value;
 
 /// Headings of `docs/scene.md` with a table, and where in the schema the table that they describe stands.
-pub const SECTIONS: [(&str, &str); 43] = [
+pub const SECTIONS: [(&str, &str); 45] = [
     ("The whole", ""),
     ("`fidelity`", "/$defs/Fidelity"),
     ("`solver`", "/$defs/Solver"),
@@ -20,6 +20,7 @@ pub const SECTIONS: [(&str, &str); 43] = [
     ("`hardening` of a material", "/$defs/Saturation"),
     ("`shear_relaxation` of a material", "/$defs/Branch"),
     ("`shift` of a material", "/$defs/Shift"),
+    ("`weibull` of a material", "/$defs/Weibull"),
     ("`layers` of a solid", "/$defs/Layer"),
     ("`sph` of a solid", "/$defs/SphSettings"),
     ("`mesh` of a solid", "/$defs/Mesh"),
@@ -44,6 +45,7 @@ pub const SECTIONS: [(&str, &str); 43] = [
     ("`start` of a load", "/$defs/LoadStart"),
     ("`range` of a load", "/$defs/LoadRange"),
     ("`[[probe]]`", "/$defs/Probe"),
+    ("`[[flaw]]`", "/$defs/Flaw"),
     ("`[[field]]`", "/$defs/Field"),
     ("`[[wall]]`", "/$defs/Wall"),
     ("`start` of a wall", "/$defs/WallStart"),

@@ -229,6 +229,7 @@ impl Body for ReplayBody {
             Reading::Point { .. }
             | Reading::Mean { .. }
             | Reading::Peak { .. }
+            | Reading::Flaw { .. }
             | Reading::Error => return Err(BodyError::NoSuchReading),
         })
     }

@@ -1,5 +1,7 @@
 //! The highest and lowest values of a solid, and their places.
 
+use std::borrow::Cow;
+
 use super::{Deformation, SolidFem, Temperatures};
 use crate::laws::stress::{max_principal, von_mises};
 use crate::method::mesh::Geometry;
@@ -92,9 +94,19 @@ impl SolidFem {
         deformation: &Deformation,
     ) -> [Extreme; 2] {
         let nodal = self.nodal_strains(deformation);
+        let images = self.images(&deformation.displacement).into_iter();
+        self.most_stressed_of(images.map(|image| {
+            (image, Cow::Owned(self.stress_in(temperatures, deformation, &nodal, image)))
+        }))
+    }
+
+    /// The same of known stresses at the nodes of images.
+    pub fn most_stressed_of<'s>(
+        &self,
+        stresses: impl Iterator<Item = ([bool; 2], Cow<'s, [[f64; 6]]>)>,
+    ) -> [Extreme; 2] {
         let mut found = [Vec::new(), Vec::new()];
-        for image in self.images(&deformation.displacement) {
-            let stresses = self.stress_in(temperatures, deformation, &nodal, image);
+        for (image, stresses) in stresses {
             let measures: [fn([f64; 6]) -> f64; 2] = [von_mises, max_principal];
             for (measure, found) in measures.into_iter().zip(&mut found) {
                 let values: Vec<f64> = stresses.iter().map(|stress| measure(*stress)).collect();
@@ -102,6 +114,14 @@ impl SolidFem {
             }
         }
         found.map(Candidate::highest)
+    }
+
+    /// Highest of values at the nodes of images.
+    pub(super) fn highest_of(&self, all: &[(Vec<f64>, [bool; 2])]) -> Extreme {
+        let of_image = |(values, image): &(Vec<f64>, [bool; 2])| {
+            Candidate::of(values, |node| self.place_of_sided(node, *image))
+        };
+        Candidate::highest(all.iter().map(of_image).collect())
     }
 
     /// Place of a node of an image, by its number in the list with doubled interfaces [m].

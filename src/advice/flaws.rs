@@ -1,0 +1,68 @@
+//! Flaws whose stress intensity the run or the theory misses.
+
+use super::Reviewer;
+use crate::limits::number;
+use crate::quantity::percent;
+use crate::scene::locate::Path;
+use crate::scene::{Face, Flaw, FlawShape, Scene, Solid};
+use crate::warning;
+
+/// Depth over diffusion length √(κt) at which a suddenly cooled edge crack has its highest stress intensity.
+const WORST_DEPTH: f64 = 1.13;
+/// Biot number of the depth from which on convection is like a jump of the temperature.
+const SUDDEN: f64 = 1.0;
+/// Depth over the extent of the body behind it up to which the formula of a half plane holds: there a strip under
+/// uniform tension has 6 % more.
+const SHALLOW: f64 = 0.1;
+
+pub fn review(reviewer: &mut Reviewer) {
+    let scene = reviewer.scene;
+    for (name, solid) in scene.solids() {
+        let own = scene.flaw.iter().enumerate().filter(|(_, flaw)| flaw.body == name);
+        for (i, flaw) in own {
+            let path = Path::default().key("flaw").index(i);
+            if solid.yields() {
+                reviewer.warn(&path.key("in"), warning::flaw_in_yielding_body());
+            }
+            let Some(depth) = flaw.depth.given() else { continue };
+            if is_shocked(scene, (name, solid), depth) {
+                peak(reviewer, &path, (flaw, depth), solid);
+            }
+            deep(reviewer, &path, (flaw, depth), solid);
+        }
+    }
+}
+
+/// Returns true if the surface temperature may jump, seen from a depth [m]: it is prescribed, or convection or another
+/// body brings it about faster than heat reaches the depth.
+fn is_shocked(scene: &Scene, (name, solid): (&str, &Solid), depth: f64) -> bool {
+    let conductivity = solid.strata().into_iter().map(|layer| layer.constants.conductivity);
+    let conductivity = conductivity.fold(f64::INFINITY, f64::min);
+    let is_sudden = |face: &Face| {
+        let biot = face.convection.map_or(0.0, |own| own.coefficient * depth / conductivity);
+        face.temperature.is_some() || biot > SUDDEN
+    };
+    solid.faces.values().any(is_sudden) || scene.couplings_to(name).next().is_some()
+}
+
+/// Warns of steps in which the highest stress intensity after a shock comes and goes.
+fn peak(reviewer: &mut Reviewer, path: &Path, (flaw, depth): (&Flaw, f64), solid: &Solid) {
+    let Some(layer) = solid.strata().get(flaw.layer(solid)).copied() else { return };
+    let time = (depth / WORST_DEPTH).powi(2) / layer.constants.diffusivity();
+    let step = reviewer.scene.step;
+    if step > time {
+        let [step, time] = [step, time].map(|time| format!("{time:.1e}"));
+        reviewer.warn(&path.key("depth"), warning::flaw_peak_missed(step, time));
+    }
+}
+
+/// Warns of edge cracks that are deep compared with the body.
+fn deep(reviewer: &mut Reviewer, path: &Path, (flaw, depth): (&Flaw, f64), solid: &Solid) {
+    let is_edge = flaw.shape == FlawShape::Edge;
+    let Some(face) = flaw.face(&solid.shape).filter(|_| is_edge) else { return };
+    let part = depth / flaw.reach(solid, face);
+    if part > SHALLOW {
+        let most = number(SHALLOW * flaw.reach(solid, face));
+        reviewer.warn(&path.key("depth"), warning::flaw_deep(percent(part), most));
+    }
+}

@@ -1,0 +1,382 @@
+//! Stress intensity of flaws, from the stress of the body without them.
+//!
+//! An edge crack of depth a has `K = 2√(a/π) ∫₀¹ σ(xa) (1.3 − 0.3 x^{5/4})/√(1 − x²) dx` with the stress σ across its
+//! plane (H. Tada, P. C. Paris and G. R. Irwin, *The Stress Analysis of Cracks Handbook*, Del Research 1973: point
+//! forces on an edge crack of a half plane). A penny of radius a has the mean along its front,
+//! `K = 2√(a/π) ∫ σ̄(a sin θ) sin θ dθ` with the mean σ̄ over circles (I. N. Sneddon 1946, doi 10.1098/rspa.1946.0077).
+//! Both are sums over points with fixed weights, so one influence row has a whole flaw.
+//!
+//! Stress is a polynomial between neighbouring nodes, so edge cracks take it at the nodes along their line. A closed
+//! crack, K < 0, has K = 0.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use super::reader::SolidReader;
+use crate::body::BodyError;
+use crate::laws::Constants;
+use crate::math::gauss::gauss_on;
+use crate::math::lagrange::interpolation_weights;
+use crate::method::fem::{Component, Functional, Geometry, Mesh, Plan, SolidFem};
+use crate::scene::{FaceName, Flaw, FlawShape, Scene, Solid};
+
+/// Safety of closed cracks, and of all that are safer.
+const SAFEST: f64 = 1e6;
+/// Relative difference of equal distances.
+const ROUNDING: f64 = 1e-9;
+/// Gauss points between neighbouring element ends along an edge crack.
+const POINTS: usize = 16;
+/// Radii and angles of the points of a penny.
+const RADII: usize = 8;
+const ANGLES: usize = 16;
+/// Depths that are tried in an element.
+const TRIALS: usize = 4;
+/// Number of elements over the depth of a crack below which the mesh is too coarse for it.
+const LEAST_ELEMENTS: f64 = 2.0;
+
+/// A flaw of a body.
+pub struct Crack {
+    name: String,
+    /// Factors of the stress components in the stress across the plane.
+    across: [f64; 6],
+    points: Vec<[f64; 3]>,
+    extent: Extent,
+    /// `E/(1 − ν²)` [Pa]
+    plane_modulus: f64,
+    /// [Pa √m]
+    toughness: f64,
+    /// Elements over the depth, of edge cracks of a given depth on meshes that do not resolve the heat of a step.
+    elements: Option<f64>,
+}
+
+/// Extent of a crack.
+enum Extent {
+    /// Weights of the points in K [√m].
+    Given { depth: f64, weights: Vec<f64> },
+    /// Depths with the weights of the points for each.
+    Searched { line: Line, trials: Vec<(f64, Vec<f64>)> },
+}
+
+/// Distances from the mouth of an edge crack at which stress is taken [m].
+struct Line {
+    /// Ends of elements, from 0 on.
+    ends: Vec<f64>,
+    /// Points of an element, its ends included.
+    order: usize,
+}
+
+/// A flaw that the mesh does not resolve.
+pub struct Coarse<'c> {
+    pub name: &'c str,
+    /// Number of elements over its depth.
+    pub elements: f64,
+    /// Distance of nodes that would be fine enough [m].
+    pub finer: f64,
+}
+
+/// Stress intensity [Pa √m] and depth [m] of a flaw.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Intensity {
+    pub value: f64,
+    pub depth: f64,
+}
+
+impl Line {
+    /// The line from the mouth to a depth [m].
+    fn of(mesh: &Mesh, at: [f64; 3], inward: [f64; 3], depth: f64) -> Self {
+        let mut ends = vec![0.0];
+        let all = element_ends(mesh, at, inward).into_iter();
+        ends.extend(all.filter(|&end| end < depth * (1.0 - ROUNDING)));
+        ends.push(depth);
+        Self { ends, order: mesh.order() }
+    }
+
+    /// Distances of all points.
+    fn distances(&self) -> Vec<f64> {
+        let of_element = |pair: &[f64]| {
+            let (from, length) = (pair[0], pair[1] - pair[0]);
+            let inner = move |i: usize| from + length * i as f64 / self.order as f64;
+            (0..self.order).map(inner).collect::<Vec<_>>()
+        };
+        let last = self.ends.last().copied();
+        self.ends.windows(2).flat_map(of_element).chain(last).collect()
+    }
+
+    /// Weights of the points in K of an edge crack of a depth [√m].
+    fn weights(&self, depth: f64) -> Vec<f64> {
+        let distances = self.distances();
+        let mut weights = vec![0.0; distances.len()];
+        for (element, pair) in self.ends.windows(2).enumerate() {
+            let angle = |distance: f64| (distance / depth).min(1.0).asin();
+            let first = element * self.order;
+            let nodes = &distances[first..=first + self.order];
+            if pair[0] >= depth {
+                break;
+            }
+            for (angle, part) in gauss_on(POINTS, angle(pair[0]), angle(pair[1])) {
+                let x = angle.sin();
+                let weight = 2.0 * (depth / PI).sqrt() * (1.3 - 0.3 * x.powf(1.25)) * part;
+                let shares = interpolation_weights(nodes, x * depth);
+                let own = weights[first..].iter_mut().zip(shares);
+                own.for_each(|(sum, share)| *sum += weight * share);
+            }
+        }
+        weights
+    }
+
+    /// Depths that are tried.
+    fn trials(&self) -> Vec<f64> {
+        let of_element = |pair: &[f64]| {
+            let [from, to] = [pair[0], pair[1]];
+            (1..=TRIALS).map(move |i| from + (to - from) * i as f64 / TRIALS as f64)
+        };
+        self.ends.windows(2).flat_map(of_element).collect()
+    }
+}
+
+impl Crack {
+    /// Flaws of a scene's solid, each with its place among the scene's.
+    pub fn of_scene(
+        scene: &Scene,
+        (name, solid): (&str, &Solid),
+        plan: &Plan,
+    ) -> Vec<(usize, Self)> {
+        let own = scene.flaw.iter().enumerate().filter(|(_, flaw)| flaw.body == name);
+        // A mesh that resolves the heat of a step resolves its stress, also along shallower flaws.
+        let is_fine = plan.resolved_from <= scene.step;
+        let of = |(place, flaw): (usize, &Flaw)| {
+            let own = Self::of(flaw, solid, plan)?;
+            let elements = own.elements.filter(|_| !is_fine);
+            Some((place, Self { elements, ..own }))
+        };
+        own.filter_map(of).collect()
+    }
+
+    /// Returns `None` for an edge crack away from faces, which a checked scene excludes.
+    fn of(flaw: &Flaw, solid: &Solid, plan: &Plan) -> Option<Self> {
+        let [x, y, z] = flaw.unit_normal();
+        let across = [x * x, y * y, z * z, 2.0 * x * y, 2.0 * y * z, 2.0 * x * z];
+        let layer = flaw.layer(solid);
+        let material = solid.materials_of_layers()[layer];
+        let Constants { young, poisson, .. } = material.at(solid.initial_temperature);
+        let (young, poisson) = (young?, poisson?);
+        let plane_modulus = young / (1.0 - poisson * poisson);
+        let toughness = material.fracture.toughness.unwrap_or(0.0);
+        let (points, extent, elements) = match flaw.shape {
+            FlawShape::Penny => {
+                let (points, extent) = penny(flaw, flaw.depth.given()?);
+                (points, extent, None)
+            }
+            FlawShape::Edge => edge(flaw, solid, plan, flaw.face(&solid.shape)?),
+        };
+        let name = flaw.name.clone();
+        Some(Self { name, across, points, extent, plane_modulus, toughness, elements })
+    }
+
+    /// K of a given depth as a sum of stress components; `None` if the depth is searched.
+    pub fn functional(&self, solid: &SolidFem) -> Option<Functional> {
+        let Extent::Given { weights, .. } = &self.extent else { return None };
+        let of_slot = |slot: usize| {
+            let factor = self.across[slot];
+            let weighted = self.points.iter().zip(weights);
+            let weighted = weighted.map(|(point, weight)| (*point, factor * weight));
+            let points: Vec<_> = weighted.filter(|(_, weight)| *weight != 0.0).collect();
+            solid.functional(Component::Stress(slot), &points).terms
+        };
+        Some(Functional { terms: (0..6).flat_map(of_slot).collect() })
+    }
+
+    /// Returns the elements over the depth if they are too few for the stress there.
+    pub fn too_few_elements(&self) -> Option<Coarse<'_>> {
+        let Extent::Given { depth, .. } = self.extent else { return None };
+        let elements = self.elements.filter(|&elements| elements < LEAST_ELEMENTS)?;
+        Some(Coarse { name: &self.name, elements, finer: depth / (2.0 * LEAST_ELEMENTS) })
+    }
+
+    /// Energy release rate `G = K²(1 − ν²)/E` of plane strain [J/m²].
+    pub fn energy_release_rate(&self, intensity: f64) -> f64 {
+        intensity * intensity / self.plane_modulus
+    }
+
+    /// Rate of change of the energy release rate.
+    pub fn energy_release_change(&self, intensity: f64, rate: f64) -> f64 {
+        2.0 * intensity * rate / self.plane_modulus
+    }
+
+    /// Toughness over stress intensity.
+    pub fn safety(&self, intensity: f64) -> f64 {
+        if intensity * SAFEST <= self.toughness { SAFEST } else { self.toughness / intensity }
+    }
+
+    /// Rate of change of the safety.
+    pub fn safety_change(&self, intensity: f64, rate: f64) -> f64 {
+        match intensity * SAFEST <= self.toughness {
+            true => 0.0,
+            false => -self.toughness / (intensity * intensity) * rate,
+        }
+    }
+
+    /// Stress across the plane at all points [Pa].
+    fn stresses(&self, reader: &mut SolidReader) -> Result<Vec<f64>, BodyError> {
+        let across = |point: &[f64; 3]| {
+            let stress = reader.stress_at(*point)?;
+            Ok(self.across.iter().zip(stress).map(|(factor, own)| factor * own).sum())
+        };
+        self.points.iter().map(across).collect()
+    }
+
+    /// Stress intensity of a given depth, negative in compression, from a solution.
+    pub fn signed(&self, reader: &mut SolidReader) -> Result<Option<f64>, BodyError> {
+        let Extent::Given { weights, .. } = &self.extent else { return Ok(None) };
+        Ok(Some(dot(weights, &self.stresses(reader)?)))
+    }
+
+    /// Stress intensity of a given depth, from its signed value.
+    pub fn opened(&self, signed: f64) -> Intensity {
+        let depth = match &self.extent {
+            Extent::Given { depth, .. } => *depth,
+            Extent::Searched { .. } => 0.0,
+        };
+        Intensity { value: signed.max(0.0), depth }
+    }
+
+    /// Highest stress intensity of all depths, and that depth; zero if the crack is closed at any depth.
+    pub fn worst(&self, reader: &mut SolidReader) -> Result<Intensity, BodyError> {
+        let Extent::Searched { line, trials } = &self.extent else {
+            return Err(BodyError::NoSuchReading);
+        };
+        let stresses = self.stresses(reader)?;
+        let tried: Vec<f64> = trials.iter().map(|(_, weights)| dot(weights, &stresses)).collect();
+        let mut best = Intensity { value: 0.0, depth: 0.0 };
+        let Some(place) = (0..tried.len()).max_by(|&a, &b| tried[a].total_cmp(&tried[b])) else {
+            return Ok(best);
+        };
+        if tried[place] <= 0.0 {
+            return Ok(best);
+        }
+        best = Intensity { value: tried[place], depth: trials[place].0 };
+        // The vertex of the parabola through the best trial and its neighbours.
+        if place > 0 && place + 1 < tried.len() {
+            let [a, b, c] = [place - 1, place, place + 1].map(|i| (trials[i].0, tried[i]));
+            let depth = vertex(a, b, c);
+            let value = dot(&line.weights(depth), &stresses);
+            if value > best.value {
+                best = Intensity { value, depth };
+            }
+        }
+        Ok(best)
+    }
+}
+
+/// Points of an edge crack, its extent, and the number of elements over a given depth.
+fn edge(
+    flaw: &Flaw,
+    solid: &Solid,
+    plan: &Plan,
+    face: FaceName,
+) -> (Vec<[f64; 3]>, Extent, Option<f64>) {
+    let inward = flaw.inward(face);
+    let given = flaw.depth.given();
+    let reach = given.unwrap_or_else(|| flaw.reach(solid, face));
+    let line = Line::of(&plan.mesh, flaw.at, inward, reach);
+    // On an interface the layer above counts, so the deepest point stays within its own.
+    let inside = 1.0 - 1e-12;
+    let points = line
+        .distances()
+        .into_iter()
+        .map(|distance| std::array::from_fn(|i| flaw.at[i] + inside * distance * inward[i]));
+    let points = points.collect();
+    match given {
+        Some(depth) => {
+            let elements = elements_over(&plan.mesh, flaw.at, inward, depth);
+            let weights = line.weights(depth);
+            (points, Extent::Given { depth, weights }, Some(elements))
+        }
+        None => {
+            let trials = line.trials().into_iter().map(|depth| (depth, line.weights(depth)));
+            let trials = trials.collect();
+            (points, Extent::Searched { line, trials }, None)
+        }
+    }
+}
+
+/// Distances from the mouth of an edge crack, above zero and ascending, at which elements end [m].
+fn element_ends(mesh: &Mesh, at: [f64; 3], inward: [f64; 3]) -> Vec<f64> {
+    let axis = (0..3).fold(
+        0,
+        |most, axis| {
+            if inward[axis].abs() > inward[most].abs() { axis } else { most }
+        },
+    );
+    let is_radial = mesh.geometry == Geometry::Axisymmetric && axis < 2;
+    let own = &mesh.axes[if is_radial { 0 } else { axis }];
+    let (start, way) = match is_radial {
+        true => (own.end(), -1.0),
+        false => (at[axis], inward[axis]),
+    };
+    let continues = is_radial || axis < 2 && mesh.mirrored[axis];
+    let nodes = own.nodes.iter().step_by(own.order).copied();
+    let images = nodes.clone().filter(|_| continues).map(|node| -node);
+    let distances = nodes.chain(images).map(|node| (node - start) * way);
+    let least = ROUNDING * (own.end() - own.start());
+    let mut ends: Vec<f64> = distances.filter(|&distance| distance > least).collect();
+    ends.sort_by(f64::total_cmp);
+    ends.dedup_by(|b, a| *b - *a <= least);
+    ends
+}
+
+/// Number of elements over a depth, the last one in part.
+fn elements_over(mesh: &Mesh, at: [f64; 3], inward: [f64; 3], depth: f64) -> f64 {
+    let ends = element_ends(mesh, at, inward);
+    let complete = ends.partition_point(|&end| end <= depth);
+    let last = if complete == 0 { 0.0 } else { ends[complete - 1] };
+    complete as f64 + ends.get(complete).map_or(0.0, |next| (depth - last) / (next - last))
+}
+
+/// Points of a penny of a radius, and its extent.
+fn penny(flaw: &Flaw, radius: f64) -> (Vec<[f64; 3]>, Extent) {
+    let (mut points, mut weights) = (Vec::new(), Vec::new());
+    for (angle, part) in gauss_on(RADII, 0.0, FRAC_PI_2) {
+        let weight = 2.0 * (radius / PI).sqrt() * angle.sin() * part / ANGLES as f64;
+        for turn in 0..ANGLES {
+            let turn = (turn as f64 + 0.5) / ANGLES as f64;
+            points.push(flaw.on_plane(radius * angle.sin(), turn));
+            weights.push(weight);
+        }
+    }
+    (points, Extent::Given { depth: radius, weights })
+}
+
+fn dot(weights: &[f64], values: &[f64]) -> f64 {
+    weights.iter().zip(values).map(|(weight, value)| weight * value).sum()
+}
+
+/// Abscissa of the vertex of the parabola through three points, the middle one of which is highest.
+fn vertex((xa, a): (f64, f64), (xb, b): (f64, f64), (xc, c): (f64, f64)) -> f64 {
+    let (left, right) = ((b - a) / (xb - xa), (c - b) / (xc - xb));
+    let curvature = (right - left) / (xc - xa);
+    if curvature < 0.0 { 0.5 * (xa + xb) - 0.5 * left / curvature } else { xb }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Line, dot, vertex};
+    use crate::closed_form::edge_crack::edge;
+
+    #[test]
+    fn weights_integrate_parabolas_over_the_crack() {
+        let line = Line { ends: vec![0.0, 0.2, 0.5, 1.1, 2.0], order: 2 };
+        let distances = line.distances();
+        for depth in [0.1, 0.5, 0.77, 2.0] {
+            let stresses: Vec<f64> = distances.iter().map(|z| 3.0 - z + 0.4 * z * z).collect();
+            let found = dot(&line.weights(depth), &stresses);
+            let wanted = edge(depth, |z| 3.0 - z + 0.4 * z * z);
+            assert!((found / wanted - 1.0).abs() < 1e-6, "{depth}: {found} {wanted}");
+        }
+    }
+
+    #[test]
+    fn vertices_of_parabolas_are_found_at_unequal_distances() {
+        let at = |x: f64| (x, 2.0 - (x - 1.3).powi(2));
+        assert!((vertex(at(0.5), at(1.0), at(2.5)) - 1.3).abs() < 1e-12);
+    }
+}

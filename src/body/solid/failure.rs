@@ -1,0 +1,149 @@
+//! Probability of failure of a solid of brittle material.
+//!
+//! A flaw breaks at the largest stress that it has met, so the equivalent stress of every node keeps its running
+//! maximum, as part of the body's state. It is noted at communication points, like other running maxima.
+
+use super::SolidBody;
+use super::memo::SolidMemo;
+use super::reader::SolidReader;
+use crate::body::BodyError;
+use crate::state::{Field, Layout, Per};
+
+/// Value of a node before anything is noted [Pa].
+const NOTHING: f64 = f64::MIN;
+/// Largest risk so far over that of the largest stresses, which may fall a little between nodes.
+const MOST_OF_STRESS: f64 = 2.0;
+
+/// Risk B of a body and the place of its largest failure density [m].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Risk {
+    pub value: f64,
+    pub at: [f64; 3],
+}
+
+impl Risk {
+    /// `P = 1 − e^{−B}`
+    pub fn probability(&self) -> f64 {
+        -(-self.value).exp_m1()
+    }
+}
+
+/// Running maxima of a state: the risk, and the equivalent stress of the nodes [Pa].
+struct Noted<'s> {
+    risk: f64,
+    stress: &'s [f64],
+}
+
+impl SolidBody {
+    /// Fields of the running maxima.
+    pub(super) fn layout_of_flaws(&self) -> Layout {
+        let field = |name, words, per| Field { name, words, per, width: 1 };
+        let risk = field("failure_risk", "largest risk of failure so far [1]", Per::Body);
+        let stress =
+            field("equivalent_stress", "largest equivalent stress of flaws so far [Pa]", Per::Node);
+        match self.solid.risk_points() {
+            0 => Layout::default(),
+            count => Layout::default().with(risk, 1).with(stress, count),
+        }
+    }
+
+    /// Running maxima before anything is noted.
+    pub(super) fn nothing_noted(&self) -> Vec<f64> {
+        match self.solid.risk_points() {
+            0 => Vec::new(),
+            count => [vec![0.0], vec![NOTHING; count]].concat(),
+        }
+    }
+
+    /// Place of the running maxima in a state.
+    fn place_of_noted(&self, state: &[f64]) -> usize {
+        state.len() - self.layout_of_flaws().len()
+    }
+
+    /// Running maxima of a state; `None` before anything is noted.
+    fn noted<'s>(&self, state: &'s [f64]) -> Option<Noted<'s>> {
+        let (&risk, stress) = state[self.place_of_noted(state)..].split_first()?;
+        (*stress.first()? != NOTHING).then_some(Noted { risk, stress })
+    }
+
+    /// Computes the present equivalent stress, which [`Self::note_flaws`] needs.
+    pub(super) fn observe_flaws(
+        &self,
+        state: &[f64],
+        memo: &mut SolidMemo,
+    ) -> Result<(), BodyError> {
+        let Some(flaws) = self.solid.flaws() else { return Ok(()) };
+        let present = memo.equivalent_stress(self, flaws, state)?;
+        let wrong = present.iter().copied().find(|value| !value.is_finite());
+        wrong.map_or(Ok(()), |value| BodyError::unless_finite(value).map(|_| ()))
+    }
+
+    /// Updates the running maxima to the observed values. The risk follows from the stresses; it is kept itself, so
+    /// that it never falls where these change the interpolation between them.
+    pub(super) fn note_flaws(&self, state: &mut [f64], memo: &mut SolidMemo) {
+        let Some(flaws) = self.solid.flaws() else { return };
+        memo.forget_risk();
+        let place = self.place_of_noted(state);
+        let Some((risk, stress)) = state[place..].split_first_mut() else { return };
+        self.solid.note_largest(flaws, stress, memo.observed(), NOTHING);
+        // While stress grows, the present one is the largest so far.
+        let found = match memo.known_risk().filter(|_| stress == memo.observed()) {
+            Some(present) => present,
+            None => self.solid.risk(flaws, stress),
+        };
+        *risk = risk.max(found.min(f64::MAX));
+        if stress == memo.observed() {
+            memo.keep_present_risk(found);
+        }
+    }
+
+    /// Refuses running maxima that no run produces.
+    pub(super) fn check_flaws(&self, state: &[f64]) -> Result<(), String> {
+        let Some(flaws) = self.solid.flaws() else { return Ok(()) };
+        let place = self.place_of_noted(state);
+        let is_possible = match self.noted(state) {
+            None => state[place] == 0.0 && state[place + 1..].iter().all(|own| *own == NOTHING),
+            Some(Noted { risk, stress }) => {
+                let is_known = |own: &f64| own.is_finite() && *own != NOTHING;
+                let follows = || {
+                    let least = self.solid.risk(flaws, stress).min(f64::MAX);
+                    risk.is_finite() && risk >= least && risk <= MOST_OF_STRESS * least
+                };
+                stress.iter().all(is_known) && follows()
+            }
+        };
+        match is_possible {
+            true => Ok(()),
+            false => Err(format!("stresses of flaws in {} that no run leads to", self.name)),
+        }
+    }
+}
+
+impl SolidReader<'_> {
+    /// The largest risk so far: that of the running maxima, or the present one before any is noted.
+    pub fn risk_so_far(&mut self) -> Result<Risk, BodyError> {
+        let body = self.body;
+        let Some(flaws) = body.solid.flaws() else { return Err(BodyError::NoSuchReading) };
+        if let Some(known) = self.memo.risk_so_far() {
+            return Ok(known);
+        }
+        let risk = match body.noted(self.state) {
+            Some(Noted { risk, stress }) => {
+                Risk { value: risk, at: body.solid.riskiest(flaws, stress) }
+            }
+            None => {
+                let value = self.memo.present_risk(body, flaws, self.state)?;
+                Risk { value, at: body.solid.riskiest(flaws, self.memo.observed()) }
+            }
+        };
+        self.memo.keep_risk_so_far(risk);
+        Ok(risk)
+    }
+
+    /// The risk under the present stress.
+    pub fn present_risk(&mut self) -> Result<f64, BodyError> {
+        let body = self.body;
+        let Some(flaws) = body.solid.flaws() else { return Err(BodyError::NoSuchReading) };
+        self.memo.present_risk(body, flaws, self.state)
+    }
+}

@@ -1,0 +1,112 @@
+//! Readings of flaws: stress intensity, energy release rate, safety, and the depth if it is searched.
+
+use super::SolidBody;
+use super::crack::{Crack, Intensity};
+use super::linear::SolidChange;
+use super::reader::SolidReader;
+use crate::body::{BodyError, Descriptor, Direct};
+use crate::quantity::Quantity;
+use crate::scene::{Flaw, FlawGives};
+
+/// A quantity of a flaw.
+struct FlawQuantity {
+    descriptor: Descriptor,
+    /// The output name that includes it; `None` for the depth, which goes with searched ones.
+    given_by: Option<FlawGives>,
+    read: fn(&Crack, Intensity) -> f64,
+    /// Rate of change, from the intensity and its rate.
+    rate: fn(&Crack, Intensity, f64) -> Option<f64>,
+}
+
+const QUANTITIES: [FlawQuantity; 4] = [
+    FlawQuantity {
+        descriptor: descriptor(
+            "stress_intensity",
+            "stress intensity, zero where it is closed,",
+            Quantity::StressIntensity,
+        ),
+        given_by: Some(FlawGives::StressIntensity),
+        read: |_, own| own.value,
+        rate: |_, _, rate| Some(rate),
+    },
+    FlawQuantity {
+        descriptor: descriptor(
+            "energy_release_rate",
+            "energy release rate in plane strain",
+            Quantity::EnergyPerArea,
+        ),
+        given_by: Some(FlawGives::EnergyReleaseRate),
+        read: |crack, own| crack.energy_release_rate(own.value),
+        rate: |crack, own, rate| Some(crack.energy_release_change(own.value, rate)),
+    },
+    FlawQuantity {
+        descriptor: descriptor(
+            "safety",
+            "toughness over stress intensity, at most 1e6,",
+            Quantity::Ratio,
+        ),
+        given_by: Some(FlawGives::Safety),
+        read: |crack, own| crack.safety(own.value),
+        rate: |crack, own, rate| Some(crack.safety_change(own.value, rate)),
+    },
+    FlawQuantity {
+        descriptor: descriptor("depth", "depth of highest stress intensity", Quantity::Length),
+        given_by: None,
+        read: |_, own| own.depth,
+        rate: |_, _, _| None,
+    },
+];
+
+const fn descriptor(key: &'static str, words: &'static str, quantity: Quantity) -> Descriptor {
+    Descriptor { key, words, quantity, direct: Direct::TemperaturesAndTractions }
+}
+
+/// Returns the quantities that a flaw offers, each with its place among all.
+pub fn flaw_quantities(flaw: &Flaw) -> Vec<(usize, Descriptor)> {
+    let is_offered = |quantity: &FlawQuantity| match quantity.given_by {
+        Some(gives) => flaw.gives.contains(&gives),
+        None => flaw.depth.given().is_none(),
+    };
+    let all = QUANTITIES.iter().enumerate().filter(|(_, quantity)| is_offered(quantity));
+    all.map(|(place, quantity)| (place, quantity.descriptor)).collect()
+}
+
+impl SolidBody {
+    fn crack(&self, flaw: usize) -> Result<&Crack, BodyError> {
+        let found = self.cracks.iter().find(|(place, _)| *place == flaw);
+        Ok(&found.ok_or(BodyError::NoSuchReading)?.1)
+    }
+}
+
+/// Signed stress intensity of a flaw of given depth, by its row or a solution; `None` if the depth is searched.
+fn signed(reader: &mut SolidReader, crack: &Crack, flaw: usize) -> Result<Option<f64>, BodyError> {
+    match reader.flaw_by_row(flaw) {
+        Some(value) => value.map(Some),
+        None => crack.signed(reader),
+    }
+}
+
+/// Reads a quantity of a flaw, by the place of the flaw among the scene's.
+pub fn read(reader: &mut SolidReader, flaw: usize, quantity: usize) -> Result<f64, BodyError> {
+    let crack = reader.body.crack(flaw)?;
+    let intensity = match signed(reader, crack, flaw)? {
+        Some(signed) => crack.opened(signed),
+        None => crack.worst(reader)?,
+    };
+    Ok((QUANTITIES[quantity].read)(crack, intensity))
+}
+
+/// Rate of change of a quantity of a flaw of given depth. A closed crack stays closed, unless it is about to open.
+pub fn rate(both: &mut SolidChange, flaw: usize, quantity: usize) -> Result<f64, BodyError> {
+    let body = both.now.body;
+    let crack = body.crack(flaw)?;
+    let Some(now) = signed(&mut both.now, crack, flaw)? else { return Err(BodyError::NoRate) };
+    let change = signed(&mut both.change, crack, flaw)?.unwrap_or(0.0);
+    let change = match now {
+        now if now > 0.0 => change,
+        0.0 => change.max(0.0),
+        _ => 0.0,
+    };
+    let rate = (QUANTITIES[quantity].rate)(crack, crack.opened(now), change);
+    rate.ok_or(BodyError::NoRate)
+}

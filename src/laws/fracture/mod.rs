@@ -1,0 +1,68 @@
+//! Brittle fracture: statistics of flaws, which lead to a probability of failure, and toughness.
+
+mod normal_average;
+mod weibull;
+
+pub use weibull::{Directions, Extent, FlawStatistics, Weibull};
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::part::Part;
+use super::{AtStart, MaterialConstant};
+use crate::limits::{Bounds, plausible, positive};
+use crate::quantity::Quantity;
+
+/// Constants of brittle fracture, all optional.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+pub struct Brittleness {
+    /// Weibull's distribution of flaws; the body then has a probability of failure as an output.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("otherwise" = "no probability of failure"))]
+    pub weibull: Option<Weibull>,
+    /// Toughness K_Ic [Pa √m], for the safety of flaws.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = positive("Pa √m", "the toughness")
+        .plausible(&plausible::TOUGHNESS)
+        .otherwise("none"))]
+    pub toughness: Option<f64>,
+}
+
+impl Part for Brittleness {
+    fn parameters() -> &'static [MaterialConstant] {
+        const {
+            &[
+                MaterialConstant {
+                    key: "weibull_modulus",
+                    description: "Weibull modulus",
+                    quantity: Quantity::Ratio,
+                    bounds: Bounds::between(Weibull::LEAST_MODULUS, Weibull::MOST_MODULUS),
+                    start: AtStart::PoleAtZero,
+                },
+                MaterialConstant {
+                    key: "weibull_strength",
+                    description: "Weibull strength",
+                    quantity: Quantity::Stress,
+                    bounds: MaterialConstant::ABOVE_ZERO,
+                    start: AtStart::PoleAtZero,
+                },
+                MaterialConstant {
+                    key: "toughness",
+                    description: "fracture toughness",
+                    quantity: Quantity::StressIntensity,
+                    bounds: MaterialConstant::ABOVE_ZERO,
+                    start: AtStart::PoleAtZero,
+                },
+            ]
+        }
+    }
+
+    fn number(&mut self, key: &str) -> Option<&mut f64> {
+        match key {
+            "weibull_modulus" => self.weibull.as_mut().map(|own| &mut own.modulus),
+            "weibull_strength" => self.weibull.as_mut().map(|own| &mut own.strength),
+            "toughness" => self.toughness.as_mut(),
+            _ => None,
+        }
+    }
+}

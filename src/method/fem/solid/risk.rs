@@ -1,0 +1,442 @@
+//! Risk of failure of a body of brittle material: `B = Σ ∫ (s/σ₀)^m dV/V₀` over its layers, or over their faces.
+//!
+//! The equivalent stress s is known at the nodes, of every mirror image of the mesh; between nodes it follows the shape
+//! functions. It is the power that needs care: an error of s counts m times. Each element takes as many Gauss points
+//! along each axis as its values vary, up to those that integrate the power of a linear function exactly, and all
+//! values are relative to the largest.
+
+use super::{Deformation, Extreme, SolidFem, Temperatures};
+use crate::laws::{Extent, FlawStatistics};
+use crate::math::gauss::gauss_legendre;
+use crate::math::lagrange::shape;
+use crate::method::fem::free_faces::is_inside;
+use crate::method::fem::plan::Plan;
+use crate::method::mesh::{Axis, Mesh};
+
+/// Flaws of a body.
+pub struct Flaws {
+    /// Distribution in each layer, from the lowest on; `None` where nothing is known to break.
+    layers: Vec<Option<FlawStatistics>>,
+    /// Gauss rules of 1, 2, … points: place, weight and shape functions.
+    rules: Vec<Vec<Point>>,
+    /// Elements of the layers with flaws, or the parts of their faces.
+    patches: Vec<Patch>,
+    /// Nodes of these.
+    bears: Vec<bool>,
+}
+
+/// An element, or a part of a face, of a layer.
+struct Patch {
+    spans: [Span; 3],
+    layer: usize,
+}
+
+/// A Gauss point of an element along one axis.
+#[derive(Clone, Copy)]
+struct Point {
+    place: f64,
+    weight: f64,
+    shape: [f64; 3],
+}
+
+/// An element, or a node on a face, along one axis.
+#[derive(Clone, Copy)]
+struct Span {
+    /// The element; `None` for a single node.
+    element: Option<usize>,
+    /// Number of nodes.
+    count: usize,
+    /// First node, in the list with doubled interfaces along z.
+    first: usize,
+    /// Place of that node on the axis.
+    node: usize,
+}
+
+/// Stress at the nodes of an image of the mesh [Pa].
+pub type ImageStress = ([bool; 2], Vec<[f64; 6]>);
+
+/// Largest number of points along an axis.
+const MOST_POINTS: usize = 48;
+/// Points of an element in which the power hardly varies, and of one whose share of the risk is below [`MINOR`].
+const LEAST_POINTS: f64 = 3.0;
+const POINTS_OF_MINOR: f64 = 2.0;
+/// Share of the largest equivalent stress below which tension may be rounding.
+const NEGLIGIBLE: f64 = 1e-6;
+/// Further points of an element whose stress passes through zero.
+const POINTS_AT_ZERO: f64 = 24.0;
+/// Share of the largest contribution below which an element counts as minor, and sum of such shares that is left out.
+const MINOR: f64 = 1e-5;
+const LEFT_OUT: f64 = 1e-10;
+
+impl Flaws {
+    /// Returns `None` if no layer has flaws, or nothing mechanical is modelled.
+    pub fn of(plan: &Plan) -> Option<Self> {
+        let layers = plan.flaws.clone();
+        let is_mechanical = plan.law.is_some() || plan.inelastic.is_some();
+        if !is_mechanical || layers.iter().all(Option::is_none) {
+            return None;
+        }
+        let order = plan.mesh.order();
+        let rule = |count: usize| {
+            let point =
+                |(place, weight): (f64, f64)| Point { place, weight, shape: shape(order, place) };
+            gauss_legendre(count).into_iter().map(point).collect()
+        };
+        let mesh = &plan.mesh;
+        let patches = patches(mesh, &layers);
+        let mut bears = vec![false; mesh.sided_nodes()];
+        for patch in &patches {
+            patch.for_nodes(mesh, |_, node| bears[node] = true);
+        }
+        Some(Self { layers, rules: (1..=MOST_POINTS).map(rule).collect(), patches, bears })
+    }
+
+    /// The distribution of a patch.
+    fn of_patch(&self, patch: &Patch) -> &FlawStatistics {
+        self.layers[patch.layer].as_ref().expect("patches are those of layers with flaws")
+    }
+}
+
+/// Elements of the layers with flaws, or the parts of their faces.
+fn patches(mesh: &Mesh, layers: &[Option<FlawStatistics>]) -> Vec<Patch> {
+    let all = |axis: usize| -> Vec<Span> {
+        let count = mesh.axes[axis].elements().max(1);
+        (0..count).map(|element| Span::of(mesh, axis, element)).collect()
+    };
+    let mut list = Vec::new();
+    let mut add = |layer: usize, xs: &[Span], ys: &[Span], zs: &[Span]| {
+        for &z in zs {
+            for &y in ys {
+                list.extend(xs.iter().map(|&x| Patch { spans: [x, y, z], layer }));
+            }
+        }
+    };
+    let (xs, ys) = (all(0), all(1));
+    let top = mesh.layering.count() - 1;
+    for (layer, statistics) in layers.iter().enumerate() {
+        let Some(statistics) = statistics else { continue };
+        let elements = mesh.layer_elements(layer);
+        let zs: Vec<Span> = elements.map(|element| Span::of(mesh, 2, element)).collect();
+        if let Extent::Volume(_) = statistics.extent {
+            add(layer, &xs, &ys, &zs);
+            continue;
+        }
+        for high in [false, true] {
+            if layer == if high { top } else { 0 } {
+                add(layer, &xs, &ys, &[Span::end(mesh, 2, high)]);
+            }
+            let is_face =
+                |axis: usize| mesh.axes[axis].elements() > 0 && (high || !is_inside(mesh, axis));
+            if is_face(0) {
+                add(layer, &[Span::end(mesh, 0, high)], &ys, &zs);
+            }
+            if is_face(1) {
+                add(layer, &xs, &[Span::end(mesh, 1, high)], &zs);
+            }
+        }
+    }
+    list
+}
+
+impl Span {
+    fn of(mesh: &Mesh, axis: usize, element: usize) -> Self {
+        let own = &mesh.axes[axis];
+        if own.elements() == 0 {
+            return Self { element: None, count: 1, first: 0, node: 0 };
+        }
+        let node = element * own.order;
+        let below = if axis == 2 { mesh.layering.layer_of(element) } else { 0 };
+        Self { element: Some(element), count: own.order + 1, first: node + below, node }
+    }
+
+    /// The node at an end of an axis.
+    fn end(mesh: &Mesh, axis: usize, high: bool) -> Self {
+        let last = |count: usize| if high { count - 1 } else { 0 };
+        let (first, node) = (last(mesh.sided_counts()[axis]), last(mesh.axes[axis].len()));
+        Self { element: None, count: 1, first, node }
+    }
+
+    /// Measure of the span: its length, or area along a radius.
+    fn measure(&self, axis: &Axis) -> f64 {
+        match self.element {
+            None => axis.weight_at(axis.nodes[self.node]),
+            Some(element) => {
+                let [a, b] = axis.bounds(element);
+                axis.weight_at(0.5 * (a + b)) * (b - a)
+            }
+        }
+    }
+
+    /// Shape functions and measures of the points of a rule.
+    fn points(&self, axis: &Axis, rule: &[Point]) -> Vec<([f64; 3], f64)> {
+        let Some(element) = self.element else {
+            return vec![([1.0, 0.0, 0.0], self.measure(axis))];
+        };
+        let [a, b] = axis.bounds(element);
+        let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
+        let at = |point: &Point| {
+            let measure = axis.weight_at(middle + half * point.place);
+            (point.shape, half * point.weight * measure)
+        };
+        rule.iter().map(at).collect()
+    }
+}
+
+impl Patch {
+    /// Passes each node with its place among the patch's nodes.
+    fn for_nodes(&self, mesh: &Mesh, mut pass: impl FnMut(usize, usize)) {
+        let [nx, ny, _] = mesh.sided_counts();
+        let [x, y, z] = &self.spans;
+        for c in 0..z.count {
+            for b in 0..y.count {
+                for a in 0..x.count {
+                    let node = x.first + a + nx * (y.first + b + ny * (z.first + c));
+                    pass(a + 3 * (b + 3 * c), node);
+                }
+            }
+        }
+    }
+
+    fn measure(&self, mesh: &Mesh) -> f64 {
+        let spans = self.spans.iter().zip(&mesh.axes);
+        spans.map(|(span, axis)| span.measure(axis)).product()
+    }
+}
+
+/// Nodal values of a patch relative to the largest of the body.
+struct Local {
+    values: [f64; 27],
+    counts: [usize; 3],
+    most: f64,
+    least: f64,
+}
+
+impl Local {
+    fn of(mesh: &Mesh, patch: &Patch, equivalent: &[f64], scale: f64) -> Self {
+        let (mut values, mut most, mut least) = ([0.0; 27], f64::NEG_INFINITY, f64::INFINITY);
+        patch.for_nodes(mesh, |place, node| {
+            let value = equivalent[node] / scale;
+            values[place] = value;
+            most = most.max(value);
+            least = least.min(value);
+        });
+        Self { values, counts: patch.spans.map(|span| span.count), most, least }
+    }
+
+    /// Largest change along lines of nodes in the direction of an axis, over twice the largest value; negative values
+    /// count as zero.
+    fn variation(&self, axis: usize) -> f64 {
+        let stride = [1, 3, 9][axis];
+        let others: [usize; 2] = std::array::from_fn(|i| (axis + 1 + i) % 3);
+        let mut most = 0.0_f64;
+        for i in 0..self.counts[others[0]] {
+            for j in 0..self.counts[others[1]] {
+                let first = i * [1, 3, 9][others[0]] + j * [1, 3, 9][others[1]];
+                let line = (0..self.counts[axis]).map(|k| self.values[first + k * stride].max(0.0));
+                let [low, high] =
+                    line.fold([f64::INFINITY, 0.0], |[low, high], v| [low.min(v), high.max(v)]);
+                most = most.max((high - low) / (2.0 * self.most - (high - low)));
+            }
+        }
+        most
+    }
+
+    /// `∫ ⟨s⟩^m` over the patch, with a list of points for each axis.
+    fn integral(&self, points: &[Vec<([f64; 3], f64)>; 3], power: impl Fn(f64) -> f64) -> f64 {
+        // Interpolation between positive and negative nodes may overshoot.
+        let cap = if self.least < 0.0 { self.most } else { f64::INFINITY };
+        let mut sum = 0.0;
+        for (along_z, of_z) in &points[2] {
+            let plane: [f64; 9] = std::array::from_fn(|n| {
+                (0..self.counts[2]).map(|c| along_z[c] * self.values[n + 9 * c]).sum()
+            });
+            for (along_y, of_y) in &points[1] {
+                let line: [f64; 3] = std::array::from_fn(|n| {
+                    (0..self.counts[1]).map(|b| along_y[b] * plane[n + 3 * b]).sum()
+                });
+                for (along_x, of_x) in &points[0] {
+                    let value: f64 = along_x.iter().zip(line).map(|(n, value)| n * value).sum();
+                    if value > 0.0 {
+                        sum += of_x * of_y * of_z * power(value.min(cap));
+                    }
+                }
+            }
+        }
+        sum
+    }
+}
+
+impl SolidFem {
+    pub fn flaws(&self) -> Option<&Flaws> {
+        self.flaws.as_ref()
+    }
+
+    /// Mirror images of the mesh that make the body, the mesh first.
+    fn all_images(&self) -> impl Iterator<Item = [bool; 2]> {
+        let [x, y] = self.mesh.mirrored;
+        let all = [[false, false], [true, false], [false, true], [true, true]];
+        all.into_iter().filter(move |image| (!image[0] || x) && (!image[1] || y))
+    }
+
+    /// Number of values of [`Self::equivalent_stress`].
+    pub fn risk_points(&self) -> usize {
+        match self.flaws {
+            Some(_) => self.mesh.sided_nodes() * self.all_images().count(),
+            None => 0,
+        }
+    }
+
+    /// Stress at the nodes of all distinct images.
+    pub fn stresses(
+        &self,
+        temperatures: &Temperatures,
+        deformation: &Deformation,
+    ) -> Vec<ImageStress> {
+        let nodal = self.nodal_strains(deformation);
+        let of_image = |image| (image, self.stress_in(temperatures, deformation, &nodal, image));
+        self.images(&deformation.displacement).into_iter().map(of_image).collect()
+    }
+
+    /// Equivalent stress at the nodes of all images [Pa], continued to negative values as
+    /// [`FlawStatistics::continued`] says; zero where there are no flaws.
+    pub fn equivalent_stress(&self, flaws: &Flaws, stresses: &[ImageStress]) -> Vec<f64> {
+        let [nx, ny, _] = self.mesh.sided_counts();
+        let of_image = |stress: &[[f64; 6]]| {
+            let value = |(node, stress): (usize, &[f64; 6])| {
+                let level = node / (nx * ny);
+                let layer = level - self.nodes_of_sided[level];
+                let own = flaws.layers[layer].as_ref().filter(|_| flaws.bears[node]);
+                own.map_or(0.0, |own| own.continued(*stress))
+            };
+            stress.iter().enumerate().map(value).collect::<Vec<f64>>()
+        };
+        let known: Vec<_> =
+            stresses.iter().map(|(image, stress)| (*image, of_image(stress))).collect();
+        let like = |image: [bool; 2]| {
+            let same = |&[x, y]: &[bool; 2]| (!x || image[0]) && (!y || image[1]);
+            // Of the distinct images, the one that shares most reflections.
+            known.iter().rev().find(|(own, _)| same(own)).map_or(&known[0].1, |(_, own)| own)
+        };
+        self.all_images().flat_map(|image| like(image).iter().copied()).collect()
+    }
+
+    /// Updates running maxima of the equivalent stress to the present one. Tension keeps its largest value. Where none
+    /// has been, the continued value is that of the last moment at which tension grew within the same element, so that
+    /// both belong together; `nothing` marks nodes before the first update.
+    pub fn note_largest(&self, flaws: &Flaws, noted: &mut [f64], now: &[f64], nothing: f64) {
+        let nodes = self.mesh.sided_nodes();
+        let mut grows = vec![false; nodes];
+        for (noted, now) in noted.chunks_exact_mut(nodes).zip(now.chunks_exact(nodes)) {
+            grows.fill(false);
+            for patch in &flaws.patches {
+                let (mut before, mut after) = (0.0_f64, 0.0_f64);
+                patch.for_nodes(&self.mesh, |_, node| {
+                    before = before.max(noted[node]);
+                    after = after.max(now[node]);
+                });
+                if after > before {
+                    patch.for_nodes(&self.mesh, |_, node| grows[node] = true);
+                }
+            }
+            let largest = noted.iter().chain(now).fold(0.0_f64, |most, value| most.max(*value));
+            let least = NEGLIGIBLE * largest;
+            for ((noted, &now), grows) in noted.iter_mut().zip(now).zip(&grows) {
+                let has_none = *noted <= least && (*grows || *noted == nothing);
+                if has_none || now > noted.max(0.0) {
+                    *noted = now;
+                }
+            }
+        }
+    }
+
+    /// Risk B of an equivalent stress [1].
+    pub fn risk(&self, flaws: &Flaws, equivalent: &[f64]) -> f64 {
+        let nodes = self.mesh.sided_nodes();
+        let mut known: Option<(&[f64], f64)> = None;
+        let mut total = 0.0;
+        for image in equivalent.chunks_exact(nodes) {
+            let own = match known {
+                Some((same, risk)) if same == image => risk,
+                _ => self.risk_of_image(flaws, image),
+            };
+            known.get_or_insert((image, own));
+            total += own;
+        }
+        total
+    }
+
+    fn risk_of_image(&self, flaws: &Flaws, equivalent: &[f64]) -> f64 {
+        if equivalent.iter().any(|value| value.is_nan()) {
+            return f64::NAN;
+        }
+        let patches = &flaws.patches;
+        let bound = |patch: &Patch| {
+            let own = flaws.of_patch(patch);
+            let local = Local::of(&self.mesh, patch, equivalent, own.strength);
+            match local.most > 0.0 {
+                true => {
+                    let share = patch.measure(&self.mesh) / own.extent.size();
+                    own.modulus * local.most.ln() + share.ln()
+                }
+                false => f64::NEG_INFINITY,
+            }
+        };
+        let bounds: Vec<f64> = patches.iter().map(bound).collect();
+        let highest = bounds.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let least = highest + (LEFT_OUT / patches.len() as f64).ln();
+        let minor = highest + MINOR.ln();
+        let mut total = 0.0;
+        for (patch, bound) in patches.iter().zip(bounds) {
+            if bound < least || bound == f64::NEG_INFINITY {
+                continue;
+            }
+            let own = flaws.of_patch(patch);
+            let local = Local::of(&self.mesh, patch, equivalent, own.strength);
+            let most = local.most;
+            let relative = Local { values: local.values.map(|v| v / most), ..local };
+            let relative = Local { most: 1.0, least: local.least / most, ..relative };
+            let few = if bound < minor { POINTS_OF_MINOR } else { LEAST_POINTS };
+            // The power ends at zero within the element.
+            let more = match relative.least < 0.0 && bound >= minor {
+                true => POINTS_AT_ZERO,
+                false => 0.0,
+            };
+            let exact = (0.5 * (self.mesh.order() as f64 * own.modulus + 1.0)).ceil() + 1.0;
+            let points = std::array::from_fn(|axis| {
+                let variation = relative.variation(axis);
+                let wanted = (few + (own.modulus * variation).ceil()).min(exact.max(few));
+                let count = ((wanted + (more * variation).ceil()) as usize).min(MOST_POINTS);
+                patch.spans[axis].points(&self.mesh.axes[axis], &flaws.rules[count - 1])
+            });
+            let integral = relative.integral(&points, |value| own.power(value));
+            total += (own.modulus * most.ln()).exp() * integral / own.extent.size();
+        }
+        total
+    }
+
+    /// Place of the largest failure density, h/V₀ or h/A₀ [m]; the centre of the top if there is none.
+    pub fn riskiest(&self, flaws: &Flaws, equivalent: &[f64]) -> [f64; 3] {
+        let nodes = self.mesh.sided_nodes();
+        let [nx, ny, _] = self.mesh.sided_counts();
+        let own = || flaws.layers.iter().flatten();
+        let steepest = own().map(|own| own.modulus).fold(0.0, f64::max);
+        let smallest = own().map(|own| own.extent.size()).fold(f64::INFINITY, f64::min);
+        // A root of the density orders places alike, and neither overflows nor underflows.
+        let root = |(node, value): (usize, &f64)| {
+            let level = node / (nx * ny);
+            let own = flaws.layers[level - self.nodes_of_sided[level]].as_ref();
+            let root = own.map(|own| {
+                let density = (smallest / own.extent.size()).powf(1.0 / steepest);
+                density * (value.max(0.0) / own.strength).powf(own.modulus / steepest)
+            });
+            root.unwrap_or(0.0)
+        };
+        let of_image = |(values, image): (&[f64], [bool; 2])| {
+            (values.iter().enumerate().map(root).collect::<Vec<f64>>(), image)
+        };
+        let all: Vec<_> =
+            equivalent.chunks_exact(nodes).zip(self.all_images()).map(of_image).collect();
+        let Extreme { value, at } = self.highest_of(&all);
+        if value > 0.0 { at } else { [0.0; 3] }
+    }
+}

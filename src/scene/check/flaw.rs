@@ -1,0 +1,86 @@
+//! Checks that flaws lie in their bodies and layers, and that their planes are possible.
+
+use super::{Checker, SLACK, number, probe};
+use crate::scene::flaw::{Flaw, FlawGives, FlawShape};
+use crate::scene::locate::Path;
+use crate::scene::types::{FaceName, Solid};
+
+/// Largest cosine between a crack plane's normal and that of its face.
+const TANGENTIAL: f64 = 1e-6;
+/// Number of points of a penny's rim that are checked.
+const RIM: usize = 8;
+
+pub fn check(checker: &mut Checker) {
+    for (i, flaw) in checker.scene.flaw.iter().enumerate() {
+        let path = Path::default().key("flaw").index(i);
+        checker.distinct(&path.at("gives"), &flaw.gives);
+        let Some(solid) = checker.body(&path.at("in"), &flaw.body) else { continue };
+        let is_reduced = checker.scene.is_reduced(&flaw.body);
+        let message = format!("`{}` is a reduced model, which has no flaws", flaw.body);
+        checker.require(!is_reduced, &path.at("in"), message, "fidelity full, auto");
+        let has_normal = flaw.unit_normal().iter().all(|part| part.is_finite());
+        let message = "the normal has no direction";
+        if !checker.require(has_normal, &path.at("normal"), message, "a vector other than zero") {
+            continue;
+        }
+        match flaw.shape {
+            FlawShape::Edge => edge(checker, &path, flaw, solid),
+            FlawShape::Penny => penny(checker, &path, flaw, solid),
+        }
+        toughness(checker, &path, flaw, solid);
+    }
+}
+
+fn edge(checker: &mut Checker, path: &Path, flaw: &Flaw, solid: &Solid) {
+    let is_inside = probe::contains(&solid.shape, flaw.at);
+    let Some(face) = flaw.face(&solid.shape).filter(|_| is_inside) else {
+        let message = format!("the mouth of an edge crack lies on no face of `{}`", flaw.body);
+        let allowed = format!("a point of a face: {}", probe::inside(&solid.shape));
+        checker.refuse(&path.at("at"), message, allowed);
+        return;
+    };
+    let inward = flaw.inward(face);
+    let cosine: f64 = flaw.unit_normal().iter().zip(inward).map(|(a, b)| a * b).sum();
+    let message = format!("the crack plane is not perpendicular to the {}", face.as_str());
+    let is_tangential = cosine.abs() <= TANGENTIAL;
+    checker.require(is_tangential, &path.at("normal"), message, "a vector along the face");
+    let Some(depth) = flaw.depth.given() else { return };
+    let reach = flaw.reach(solid, face);
+    let what = match face {
+        FaceName::Top | FaceName::Bottom if solid.layers.is_some() => "its layer",
+        _ => "the body",
+    };
+    let message = format!("the crack is deeper than {what}");
+    let allowed = format!("0 < depth < {}", number(reach));
+    checker.require(depth < reach, &path.at("depth"), message, allowed);
+}
+
+fn penny(checker: &mut Checker, path: &Path, flaw: &Flaw, solid: &Solid) {
+    let Some(radius) = flaw.depth.given() else {
+        let message = "a penny has no worst radius: under uniform stress larger ones are worse";
+        checker.refuse(&path.at("depth"), message, "a radius (m)");
+        return;
+    };
+    let [bottom, top] = solid.strata()[flaw.layer(solid)].z;
+    let slack = SLACK * solid.shape.thickness();
+    let rim = (0..RIM).map(|i| flaw.on_plane(radius, i as f64 / RIM as f64));
+    let is_inside = rim.into_iter().chain([flaw.at]).all(|point| {
+        let [_, _, z] = point;
+        probe::contains(&solid.shape, point) && z >= bottom - slack && z <= top + slack
+    });
+    let message = format!("the crack reaches out of `{}`, or of its layer", flaw.body);
+    checker.require(is_inside, &path.at("at"), message, probe::inside(&solid.shape));
+}
+
+/// Safety needs the toughness of the layer.
+fn toughness(checker: &mut Checker, path: &Path, flaw: &Flaw, solid: &Solid) {
+    let place = flaw.gives.iter().position(|gives| *gives == FlawGives::Safety);
+    let layers = solid.materials_of_layers();
+    let material = layers.get(flaw.layer(solid));
+    let is_known = material.is_some_and(|own| own.fracture.toughness.is_some());
+    if let Some(place) = place.filter(|_| !is_known) {
+        let message = "the material here has no `toughness`";
+        let allowed = "stress_intensity, energy_release_rate, or a toughness (Pa √m)";
+        checker.refuse(&path.at("gives").index(place), message, allowed);
+    }
+}

@@ -1,0 +1,183 @@
+//! Flaws: cracks of assumed shape whose stress intensity follows from the stress of the body without them.
+
+use std::f64::consts::TAU;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::types::{FaceName, IDENTIFIER, Scene, Shape, Solid};
+use crate::limits::{any, length, plausible};
+
+/// Tolerance of places on faces, relative to the body's thickness.
+const SLACK: f64 = 1e-9;
+
+/// A crack that is assumed, and changes nothing.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Flaw {
+    /// First part of the outputs' names.
+    #[schemars(extend("pattern" = IDENTIFIER, "condition" = "as that of the scene"))]
+    pub name: String,
+    /// The body.
+    #[serde(rename = "in")]
+    #[schemars(extend("condition" = "a solid"))]
+    pub body: String,
+    /// Position of an edge crack's mouth, or of a penny's centre, `[x, y, z]` [m].
+    #[schemars(transform = any("m").condition("on a face of the body, of a penny inside"))]
+    pub at: [f64; 3],
+    /// Normal of the crack plane `[x, y, z]`, of any length.
+    #[schemars(extend("condition" = "along the face of an edge crack"))]
+    pub normal: [f64; 3],
+    /// Depth of an edge crack, or radius of a penny [m]; `worst` is the depth of highest stress intensity.
+    #[schemars(transform = length("the depth of a flaw")
+        .plausible(&plausible::FLAW)
+        .condition("within the body, and within its layer"))]
+    pub depth: FlawDepth,
+    /// Shape of the crack.
+    #[serde(default)]
+    pub shape: FlawShape,
+    /// List of outputs.
+    #[schemars(length(min = 1), extend("uniqueItems" = true))]
+    pub gives: Vec<FlawGives>,
+}
+
+/// Depth of a flaw.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "a number (m) or \"worst\"")]
+#[schemars(inline)]
+pub enum FlawDepth {
+    Given(f64),
+    Searched(Worst),
+}
+
+/// The depth of highest stress intensity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(inline)]
+pub enum Worst {
+    Worst,
+}
+
+/// Shape of a crack.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FlawShape {
+    /// A long crack that opens to a face, such as a scratch.
+    #[default]
+    Edge,
+    /// A round crack inside.
+    Penny,
+}
+
+/// Output of a flaw.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FlawGives {
+    /// Stress intensity K [Pa √m].
+    StressIntensity,
+    /// Energy release rate G [J/m²].
+    EnergyReleaseRate,
+    /// Toughness over stress intensity.
+    Safety,
+}
+
+impl FlawDepth {
+    /// The depth that the scene sets [m].
+    pub fn given(self) -> Option<f64> {
+        match self {
+            Self::Given(depth) => Some(depth),
+            Self::Searched(Worst::Worst) => None,
+        }
+    }
+}
+
+impl Flaw {
+    /// Unit normal of the crack plane; NaN if it has no direction.
+    pub fn unit_normal(&self) -> [f64; 3] {
+        let largest = self.normal.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
+        let scaled = self.normal.map(|part| part / largest);
+        let length = scaled.iter().map(|part| part * part).sum::<f64>().sqrt();
+        scaled.map(|part| part / length)
+    }
+
+    /// Point of a crack plane at a distance from the place of the flaw [m]; a turn is the whole circle.
+    pub fn on_plane(&self, distance: f64, turn: f64) -> [f64; 3] {
+        let [nx, ny, nz] = self.unit_normal();
+        // The axis that is least along the normal yields a direction across it.
+        let along = [nx, ny, nz].map(f64::abs);
+        let least =
+            (0..3).fold(0, |least, axis| if along[axis] < along[least] { axis } else { least });
+        let mut axis = [0.0; 3];
+        axis[least] = 1.0;
+        let cross = |a: [f64; 3], b: [f64; 3]| {
+            [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+        };
+        let across = cross([nx, ny, nz], axis);
+        let length = across.iter().map(|part| part * part).sum::<f64>().sqrt();
+        let first = across.map(|part| part / length);
+        let second = cross([nx, ny, nz], first);
+        let (sine, cosine) = (TAU * turn).sin_cos();
+        std::array::from_fn(|i| self.at[i] + distance * (cosine * first[i] + sine * second[i]))
+    }
+
+    /// Face on which the mouth of an edge crack lies; top and bottom take precedence.
+    pub fn face(&self, shape: &Shape) -> Option<FaceName> {
+        let [x, y, z] = self.at;
+        let thickness = shape.thickness();
+        let near = |a: f64, b: f64| (a - b).abs() <= SLACK * thickness;
+        let is_on = |face: &FaceName| match (*shape, *face) {
+            (_, FaceName::Top) => near(z, 0.0),
+            (_, FaceName::Bottom) => near(z, -thickness),
+            (Shape::Box([lx, _, _]), FaceName::Left) => near(x, -lx / 2.0),
+            (Shape::Box([lx, _, _]), FaceName::Right) => near(x, lx / 2.0),
+            (Shape::Box([_, ly, _]), FaceName::Front) => near(y, -ly / 2.0),
+            (Shape::Box([_, ly, _]), FaceName::Back) => near(y, ly / 2.0),
+            (Shape::Disc(disc), FaceName::Sides) => near(x.hypot(y), disc.radius),
+            _ => false,
+        };
+        let first = [FaceName::Top, FaceName::Bottom];
+        first.iter().chain(shape.faces()).copied().find(is_on)
+    }
+
+    /// Unit direction from the mouth of an edge crack into the body.
+    pub fn inward(&self, face: FaceName) -> [f64; 3] {
+        let [x, y, _] = self.at;
+        match face {
+            FaceName::Top => [0.0, 0.0, -1.0],
+            FaceName::Bottom => [0.0, 0.0, 1.0],
+            FaceName::Left => [1.0, 0.0, 0.0],
+            FaceName::Right => [-1.0, 0.0, 0.0],
+            FaceName::Front => [0.0, 1.0, 0.0],
+            FaceName::Back => [0.0, -1.0, 0.0],
+            FaceName::Sides => {
+                let r = x.hypot(y);
+                [-x / r, -y / r, 0.0]
+            }
+        }
+    }
+
+    /// Layer of a body, from the top, in which the flaw begins.
+    pub fn layer(&self, solid: &Solid) -> usize {
+        let strata = solid.strata();
+        let z = self.at[2];
+        strata.iter().position(|layer| z >= layer.z[0]).unwrap_or(strata.len() - 1)
+    }
+
+    /// Largest depth of an edge crack: from the face to the end of its layer or of the body [m].
+    pub fn reach(&self, solid: &Solid, face: FaceName) -> f64 {
+        let [bottom, top] = solid.strata()[self.layer(solid)].z;
+        match (solid.shape, face) {
+            (_, FaceName::Top | FaceName::Bottom) => top - bottom,
+            (Shape::Box([lx, _, _]), FaceName::Left | FaceName::Right) => lx,
+            (Shape::Box([_, ly, _]), _) => ly,
+            (Shape::Disc(disc), _) => 2.0 * disc.radius,
+        }
+    }
+}
+
+impl Scene {
+    /// The flaws in a body.
+    pub fn flaws_in(&self, body: &str) -> impl Iterator<Item = &Flaw> {
+        self.flaw.iter().filter(move |flaw| flaw.body == body)
+    }
+}

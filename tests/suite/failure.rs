@@ -1,0 +1,290 @@
+//! Probability of failure of brittle bodies: against closed forms, and against what the same bodies read in parts.
+
+use std::f64::consts::PI;
+
+use closed_form::brittle_failure::{equibiaxial_ratio, linear_stress, shock_depth};
+use impinge::advice::parse_with_warnings;
+use impinge::scene;
+
+use crate::common::{Trial, off};
+
+const BOX: &str = "box = [3e-3, 2e-3, 1e-3]";
+const DISC: &str = "disc = { radius = 1.5e-3, thickness = 1e-3 }";
+/// `EαΔT/(1 − ν)` per kelvin [Pa/K].
+const PER_KELVIN: f64 = 340e9 * 8e-6 / 0.78;
+const DIFFUSIVITY: f64 = 31.0 / (3980.0 * 880.0);
+const STRENGTH: f64 = 300e6;
+
+fn alumina(weibull: &str) -> String {
+    format!(
+        "{{ model = \"thermoelastic\", density = 3980.0, specific_heat = 880.0, conductivity = 31.0, young = 340e9, \
+         poisson = 0.22, expansion = 8e-6{weibull} }}"
+    )
+}
+
+fn flaws(modulus: u32, keys: &str) -> String {
+    alumina(&format!(", weibull = {{ modulus = {modulus}.0, strength = 300e6, {keys} }}"))
+}
+
+/// A plate between two temperatures, held along the surface: its stress is `PER_KELVIN` times the temperature below the
+/// stress-free one.
+fn held(shape: &str, material: &str, [start, free]: [f64; 2], [top, bottom]: [f64; 2]) -> String {
+    format!(
+        "name = \"Plate\"\nstop_time = 1.0\nstep = 1.0\n[body.plate]\nkind = \"solid\"\nshape = {{ {shape} }}\n\
+         {material}\ninitial_temperature = {start}\nstress_free_temperature = {free}\n[body.plate.faces]\n\
+         top = {{ temperature = {top} }}\nbottom = {{ temperature = {bottom}, roller = true }}\n\
+         sides = {{ roller = true }}\n"
+    )
+}
+
+fn one(material: &str) -> String {
+    format!("material = {material}")
+}
+
+/// Ratio of the risk of equibiaxial tension to that of uniaxial tension.
+fn biaxial(modulus: u32, directions: &str) -> f64 {
+    if directions == "normal" { equibiaxial_ratio(modulus) } else { 2.0 }
+}
+
+#[test]
+fn bent_plates_have_the_risk_of_linear_stress() {
+    for (shape, area, around) in [(BOX, 6e-6, 10e-3), (DISC, PI * 2.25e-6, 2.0 * PI * 1.5e-3)] {
+        for (modulus, directions) in [(5, "independent"), (10, "normal"), (20, "normal")] {
+            for free in [333.15, 343.15, 413.15] {
+                let most = (free - 293.15) * PER_KELVIN / STRENGTH;
+                let part = linear_stress(f64::from(modulus), (free - 393.15) / (free - 293.15));
+                let risk = biaxial(modulus, directions) * most.powi(modulus as i32);
+                for (keys, wanted) in [
+                    ("volume = 1e-9", area * 1e-3 * part / 1e-9),
+                    ("area = 1e-6", (area + around * 1e-3 * part) / 1e-6),
+                ] {
+                    let keys = format!("{keys}, directions = \"{directions}\"");
+                    let material = one(&flaws(modulus, &keys));
+                    let text = held(shape, &material, [343.15, free], [293.15, 393.15]);
+                    let mut trial = Trial::new(&text);
+                    trial.step(1.0);
+                    let mut wanted = risk * wanted;
+                    if keys.starts_with("area") && free > 393.15 {
+                        let low = (free - 393.15) / (free - 293.15);
+                        wanted += risk * low.powi(modulus as i32) * area / 1e-6;
+                    }
+                    for key in ["present_failure_risk", "failure_risk"] {
+                        // A body that was in tension all over keeps that of its beginning.
+                        if key == "failure_risk" && free > 343.15 {
+                            continue;
+                        }
+                        let found = trial.get(&format!("plate.{key}"));
+                        // The jump at time zero is part of what was met.
+                        let most = if key == "failure_risk" { 1e-5 } else { 1e-6 };
+                        assert!(
+                            off(found, wanted) < most,
+                            "{shape} {keys} {free}: {found} {wanted}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn suddenly_cooled_half_spaces_have_their_risk() {
+    for (modulus, tolerance) in [(5, 1e-3), (10, 2e-3), (20, 5e-3)] {
+        let material = one(&flaws(modulus, "volume = 1e-9"));
+        let thick = BOX.replace("1e-3]", "10e-3]");
+        let text = held(&thick, &material, [573.15, 573.15], [536.25, 573.15]);
+        let mut trial = Trial::new(&text.replace(" = 1.0\nstep = 1.0", " = 0.01\nstep = 0.01"));
+        trial.step(0.01);
+        let stress = (36.9 * PER_KELVIN / STRENGTH).powi(modulus as i32);
+        let depth = (DIFFUSIVITY * 0.01).sqrt() * shock_depth(f64::from(modulus));
+        let wanted = 2.0 * stress * depth * 6e-6 / 1e-9;
+        let found = trial.get("plate.failure_risk");
+        assert!(off(found, wanted) < tolerance, "m {modulus}: {found} {wanted}");
+        assert_eq!(trial.get("plate.failure_probability"), -(-found).exp_m1());
+        let place = ["x", "y", "z"].map(|axis| trial.get(&format!("plate.failure_place_{axis}")));
+        assert_eq!(place, [0.0; 3]);
+    }
+}
+
+/// A plate of some material under a cold spot.
+fn spot(material: &str, keys: &str, load: &str) -> String {
+    format!(
+        "name = \"Plate\"\nstop_time = 1e-2\nstep = 1e-3\n[body.plate]\nkind = \"solid\"\n\
+         shape = {{ box = [3e-3, 2e-3, 1e-3] }}\n{material}\ninitial_temperature = 500.0\n\
+         mesh = {{ spacing = 2e-4, depth_spacing = 1e-4 }}\n{keys}\n[body.plate.faces]\n\
+         bottom = {{ clamped = true }}\n[[load]]\nname = \"spot\"\non = \"plate.top\"\n\
+         footprint = {{ gaussian = {{ radius = 0.4e-3 }} }}\ncarries = [\"heat_flux\"]\n{load}\n"
+    )
+}
+
+const COLD: &str = "start = { heat_flux = -4e7 }";
+
+#[test]
+fn what_was_reached_stays_and_grows_place_by_place() {
+    let text = spot(&one(&flaws(10, "volume = 1e-9")), "", &format!("{COLD}\n{RANGE}"));
+    let mut trial = Trial::new(&text);
+    let (mut highest, mut singly) = (0.0_f64, 0.0_f64);
+    for step in 0..6 {
+        trial.set("spot.x", if step < 3 { -0.6e-3 } else { 0.6e-3 });
+        trial.step(1e-3);
+        let (so_far, now) =
+            (trial.get("plate.failure_risk"), trial.get("plate.present_failure_risk"));
+        assert!(so_far >= highest && so_far >= now * (1.0 - 1e-6), "step {step}");
+        highest = so_far;
+        singly = singly.max(now);
+    }
+    assert!(highest > 1.3 * singly, "two places add up: {highest} {singly}");
+    // A flux into the body takes the tension away.
+    trial.set("spot.heat_flux", 1e8);
+    trial.step(5e-3);
+    assert_eq!(trial.get("plate.failure_risk"), highest);
+    assert!(trial.get("plate.present_failure_risk") < 0.1 * highest);
+    let x = trial.get("plate.failure_place_x");
+    assert!((x.abs() - 0.6e-3).abs() < 2e-4, "{x}");
+}
+
+const RANGE: &str = "range = { x = [-0.8e-3, 0.8e-3] }";
+
+#[test]
+fn mirror_images_count_like_the_whole_body() {
+    let load = format!("{}\n{RANGE}", COLD.replace("{ heat", "{ x = 0.5e-3, heat"));
+    for keys in ["volume = 1e-9", "area = 1e-6, directions = \"normal\""] {
+        let of = |symmetry: &str| {
+            let mut trial = Trial::new(&spot(&one(&flaws(10, keys)), symmetry, &load));
+            trial.step(1e-3);
+            [
+                trial.get("plate.failure_risk"),
+                trial.get("plate.present_failure_risk"),
+                trial.get("plate.failure_place_x"),
+            ]
+        };
+        let (half, whole) = (of(""), of("symmetry = \"none\""));
+        for (half, whole) in half.iter().zip(whole) {
+            assert!(off(*half, whole) < 1e-6, "{keys}: {half} {whole}");
+        }
+        assert!((half[2] - 0.5e-3).abs() < 1.1e-4);
+    }
+}
+
+#[test]
+fn layers_count_where_flaws_are_known() {
+    let layers = |upper: &str, lower: &str| {
+        format!(
+            "layers = [{{ material = {upper}, thickness = 0.4e-3 }}, {{ material = {lower}, thickness = 0.6e-3 }}]"
+        )
+    };
+    let (with, without) = (flaws(10, "volume = 1e-9"), alumina(""));
+    let risk = |material: &str| {
+        let mut trial = Trial::new(&spot(material, "", COLD));
+        trial.step(1e-3);
+        trial.get("plate.failure_risk")
+    };
+    let [upper, lower] = [layers(&with, &without), layers(&without, &with)].map(|own| risk(&own));
+    let both = risk(&layers(&with, &with));
+    assert!(off(upper + lower, both) < 1e-9, "{upper} + {lower}, {both}");
+    assert!(upper > 10.0 * lower && lower >= 0.0);
+    // A reference volume ten times as large is a tenth of the risk.
+    let larger = risk(&layers(&flaws(10, "volume = 1e-8"), &without));
+    assert!(off(10.0 * larger, upper) < 1e-9);
+}
+
+#[test]
+fn bodies_that_yield_and_melt_have_a_risk() {
+    let steel = flaws(10, "volume = 1e-9")
+        .replace("thermoelastic", "elastoplastic")
+        .replace("young", "yield_stress = 1e8, young");
+    let mut elastic = Trial::new(&spot(&one(&flaws(10, "volume = 1e-9")), "", COLD));
+    let mut yielding = Trial::new(&spot(&one(&steel), "symmetry = \"quarter\"", COLD));
+    for trial in [&mut elastic, &mut yielding] {
+        trial.step(1e-3);
+    }
+    let [elastic, limited] = [&mut elastic, &mut yielding].map(|own| own.get("plate.failure_risk"));
+    assert!(limited > 0.0 && limited < 0.5 * elastic, "{limited} {elastic}");
+    assert!(yielding.get("plate.max_plastic_strain") > 0.0);
+}
+
+#[test]
+fn saved_states_go_on_to_the_bit_and_others_are_refused() {
+    let text = spot(&one(&flaws(10, "volume = 1e-9")), "", COLD);
+    let mut trial = Trial::new(&text);
+    trial.step(1e-3);
+    let saved = trial.state.clone();
+    let risk = trial.get("plate.failure_risk");
+    let go_on = |trial: &mut Trial| {
+        trial.set("spot.heat_flux", 2e7);
+        trial.step(1e-3);
+        trial.get("plate.failure_risk").to_bits()
+    };
+    let first = go_on(&mut trial);
+    let mut other = Trial::on_threads(&text, 3);
+    other.restart(&saved);
+    assert_eq!(go_on(&mut other), first);
+    assert_eq!(trial.state, other.state);
+    let last = saved.bodies[0].len() - 1;
+    let risk = saved.bodies[0].iter().position(|&own| own == risk).unwrap();
+    for (place, wrong) in [f64::NAN, f64::INFINITY, f64::MIN]
+        .into_iter()
+        .flat_map(|wrong| [(last, wrong), (risk, wrong)])
+        .chain([(risk, 0.0), (risk, 1e3)])
+    {
+        let mut state = saved.clone();
+        state.bodies[0][place] = wrong;
+        assert!(trial.model.check_state(&state).is_err(), "{place}: {wrong}");
+    }
+    assert!(trial.model.check_state(&saved).is_ok());
+}
+
+#[test]
+fn any_modulus_and_any_stress_have_a_probability() {
+    for (modulus, strength, wanted) in [(100, 1e12, 0.0), (100, 1e3, 1.0), (1, 1e9, -1.0)] {
+        let material = flaws(modulus, "volume = 1e-9")
+            .replace("strength = 300e6", &format!("strength = {strength:e}"));
+        let mut trial = Trial::new(&spot(&one(&material), "", COLD));
+        trial.step(1e-3);
+        let probability = trial.get("plate.failure_probability");
+        if wanted >= 0.0 {
+            assert_eq!(probability, wanted);
+        } else {
+            assert!(probability > 0.0 && probability < 1.0, "{probability}");
+        }
+    }
+}
+
+#[test]
+fn nothing_mechanical_is_solved_before_a_risk_is_read_or_a_step_taken() {
+    let trial = Trial::new(&spot(&one(&flaws(10, "volume = 1e-9")), "", COLD));
+    assert_eq!(trial.model.factor_entries(), 0);
+}
+
+/// Modulus, strength [Pa] and toughness [Pa √m] of brittle materials.
+const BRITTLE: [(&str, f64, f64, f64); 5] = [
+    ("silicon nitride", 20.0, 800e6, 7e6),
+    ("alumina", 10.0, 380e6, 3.5e6),
+    ("window glass", 5.0, 50e6, 0.75e6),
+    ("fibre of silica", 60.0, 14e9, 0.8e6),
+    ("concrete", 12.0, 4e6, 1e6),
+];
+
+#[test]
+fn real_brittle_materials_are_plausible_and_values_in_other_units_are_not() {
+    let warned = |(modulus, strength, toughness): (f64, f64, f64)| {
+        let keys = format!(
+            ", toughness = {toughness:e}, weibull = {{ modulus = {modulus:?}, strength = {strength:e}, volume = 1e-9 }}"
+        );
+        let text = spot(&one(&alumina(&keys)), "", COLD);
+        let (_, warnings) = parse_with_warnings(&text, "scene").unwrap();
+        warnings.iter().map(|warning| warning.finding().id).collect::<Vec<_>>()
+    };
+    for (name, modulus, strength, toughness) in BRITTLE {
+        assert_eq!(warned((modulus, strength, toughness)), Vec::<&str>::new(), "{name}");
+        assert_eq!(warned((modulus, 1e-6 * strength, toughness)), ["wrong_unit"], "{name}");
+        assert_eq!(warned((modulus, strength, 1e-6 * toughness)), ["wrong_unit"], "{name}");
+    }
+}
+
+#[test]
+fn substances_have_no_flaws_unless_the_scene_says_so() {
+    let text = spot("material = \"alumina\"", "", COLD);
+    let scene = scene::parse(&text, "scene").unwrap();
+    assert!(!scene.solid("plate").unwrap().has_flaws());
+}

@@ -1,0 +1,225 @@
+//! Stress intensity of flaws: against closed forms, by rows and by solutions, and what is refused and warned of.
+
+use std::f64::consts::PI;
+
+use closed_form::edge_crack::{edge, energy_release, penny, shocked};
+use impinge::advice::parse_with_warnings;
+use impinge::scene;
+
+use crate::common::{Trial, off};
+
+const PER_KELVIN: f64 = 340e9 * 8e-6 / 0.78;
+const DIFFUSIVITY: f64 = 31.0 / (3980.0 * 880.0);
+
+/// A plate held along the surface, that is cooled on top.
+fn plate(steps: f64, mesh: &str, flaws: &str) -> String {
+    let step = 0.01 / steps;
+    format!(
+        "name = \"Plate\"\nstop_time = 0.01\nstep = {step}\n[body.plate]\nkind = \"solid\"\n\
+         shape = {{ box = [3e-3, 2e-3, 10e-3] }}\ninitial_temperature = 573.15\n\
+         material = {{ model = \"thermoelastic\", density = 3980.0, specific_heat = 880.0, conductivity = 31.0, \
+         young = 340e9, poisson = 0.22, expansion = 8e-6, toughness = 3.8e6 }}\n{mesh}\n[body.plate.faces]\n\
+         top = {{ temperature = 536.25 }}\nsides = {{ roller = true }}\n\
+         bottom = {{ temperature = 573.15, roller = true }}\n{flaws}\n"
+    )
+}
+
+fn flaw(name: &str, keys: &str) -> String {
+    format!(
+        "[[flaw]]\nname = \"{name}\"\nin = \"plate\"\n{keys}\n\
+         gives = [\"stress_intensity\", \"energy_release_rate\", \"safety\"]\n"
+    )
+}
+
+fn scratch(name: &str, depth: &str) -> String {
+    flaw(name, &format!("at = [1e-4, -3e-4, 0.0]\nnormal = [1.0, 0.5, 0.0]\ndepth = {depth}"))
+}
+
+/// `√(κt)` at the end [m].
+fn diffusion() -> f64 {
+    (DIFFUSIVITY * 0.01).sqrt()
+}
+
+#[test]
+fn shocked_edge_cracks_have_the_intensity_of_the_half_plane() {
+    let depths = [0.1, 0.5, 1.0, 2.0, 3.0];
+    let flaws = depths
+        .iter()
+        .enumerate()
+        .map(|(i, own)| scratch(&format!("s{i}"), &format!("{:e}", own * diffusion())));
+    let flaws: String = flaws.chain([scratch("worst", "\"worst\"")]).collect();
+    let accurate = "[fidelity]\ntolerance = 1e-3\n";
+    let mut trial = Trial::new(&plate(1.0, "", &(flaws + accurate)));
+    trial.step(0.01);
+    let scale = 36.9 * PER_KELVIN * diffusion().sqrt();
+    for (i, depth) in depths.into_iter().enumerate() {
+        let found = trial.get(&format!("s{i}.stress_intensity"));
+        let wanted = scale * shocked(depth);
+        assert!(off(found, wanted) < 2e-3, "{depth}: {found} {wanted}");
+        let release = trial.get(&format!("s{i}.energy_release_rate"));
+        assert!(off(release, energy_release(found, 340e9, 0.22)) < 1e-12);
+        assert!(off(trial.get(&format!("s{i}.safety")), 3.8e6 / found) < 1e-12);
+    }
+    let worst = trial.get("worst.stress_intensity");
+    assert!(off(worst, 1.34485 * scale) < 1e-3, "{worst}");
+    assert!(off(trial.get("worst.depth"), 1.1305 * diffusion()) < 0.05);
+}
+
+#[test]
+fn uniform_tension_opens_cracks_from_every_face() {
+    let at = |name: &str, at: &str, normal: &str| {
+        flaw(name, &format!("at = {at}\nnormal = {normal}\ndepth = 4e-5"))
+    };
+    let all = [
+        at("bottom", "[0.0, 0.0, -10e-3]", "[0.0, 3.0, 0.0]"),
+        at("left", "[-1.5e-3, 2e-4, -4e-3]", "[0.0, -2.0, 0.0]"),
+        at("right", "[1.5e-3, 2e-4, -4e-3]", "[0.0, 1e-3, 0.0]"),
+        at("back", "[1e-3, 1e-3, -4e-3]", "[1.0, 0.0, 0.0]"),
+        flaw(
+            "inside",
+            "at = [2e-4, 1e-4, -4e-3]\nnormal = [1.0, 0.0, 0.0]\ndepth = 1e-4\nshape = \"penny\"",
+        ),
+    ];
+    let text =
+        plate(1.0, "stress_free_temperature = 613.15", &all.concat()).replace("536.25", "573.15");
+    let mut trial = Trial::new(&text);
+    trial.step(0.01);
+    let stress = 40.0 * PER_KELVIN;
+    for name in ["bottom", "left", "right", "back"] {
+        let found = trial.get(&format!("{name}.stress_intensity"));
+        assert!(off(found, edge(4e-5, |_| stress)) < 1e-6, "{name}: {found}");
+        assert!(off(found, 1.12152 * stress * (PI * 4e-5).sqrt()) < 1e-3);
+    }
+    let found = trial.get("inside.stress_intensity");
+    assert!(off(found, penny(1e-4, stress)) < 1e-6, "{found}");
+}
+
+#[test]
+fn closed_cracks_have_no_intensity_and_are_safe() {
+    let flaws = [scratch("some", "1e-4"), scratch("worst", "\"worst\"")].concat();
+    let mut trial = Trial::new(&plate(1.0, "", &flaws).replace("536.25", "600.0"));
+    trial.step(0.01);
+    for name in ["some", "worst"] {
+        assert_eq!(trial.get(&format!("{name}.stress_intensity")), 0.0);
+        assert_eq!(trial.get(&format!("{name}.energy_release_rate")), 0.0);
+        assert_eq!(trial.get(&format!("{name}.safety")), 1e6);
+    }
+    assert_eq!(trial.get("worst.depth"), 0.0);
+}
+
+/// A disc and a box under a spot, with flaws at which stress varies along all directions.
+fn spotted(shape: &str, steps: f64, at: &str, load: &str) -> String {
+    let flaws = [
+        flaw("edge", &format!("at = {at}\nnormal = [0.6, 0.8, 0.0]\ndepth = 2e-4")),
+        flaw(
+            "penny",
+            "at = [2e-4, 1e-4, -1.2e-4]\nnormal = [1.0, 1.0, 0.5]\ndepth = 1e-4\nshape = \"penny\"",
+        ),
+    ];
+    format!(
+        "name = \"Plate\"\nstop_time = 1e-2\nstep = {}\n[body.plate]\nkind = \"solid\"\nshape = {{ {shape} }}\n\
+         material = {{ model = \"thermoelastic\", density = 3980.0, specific_heat = 880.0, conductivity = 31.0, \
+         young = 340e9, poisson = 0.22, expansion = 8e-6, toughness = 3.8e6 }}\ninitial_temperature = 500.0\n\
+         mesh = {{ spacing = 2e-4, depth_spacing = 1e-4 }}\n[body.plate.faces]\nbottom = {{ clamped = true }}\n\
+         [[load]]\nname = \"spot\"\non = \"plate.top\"\nfootprint = {{ gaussian = {{ radius = 0.4e-3 }} }}\n\
+         carries = [\"heat_flux\", \"pressure\"]\nstart = {{ heat_flux = -3e7, pressure = 1e6{load} }}\n{}",
+        1e-2 / steps,
+        flaws.concat()
+    )
+}
+
+const CASES: [[&str; 3]; 2] = [
+    ["box = [3e-3, 2e-3, 1e-3]", "[3e-4, 1e-4, 0.0]", ", x = 1e-4"],
+    ["disc = { radius = 1.5e-3, thickness = 1e-3 }", "[3e-4, 1e-4, 0.0]", ""],
+];
+
+#[test]
+fn rows_and_solutions_agree_and_derivatives_are_those_of_differences() {
+    for [shape, at, load] in CASES {
+        // A long default experiment pays for rows, a short one does not.
+        let [mut by_rows, mut solved] =
+            [100.0, 1.0].map(|steps| Trial::new(&spotted(shape, steps, at, load)));
+        for trial in [&mut by_rows, &mut solved] {
+            trial.step(1e-3);
+        }
+        for name in ["edge", "penny"] {
+            let name = format!("{name}.stress_intensity");
+            let (row, solution) = (by_rows.get(&name), solved.get(&name));
+            assert!(row > 0.0 && off(row, solution) < 1e-9, "{shape} {name}: {row} {solution}");
+            for key in ["stress_intensity", "energy_release_rate", "safety"] {
+                let name = name.replace("stress_intensity", key);
+                for trial in [&mut by_rows, &mut solved] {
+                    let names = [name.clone()];
+                    let rate = trial.changes(&names, &[("spot.pressure", 1.0)])[0];
+                    let mut at = |pressure: f64| {
+                        trial.set("spot.pressure", 1e6 + pressure);
+                        trial.get(&name)
+                    };
+                    let (above, below) = (at(1e4), at(-1e4));
+                    at(0.0);
+                    let wanted = (above - below) / 2e4;
+                    assert!(off(rate, wanted) < 1e-5, "{shape} {name}: {rate} {wanted}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn equilibrium_of_turned_axes_is_that_of_the_disc() {
+    // The same flaw, turned about the axis.
+    let of = |at: &str, normal: &str| {
+        let [shape, given, load] = CASES[1];
+        let text = spotted(shape, 1.0, given, load).replace(given, at);
+        let mut trial = Trial::new(&text.replace("[0.6, 0.8, 0.0]", normal));
+        trial.step(1e-3);
+        trial.get("edge.stress_intensity")
+    };
+    let one = of("[3e-4, 1e-4, 0.0]", "[0.6, 0.8, 0.0]");
+    let other = of("[-1e-4, 3e-4, 0.0]", "[-0.8, 0.6, 0.0]");
+    assert!(off(one, other) < 1e-9, "{one} {other}");
+}
+
+#[test]
+fn steps_that_miss_a_peak_deep_cracks_and_yielding_bodies_are_warned_of() {
+    let warned = |text: &str| {
+        let (_, warnings) = parse_with_warnings(text, "scene").unwrap();
+        let ids = warnings.iter().map(|warning| warning.finding().id);
+        ids.filter(|id| id.starts_with("flaw")).collect::<Vec<_>>()
+    };
+    let fine = scratch("s", "1e-4");
+    assert_eq!(warned(&plate(20.0, "", &fine)), Vec::<&str>::new());
+    assert_eq!(warned(&plate(1.0, "", &fine)), ["flaw_peak_missed"]);
+    assert_eq!(warned(&plate(20.0, "", &scratch("s", "2e-3"))), ["flaw_deep"]);
+    let yielding = plate(20.0, "", &fine)
+        .replace("thermoelastic", "elastoplastic")
+        .replace("young", "yield_stress = 1e9, young");
+    assert_eq!(warned(&yielding), ["flaw_in_yielding_body"]);
+}
+
+#[test]
+fn coarse_meshes_are_warned_of() {
+    let mesh = "mesh = { spacing = 5e-4, depth_spacing = 5e-4, growth = 1.0 }";
+    for (depth, wanted) in [("1e-4", true), ("3e-3", false)] {
+        let mut trial = Trial::new(&plate(1.0, mesh, &scratch("s", depth)));
+        trial.step(0.01);
+        let found = trial.model.warnings(&trial.state);
+        let is_warned = found.iter().any(|own| own.finding().id == "flaw_unresolved");
+        assert_eq!(is_warned, wanted, "{depth}");
+    }
+}
+
+#[test]
+fn the_depth_is_a_parameter_unless_it_is_searched() {
+    let text = plate(1.0, "", &[scratch("s", "1e-4"), scratch("w", "\"worst\"")].concat());
+    let scene = scene::parse(&text, "scene").unwrap();
+    let registry = impinge::variables::Registry::of(&scene);
+    let causality = |name: &str| {
+        let variable = registry.variables.iter().find(|own| own.name == name).unwrap();
+        variable.causality()
+    };
+    use impinge::variables::Causality::{Output, Parameter};
+    assert_eq!(causality("s.depth"), Parameter);
+    assert_eq!(causality("w.depth"), Output);
+    assert_eq!(causality("plate.toughness"), Parameter);
+}
