@@ -113,7 +113,7 @@ pub struct KernelSettings {
     #[schemars(transform = within(1.0, 6.0, "distances of nodes", "").low_open().says(
         "the support, in distances of nodes, reaches too few or too many",
         "above `basis`, up to 6",
-    ).otherwise("`basis` + 0.75; 2 `basis` of `efg`"))]
+    ).otherwise("`basis` + 0.75; `basis` + 1.5 of `efg`"))]
     pub support: Option<f64>,
     /// Points at which the mechanics is integrated.
     pub integration: KernelIntegration,

@@ -75,7 +75,7 @@ pub fn kernels(solid: &LargeStrain, mesh: &Mesh) -> Reproducing {
     let is_held = |side: &Side| solid.faces.keys().any(|&face| is_on(solid, face, *side));
     let held: Vec<Side> = mesh.faces.iter().map(|(side, _)| *side).filter(is_held).collect();
     let (kernel, shape, usual) = match solid.mechanics {
-        Mechanics::Efg => (Kernel::QuarticSpline, Shape::Round, 2.0 * order),
+        Mechanics::Efg => (Kernel::QuarticSpline, Shape::Round, order + 1.5),
         Mechanics::Rkpm | Mechanics::Fem => (Kernel::CubicSpline, Shape::Box, order + 0.75),
     };
     Reproducing {

@@ -326,6 +326,8 @@ impl Pack {
                 }
             }
         }
+        // Where planes hold all coordinates, no kernel is left to vanish.
+        self.kernel.0[count.min(LANES)..].fill(0.0);
     }
 
     #[inline(always)]
