@@ -52,7 +52,7 @@ const SECTIONS: [Section; 34] = [
         PLATE,
         "\"thermoelastic\"",
         "\"viscoplastic\", zz = 1",
-        &["model", "substance", "at"],
+        &["model", "substance", "at", "shear_relaxation", "bulk_relaxation", "shift"],
     ),
     (
         "`melting` of a material",
