@@ -1,7 +1,7 @@
 //! Constant stresses balance: the integration constraint and the linear patch test.
 
 use impinge::space::{
-    Form, Integration, Mesh, Refused, Reproducing, Side, Sides, Space, reproducing,
+    Form, Integration, Mesh, Refused, Reproducing, Shape, Side, Sides, Space, reproducing,
 };
 
 use super::linear::{
@@ -230,6 +230,18 @@ fn held_sides_prescribe_linear_displacements() {
             let fine = reproducing(&mesh, fine).unwrap();
             let [error, _] = errors(form, &fine.volume, &system.solve(), exact, |_| gradient);
             assert!(error < 2e-13, "{form:?} {basis} {error:e}");
+        }
+    }
+    // Corners of three held sides have one function, and all nodes functions that sum to 1.
+    let sides = [Side::Left, Side::Right, Side::Front, Side::Back, Side::Bottom, Side::Top];
+    let mesh = Mesh::of_box(Form::Solid, [0.0; 3], [1.0; 3], [2; 3]);
+    for shape in [Shape::Box, Shape::Round] {
+        let settings =
+            Reproducing { held: Sides::of(&sides), shape, support: 2.5, ..Reproducing::default() };
+        let at_nodes = reproducing(&mesh, settings).unwrap().at_nodes.unwrap();
+        for node in 0..mesh.nodes.len() {
+            let sum: f64 = at_nodes.row(node).iter().map(|value| value.value).sum();
+            assert!((sum - 1.0).abs() < 1e-13, "{shape:?} {node} {sum}");
         }
     }
     let mesh = Mesh::of_ball(Form::Plane, 1.0, 2, 2, [false; 2]);

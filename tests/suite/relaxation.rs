@@ -106,7 +106,6 @@ fn a_bar_and_a_film_that_were_hotter_relax_by_correspondence() {
             assert!(off(trial.get(name), modulus.instantaneous * strain) < 1e-12);
             let times = ten(3.0 * modulus.time);
             let found = error(&readings(&mut trial, &times, name), &times, modulus, strain);
-            println!("{fraction} {shape} {faces:.10}: {found:e}");
             assert!(found < 1e-6, "{fraction} {shape}: {found:e}");
         }
     }
@@ -124,7 +123,6 @@ fn a_pressed_bar_creeps_by_correspondence() {
         let found = readings(&mut trial, &times, "inside.displacement_z");
         let off = found.iter().zip(&times).map(|(found, time)| off(*found, wanted(*time)));
         let most = off.fold(0.0, f64::max);
-        println!("{fraction}: {most:e}");
         assert!(most < 1e-6, "{fraction}: {most:e}");
         // Released: what is left of the strain is that of the branch.
         trial.set("press.pressure[1,1]", 0.0);
@@ -164,7 +162,6 @@ fn steps_of_any_length_are_exact_where_strain_is_linear() {
             .map(|own| own.modulus(4.0) * 30.0 + own.after_ramp(4.0) * rate)
             .sum();
         let wanted = -EXPANSION * (lasting + exact);
-        println!("{rate}: {whole:e} {parts:e} {wanted:e}");
         assert!(off(whole, parts) < 1e-6, "{rate}: {whole} {parts}");
         assert!(off(whole, wanted) < 5e-6, "{rate}: {whole} {wanted}");
     }
@@ -207,7 +204,6 @@ fn a_shift_changes_the_time_of_relaxation() {
         }
         let wanted = -YOUNG / (1.0 - 2.0 * POISSON) * EXPANSION * strain;
         let found = trial.get("inside.stress_xx");
-        println!("{keys}: {found:e} {wanted:e} {:e}", off(found, wanted));
         assert!(off(found, wanted) < 1e-5, "{keys}: {found} {wanted}");
     }
 }
@@ -227,7 +223,8 @@ fn slow_and_quick_relaxation_is_elasticity() {
             let run = |material: &str| {
                 let more = PROBE.to_owned() + "[fidelity]\ntolerance = 1e-6\n";
                 let text = scene(shape, material, [START, START + 20.0], faces, &more);
-                let mut trial = Trial::new(&whole(&text));
+                let text = if shape == BAR { whole(&text) } else { text };
+                let mut trial = Trial::new(&text);
                 (0..2).for_each(|_| trial.step(1.0));
                 [
                     "inside.stress_xx",
@@ -242,7 +239,6 @@ fn slow_and_quick_relaxation_is_elasticity() {
             let scale = wanted[3];
             for (k, (a, b)) in found.iter().zip(wanted).enumerate() {
                 let scale = if k == 2 { b.abs() } else { scale };
-                println!("{time} {shape:.4} {k} {a:e} {b:e}");
                 assert!((a - b).abs() < 1e-6 * scale, "{time} {shape} {k}: {a} {b}");
             }
         }
@@ -261,7 +257,6 @@ fn energy_of_a_held_body_is_dissipated_and_a_load_does_all_work() {
         for step in [0.01, 0.3, 1.0, 5.0, 100.0] {
             trial.step(step);
             let [stored, lost] = ["bar.stored", "bar.dissipated"].map(|name| trial.get(name));
-            println!("{shape:.4} {step} {:e}", (stored + lost - first) / first);
             // The free top moves without a load.
             assert!(
                 (stored + lost - first).abs() < 2e-4 * first,
@@ -386,7 +381,6 @@ fn coats_and_plates_relax_by_plate_theory() {
             trial.step(time - trial.state.time);
             for (name, wanted) in ["coat", "plate"].iter().zip(wanted) {
                 let found = trial.get(&format!("{name}.stress_xx"));
-                println!("{relaxing} {time} {name} {found:e} {wanted:e}");
                 assert!(
                     (found - wanted).abs() < 2e-3 * scale,
                     "{relaxing} {time} {name}: {found} {wanted}"
