@@ -49,8 +49,8 @@ fn biaxial(modulus: u32, directions: &str) -> f64 {
 #[test]
 fn bent_plates_have_the_risk_of_linear_stress() {
     for (shape, area, around) in [(BOX, 6e-6, 10e-3), (DISC, PI * 2.25e-6, 2.0 * PI * 1.5e-3)] {
-        for (modulus, directions) in [(5, "independent"), (10, "normal"), (20, "normal")] {
-            for free in [333.15, 343.15, 413.15] {
+        for (modulus, directions) in [(5, "independent"), (20, "normal")] {
+            for free in [333.15, 413.15] {
                 let most = (free - 293.15) * PER_KELVIN / STRENGTH;
                 let part = linear_stress(f64::from(modulus), (free - 393.15) / (free - 293.15));
                 let risk = biaxial(modulus, directions) * most.powi(modulus as i32);

@@ -117,9 +117,9 @@ impl FlawStatistics {
     }
 
     fn of_principals(&self, [first, second, third]: [f64; 3]) -> f64 {
-        if !(first > 0.0) {
-            // Also for NaN, which must not be lost.
-            return if first.is_nan() { f64::NAN } else { 0.0 };
+        // NaN passes on.
+        if first <= 0.0 {
+            return 0.0;
         }
         let [second, third] = [second / first, third / first];
         let sum = match &self.average {
