@@ -38,6 +38,7 @@ COARSE = {
         "\nspacing = 2.5e-6": "\nspacing = 6e-6",
         "spacing = 7.5e-6, depth_spacing = 0.3e-6": "spacing = 20e-6, depth_spacing = 0.6e-6",
     },
+    "gel_drop_on_plate": {"spacing = 0.35e-3": "spacing = 1e-3"},
     "hot_drop": {
         "\nspacing = 10e-6": "\nspacing = 50e-6",
         "{ spacing = 10e-6 }": "{ spacing = 50e-6 }",

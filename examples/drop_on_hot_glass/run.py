@@ -79,6 +79,7 @@ def draw(result: Result, folder: Path):
         (times[at], result.worst[at, 0] * 1e-6),
         (times[at] + 1, result.worst[at, 0] * 1e-6 + 0.1),
         color="0.3",
+        arrowprops={"arrowstyle": "-", "color": "0.6"},
     )
     axes[2].set(xlabel="time / ms", ylabel="stress intensity / (MPa √m)", ylim=(0, 0.9))
     axes[2].set_title("Scratches open, and none grows")

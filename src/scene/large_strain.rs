@@ -96,9 +96,9 @@ pub enum Mechanics {
     /// Linear finite elements.
     #[default]
     Fem,
-    /// Reproducing kernels: cubic splines on boxes.
+    /// Reproducing kernels: cubic splines.
     Rkpm,
-    /// The element-free Galerkin method: moving least squares with quartic splines on balls.
+    /// The element-free Galerkin method: moving least squares with quartic splines.
     Efg,
 }
 
@@ -113,7 +113,7 @@ pub struct KernelSettings {
     #[schemars(transform = within(1.0, 6.0, "distances of nodes", "").low_open().says(
         "the support, in distances of nodes, reaches too few or too many",
         "above `basis`, up to 6",
-    ).otherwise("`basis` + 0.75; `basis` + 1.5 of `efg`"))]
+    ).otherwise("`basis` + 0.75"))]
     pub support: Option<f64>,
     /// Points at which the mechanics is integrated.
     pub integration: KernelIntegration,

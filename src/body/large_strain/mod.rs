@@ -16,10 +16,11 @@ pub use totals::offered_totals;
 
 use crate::body::Memo;
 use snapshot::Snapshot;
+use totals::Sums;
 
 /// Memo of a solid of large strain: what is read of its state.
 #[derive(Default)]
-pub struct LargeStrainMemo(Option<Snapshot>);
+pub struct LargeStrainMemo(Option<(Snapshot, Sums)>);
 
 impl LargeStrainMemo {
     fn of_mut(memo: &mut Memo) -> &mut Self {

@@ -194,13 +194,16 @@ impl Body for MovingBody {
 
     fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError> {
         let Reading::Total(place) = *reading else { return Err(BodyError::NoSuchReading) };
-        let motion = self.motion(state);
         let memo = LargeStrainMemo::of_mut(memo);
-        let snapshot = match memo.0 {
-            Some(snapshot) => snapshot,
-            None => *memo.0.insert(self.snapshot(&motion)?),
+        let (snapshot, sums) = match memo.0 {
+            Some(known) => known,
+            None => {
+                let motion = self.motion(state);
+                let snapshot = self.snapshot(&motion)?;
+                *memo.0.insert((snapshot, self.sums(&motion, &snapshot)))
+            }
         };
-        Ok(totals::read(&snapshot, &self.sums(&motion, &snapshot), place))
+        Ok(totals::read(&snapshot, &sums, place))
     }
 
     fn fields(&self, state: &[f64], _: &mut Memo) -> Result<Fields, BodyError> {

@@ -74,15 +74,15 @@ pub fn kernels(solid: &LargeStrain, mesh: &Mesh) -> Reproducing {
     let order = basis as f64;
     let is_held = |side: &Side| solid.faces.keys().any(|&face| is_on(solid, face, *side));
     let held: Vec<Side> = mesh.faces.iter().map(|(side, _)| *side).filter(is_held).collect();
-    let (kernel, shape, usual) = match solid.mechanics {
-        Mechanics::Efg => (Kernel::QuarticSpline, Shape::Round, order + 1.5),
-        Mechanics::Rkpm | Mechanics::Fem => (Kernel::CubicSpline, Shape::Box, order + 0.75),
+    let kernel = match solid.mechanics {
+        Mechanics::Efg => Kernel::QuarticSpline,
+        Mechanics::Rkpm | Mechanics::Fem => Kernel::CubicSpline,
     };
     Reproducing {
         basis,
         kernel,
-        shape,
-        support: support.unwrap_or(usual),
+        shape: Shape::Box,
+        support: support.unwrap_or(order + 0.75),
         integration: match integration {
             KernelIntegration::Nsni => Integration::Nsni,
             KernelIntegration::Scni => Integration::Scni,

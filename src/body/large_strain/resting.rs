@@ -350,12 +350,14 @@ impl Body for RestingBody {
             return Ok(resting.forces[face][axis]);
         }
         let memo = LargeStrainMemo::of_mut(memo);
-        let snapshot = match memo.0 {
-            Some(snapshot) => snapshot,
-            None => *memo.0.insert(self.snapshot(&resting)?),
+        let (snapshot, sums) = match memo.0 {
+            Some(known) => known,
+            None => {
+                let dissipated = copies(self.mirrors) * (resting.work - resting.stored);
+                let sums = Sums { dissipated, steps: resting.steps, ..Sums::default() };
+                *memo.0.insert((self.snapshot(&resting)?, sums))
+            }
         };
-        let dissipated = copies(self.mirrors) * (resting.work - resting.stored);
-        let sums = Sums { dissipated, steps: resting.steps, ..Sums::default() };
         Ok(totals::read(&snapshot, &sums, place))
     }
 
