@@ -16,7 +16,7 @@ use crate::math::gauss::gauss_legendre;
 /// Number of intervals of the table.
 const INTERVALS: usize = 512;
 /// Points of the average over θ: some, and more for each unit of the modulus.
-const POINTS: f64 = 10.0;
+const POINTS: f64 = 32.0;
 const POINTS_PER_MODULUS: f64 = 0.5;
 
 /// The average for one modulus.
@@ -123,7 +123,8 @@ mod tests {
                 let (found, wanted) =
                     (average.risk(second, third), directly(modulus, second, third));
                 let off = (found / wanted - 1.0).abs();
-                assert!(off < 2e-5, "m {modulus}, {second}, {third}: {found} {wanted}");
+                // The midpoint rule errs by (2m + 1) m h²/6.
+                assert!(off < 1e-4, "m {modulus}, {second}, {third}: {found} {wanted}");
             }
         }
     }
