@@ -12,7 +12,7 @@ pub struct Rubber {
     pub shear: f64,
 }
 
-/// What holds the solid across the direction in which it is drawn.
+/// Conditions across the direction in which the solid is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sides {
     /// Free along both: a bar.

@@ -250,7 +250,7 @@ impl Blocks {
         node
     }
 
-    /// Finds the boundary, of whose faces `side` tells the sides; those without are inside or on planes of symmetry.
+    /// Finds the boundary. `side` returns the side of a face, and none for those on planes of symmetry.
     fn finish(self, side: impl Fn(&[[f64; 3]]) -> Option<Side>) -> Mesh {
         let mut seen: HashMap<Vec<u32>, (usize, Vec<u32>)> = HashMap::new();
         let patterns: &[&[usize]] = match self.form {

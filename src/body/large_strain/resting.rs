@@ -21,7 +21,7 @@ pub struct RestingBody {
     name: String,
     equilibrium: Equilibrium,
     start: Resting,
-    /// How each node is held along x, y and z.
+    /// Conditions on each node along x, y and z.
     holds: Vec<[Hold; 3]>,
     /// Weight of each node [N].
     weight: Vec<[f64; 3]>,
@@ -260,7 +260,7 @@ impl RestingBody {
     }
 }
 
-/// How the nodes of a mesh are held by the faces of a solid; a node of several is fixed before it is moved.
+/// Conditions on the nodes of a mesh by the faces of a solid; where faces meet, fixed prevails over moved.
 fn holds(solid: &LargeStrain, mesh: &Mesh, body: &Deformable) -> Vec<[Hold; 3]> {
     let fixed = |fixed: &[bool; 3]| fixed.map(|fixed| if fixed { Hold::Fixed } else { Hold::Free });
     let mut holds: Vec<[Hold; 3]> = body.fixed.iter().map(fixed).collect();

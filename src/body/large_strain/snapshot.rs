@@ -1,4 +1,4 @@
-//! What is read of a state of a solid of large strain.
+//! Measures of a deformed solid of large strain.
 
 use crate::laws::solid::large_strain::Deformed;
 use crate::method::large_strain::{Deformable, Failure, Touch};

@@ -5,7 +5,7 @@ use crate::body::{Descriptor, Direct};
 use crate::quantity::Quantity;
 use crate::scene::{FaceName, LargeStrain};
 
-/// What is read of a body that moves or rests, beside its [`Snapshot`].
+/// Integrals over time of a body, in addition to its [`Snapshot`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Sums {
     pub dissipated: f64,

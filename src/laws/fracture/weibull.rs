@@ -99,7 +99,8 @@ impl Extent {
 
 impl FlawStatistics {
     /// Equivalent stress `σ₀ h^{1/m}` [Pa] of a stress xx, yy, zz, xy, yz, xz [Pa].
-    pub fn equivalent(&self, stress: [f64; 6]) -> f64 {
+    #[cfg(test)]
+    fn equivalent(&self, stress: [f64; 6]) -> f64 {
         self.of_principals(principals(stress)).max(0.0)
     }
 

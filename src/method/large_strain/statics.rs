@@ -77,7 +77,7 @@ struct Step<'a> {
 }
 
 impl Equilibrium {
-    /// `held` marks prescribed displacements, beside those that the body fixes.
+    /// `held` marks prescribed displacements, in addition to those that the body fixes.
     pub fn new(body: Deformable, held: &[[bool; 3]]) -> Result<Self, Failure> {
         let both = |(own, held): (&[bool; 3], &[bool; 3])| [0, 1, 2].map(|a| own[a] || held[a]);
         let held: Vec<[bool; 3]> = body.fixed.iter().zip(held).map(both).collect();

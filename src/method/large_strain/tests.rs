@@ -1,4 +1,4 @@
-//! What any discretisation must do: uniform strain is exact, rotation costs no energy, tangents are derivatives.
+//! Uniform strain is exact, rotation costs no energy, and tangents are derivatives, on any mesh.
 
 use super::tangent::{Linearised, Stiffness};
 use super::*;
