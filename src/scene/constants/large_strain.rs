@@ -5,7 +5,8 @@ use crate::laws::MaterialConstant;
 use crate::scene::large_strain::LargeStrain;
 
 /// Constants on which the motion depends.
-const MECHANICAL: [&str; 3] = ["density", "young", "poisson"];
+const MECHANICAL: [&str; 5] =
+    ["density", "young", "poisson", "yield_stress", "isotropic_hardening"];
 
 pub fn offered(body: &str, solid: &LargeStrain) -> Vec<OfferedConstant> {
     let material = solid.material.material();
