@@ -21,6 +21,7 @@ pub use cache::Cache;
 pub use error::ModelError;
 pub use memory::check_memory;
 pub use peaks::Peak;
+use peaks::When;
 pub use reader::Reader;
 pub use start_rates::start_rates;
 pub use step_length::check_step_length;
@@ -60,7 +61,7 @@ pub struct Model {
     schedule: Vec<Group>,
     /// For each running maximum, the place of its body and its number within the body.
     peaks: Vec<(usize, usize)>,
-    /// Largest memory of a step of the droplets [B].
+    /// Largest memory of a step of the droplets and the solids of large strain [B].
     memory_of_droplets: usize,
     /// Chosen meshes, kept for models that need the same.
     #[expect(dead_code, reason = "held for others")]
@@ -117,11 +118,13 @@ impl Model {
         let pairs: Vec<_> =
             joints.iter().map(|joint| joint.sides.each_ref().map(|side| side.body)).collect();
         let schedule = Group::all(bodies.len(), &links, &pairs);
-        let droplets = forecast(scene).droplets;
+        let Forecast { droplets, large_strains, .. } = forecast(scene);
         let places = bodies.iter().enumerate();
         let peaks = places.flat_map(|(place, body)| (0..body.peaks()).map(move |n| (place, n)));
         let peaks = peaks.collect();
-        let memory_of_droplets = droplets.iter().map(|droplet| droplet.memory).sum::<f64>();
+        let of_droplets = droplets.iter().map(|droplet| droplet.memory).sum::<f64>();
+        let of_large_strains = large_strains.iter().map(|body| body.memory).sum::<f64>();
+        let memory_of_droplets = of_droplets + of_large_strains;
         Ok(Self {
             scene: scene.clone(),
             layout,
@@ -207,7 +210,7 @@ impl Model {
     ) -> Result<(), ModelError> {
         let mut next = state.clone();
         // Jumps of inputs act before any heat has moved.
-        self.note_peaks_here(&mut next, cache).map_err(|(_, error)| error)?;
+        self.note_peaks_here(&mut next, cache, When::Beginning).map_err(|(_, error)| error)?;
         cache.update(self, state);
         self.advance(&mut next.bodies, cache, (path, dt), allowance)?;
         next.time += dt;
@@ -220,7 +223,7 @@ impl Model {
             (next.inputs, next.derivatives) = (inputs.clone(), derivatives.to_vec());
         }
         cache.forget_states(self);
-        if let Err((place, error)) = self.note_peaks_here(&mut next, cache) {
+        if let Err((place, error)) = self.note_peaks_here(&mut next, cache, When::End) {
             // The cache follows from a state that is discarded.
             cache.clear();
             let body = self.bodies[place].name().to_owned();

@@ -13,7 +13,14 @@ const BALANCED: f64 = 1e-9;
 const BALANCED_BY_PARTICLES: f64 = 5e-2;
 
 /// Totals of a body with a history of deformation.
-const IS_FLOW: [&str; 4] = [".max_plastic_strain", ".plastic_work", ".dissipated", ".stored"];
+const IS_FLOW: [&str; 6] = [
+    ".max_plastic_strain",
+    ".plastic_work",
+    ".dissipated",
+    ".stored",
+    "failure_probability",
+    ".failure_risk",
+];
 
 /// Heat balance of a body [J].
 #[derive(Debug, Clone, PartialEq)]

@@ -22,6 +22,8 @@ pub enum Direct {
     Nothing,
     Temperatures,
     TemperaturesAndTractions,
+    /// All inputs of the body itself.
+    OwnInputs,
 }
 
 /// A value of one body.

@@ -34,7 +34,13 @@ impl Forecast {
             size: format!("{:.2e} particles", droplet.particles as f64),
             remedy: "a larger `spacing`",
         });
-        solids.chain(droplets).collect()
+        let large_strains = self.large_strains.iter().map(|body| Need {
+            name: &body.name,
+            memory: body.memory,
+            size: format!("{:.2e} nodes", body.nodes as f64),
+            remedy: "a larger `mesh.spacing`",
+        });
+        solids.chain(droplets).chain(large_strains).collect()
     }
 }
 

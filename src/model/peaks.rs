@@ -35,6 +35,13 @@ impl Peak {
     }
 }
 
+/// End of a step at which maxima are noted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum When {
+    Beginning,
+    End,
+}
+
 impl State {
     /// Sets the time of the state to the caller's value without accumulated rounding. Maxima noted at the end of that
     /// step receive the same time.
@@ -53,7 +60,7 @@ impl Model {
         if self.keeps_maxima() {
             self.expect_room_to_step(state)?;
         }
-        let noted = self.with_stack(|| self.note_peaks_here(state, cache));
+        let noted = self.with_stack(|| self.note_peaks_here(state, cache, When::Beginning));
         Ok(noted.map_err(|(_, error)| error)?)
     }
 
@@ -62,6 +69,7 @@ impl Model {
         &self,
         state: &mut State,
         cache: &mut Cache,
+        when: When,
     ) -> Result<(), (usize, BodyError)> {
         if !self.keeps_maxima() {
             return Ok(());
@@ -74,7 +82,11 @@ impl Model {
             Ok(known.filter(|known| known.highest.value >= now.highest.value).unwrap_or(now))
         });
         let peaks = peaks.collect::<Result<Vec<_>, _>>()?;
-        let keep = || (0..self.bodies.len()).filter(|&place| self.bodies[place].keeps_field());
+        let is_kept = |&place: &usize| {
+            let body = &self.bodies[place];
+            body.keeps_field() && (when == When::End || body.field_holds_at_beginning())
+        };
+        let keep = || (0..self.bodies.len()).filter(is_kept);
         for place in keep() {
             let (unknowns, memo) = (&state.bodies[place], cache.memo(place));
             let observed = self.bodies[place].observe_field(unknowns, memo);

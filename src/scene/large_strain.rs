@@ -253,7 +253,7 @@ impl LargeStrain {
     pub fn is_axisymmetric(&self) -> bool {
         let [u, v, _] = self.start.velocity;
         let is_round = !matches!(self.shape, SolidShape::Box(_));
-        let is_straight = u == 0.0 && v == 0.0 && self.moves_straight();
+        let is_straight = u == 0.0 && v == 0.0 && self.faces.values().all(HeldFace::is_straight);
         match self.symmetry {
             LargeStrainSymmetry::Axisymmetric => true,
             LargeStrainSymmetry::Auto => self.dimension == 3 && is_round && is_straight,
@@ -261,9 +261,21 @@ impl LargeStrain {
         }
     }
 
-    /// Returns true if no face may be moved along x or y.
-    fn moves_straight(&self) -> bool {
-        self.faces.iter().all(|(&face, held)| held.is_straight(face))
+    /// Axes along which the displacement of a face is an input: its normal on rollers, else those that the model neither
+    /// lacks nor mirrors. A face without rollers is held along the others.
+    pub fn moved_axes(&self, face: FaceName) -> Vec<usize> {
+        let Some(held) = self.faces.get(&face).filter(|held| held.displacement.is_some()) else {
+            return Vec::new();
+        };
+        let is_round = self.is_axisymmetric();
+        let is_taken = |axis: usize| {
+            let mirrored = axis < 2 && (is_round || self.mirrors()[axis]);
+            match held.roller {
+                true => face.normal() == Some(axis),
+                false => !mirrored && (axis != 1 || self.dimension == 3),
+            }
+        };
+        (0..3).filter(|&axis| is_taken(axis)).collect()
     }
 
     /// Planes x = 0 and y = 0 that mirror the model.
@@ -272,7 +284,7 @@ impl LargeStrain {
         let [x, y] = [FaceName::Left, FaceName::Front].map(|face| !self.faces.contains_key(&face));
         let [right, back] =
             [FaceName::Right, FaceName::Back].map(|face| !self.faces.contains_key(&face));
-        let straight = self.moves_straight();
+        let straight = self.faces.iter().all(|(&face, held)| held.stays_straight(face));
         match self.symmetry {
             _ if self.is_axisymmetric() => [false; 2],
             LargeStrainSymmetry::Quarter => [true, self.dimension == 3],
@@ -297,7 +309,7 @@ impl LargeStrain {
     pub fn inputs(&self) -> Vec<BodyInput> {
         let of_face = |(&face, held): (&FaceName, &HeldFace)| {
             let start = held.displacement?;
-            let axes = held.axes(face, self.dimension).into_iter();
+            let axes = self.moved_axes(face).into_iter();
             Some(axes.map(move |axis| BodyInput {
                 key: displacement_key(face, axis),
                 words: "displacement of the face",
@@ -311,21 +323,14 @@ impl LargeStrain {
 }
 
 impl HeldFace {
-    /// Axes along which the face's displacement is prescribed, in a model of some dimensions.
-    pub fn axes(&self, face: FaceName, dimension: usize) -> Vec<usize> {
-        let is_taken = |axis: usize| match (self.roller, face.normal()) {
-            (true, normal) => normal == Some(axis),
-            (false, _) => axis != 1 || dimension == 3,
-        };
-        match self.displacement {
-            Some(_) => (0..3).filter(|&axis| is_taken(axis)).collect(),
-            None => Vec::new(),
-        }
+    /// Returns true if the face is not moved along x or y at the start.
+    fn is_straight(&self) -> bool {
+        self.displacement.is_none_or(|by| by[0] == 0.0 && by[1] == 0.0)
     }
 
-    /// Returns true if the face may only be moved along z.
-    fn is_straight(&self, face: FaceName) -> bool {
-        self.axes(face, 3).iter().all(|&axis| axis == 2)
+    /// Returns true if no input moves the face along x or y in a model of the whole body.
+    fn stays_straight(&self, face: FaceName) -> bool {
+        self.displacement.is_none() || self.roller && face.normal() == Some(2)
     }
 }
 
@@ -351,13 +356,23 @@ fn displacement_key(face: FaceName, axis: usize) -> &'static str {
     )
 }
 
-/// Names the kind of solids of large strain in the schema as scenes do: `kind = "solid"` with `strain = "finite"`.
+/// Names the kind of solids of large strain in the schema as scenes do, `kind = "solid"` with `strain = "finite"`, and has
+/// the measure of strain tell solids apart.
 pub fn name_kind(schema: &mut Schema) {
     let kinds = schema.get_mut("oneOf").and_then(serde_json::Value::as_array_mut);
     for kind in kinds.into_iter().flatten() {
-        let name = &mut kind["properties"]["kind"]["const"];
-        if *name == json!(KIND) {
-            *name = json!("solid");
+        let keys = &mut kind["properties"];
+        let strain = match keys["kind"]["const"].as_str() {
+            Some(KIND) => "finite",
+            Some("solid") => "small",
+            _ => continue,
+        };
+        keys["kind"]["const"] = json!("solid");
+        if let Some(table) = keys["strain"].as_object_mut() {
+            table.remove("$ref");
+            table.remove("anyOf");
+            table.insert("type".to_owned(), json!("string"));
+            table.insert("const".to_owned(), json!(strain));
         }
     }
 }

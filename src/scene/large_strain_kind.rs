@@ -7,15 +7,22 @@ use toml::de::DeValue;
 use super::large_strain::KIND;
 use super::locate::{Path, Source};
 
-/// Gives solids with `strain = "finite"` the name of their own kind.
-pub fn name_kinds(source: &mut Source) {
+/// Gives solids with `strain = "finite"` the name of their own kind while `work` reads the scene.
+pub fn with_names<R>(source: &mut Source, work: impl FnOnce(&Source) -> R) -> R {
     let bodies = Path::default().key("body");
-    let Some(DeValue::Table(table)) = source.value(&bodies) else { return };
-    let paths: Vec<Path> = table.keys().map(|name| bodies.key(name.get_ref())).collect();
-    for path in paths {
-        let says = |key: &str| source.value(&path.key(key)).and_then(DeValue::as_str);
-        if says("kind") == Some("solid") && says("strain") == Some("finite") {
-            source.replace(&path.key("kind"), DeValue::String(Cow::Borrowed(KIND)));
+    let names = match source.value(&bodies) {
+        Some(DeValue::Table(table)) => {
+            table.keys().map(|name| bodies.key(name.get_ref())).collect()
         }
-    }
+        _ => Vec::new(),
+    };
+    let is_one = |path: &Path| {
+        let says = |key: &str| source.value(&path.key(key)).and_then(DeValue::as_str);
+        says("kind") == Some("solid") && says("strain") == Some("finite")
+    };
+    let own: Vec<Path> = names.into_iter().filter(is_one).map(|path| path.key("kind")).collect();
+    own.iter().for_each(|path| source.replace(path, DeValue::String(Cow::Borrowed(KIND))));
+    let result = work(source);
+    own.iter().for_each(|path| source.replace(path, DeValue::String(Cow::Borrowed("solid"))));
+    result
 }

@@ -121,8 +121,9 @@ pub fn parse(text: &str, file: &str) -> Result<Scene, SceneError> {
 /// Parses and checks a scene whose positions are known.
 pub(crate) fn parse_located(source: &mut Source, schema: &Schema) -> Result<Scene, SceneError> {
     let misread = shorthand::expand(source, schema);
-    large_strain_kind::name_kinds(source);
-    let mut scene = decode::decode(source, schema, misread)?;
+    let decoded =
+        large_strain_kind::with_names(source, |source| decode::decode(source, schema, misread));
+    let mut scene = decoded?;
     scene.substances = source.substances().to_vec();
     scene.store_surfaces_below();
     check::check(&scene, source, schema)?;

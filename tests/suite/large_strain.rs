@@ -191,6 +191,57 @@ fn a_stretched_body_returns() {
 }
 
 #[test]
+fn outputs_follow_the_inputs_before_any_step() {
+    let faces =
+        "faces = { top = { displacement = [0.0, 0.0, -1e-3] }, bottom = { clamped = true } }";
+    let mut trial = Trial::new(&block(faces, ""));
+    assert!(off(trial.get("gel.height"), 11e-3) < 1e-9);
+    trial.set("gel.top.displacement_z", -3e-3);
+    let at_once =
+        ["height", "width", "top.force_z", "stored"].map(|key| trial.get(&format!("gel.{key}")));
+    assert!(off(at_once[0], 9e-3) < 1e-9 && at_once[2] < 0.0, "{at_once:?}");
+    trial.step(1.0);
+    let later =
+        ["height", "width", "top.force_z", "stored"].map(|key| trial.get(&format!("gel.{key}")));
+    for (a, b) in at_once.iter().zip(later) {
+        assert!(off(*a, b) < 1e-8, "{at_once:?} {later:?}");
+    }
+    assert!(
+        trial
+            .try_changes(&["gel.top.force_z".to_owned()], &[("gel.top.displacement_z", 1.0)])
+            .is_err()
+    );
+}
+
+#[test]
+fn metals_dissipate_what_they_do_not_store() {
+    let faces = "faces = { top = { roller = true, displacement = [0.0, 0.0, 0.0] }, bottom = { roller = true } }";
+    let text = block(faces, "").replace(
+        r#"model = "neo_hookean", density = 1000.0"#,
+        r#"model = "elastoplastic", yield_stress = 100.0, isotropic_hardening = 200.0, density = 1000.0"#,
+    );
+    for count in [20, 200] {
+        let mut trial = Trial::new(&text);
+        for n in 1..=count {
+            trial.set("gel.top.displacement_z", 5e-3 * f64::from(n) / f64::from(count));
+            trial.step(1.0);
+        }
+        let (volume, plastic) = (10e-3 * 8e-3 * 12e-3, (17.0_f64 / 12.0).ln());
+        // The Kirchhoff stress over the logarithmic plastic strain, less the elastic part of the strain.
+        let plastic = plastic - (100.0 + 200.0 * plastic) / 5600.0;
+        let expected = volume * (100.0 * plastic + 100.0 * plastic * plastic);
+        let found = trial.get("gel.dissipated");
+        assert!(off(found, expected) < 0.03, "{count}: {found} {expected}");
+        let elastic = volume * (100.0_f64 + 200.0 * plastic).powi(2) / (2.0 * 5600.0);
+        assert!(
+            off(trial.get("gel.stored"), elastic) < 0.05,
+            "{} {elastic}",
+            trial.get("gel.stored")
+        );
+    }
+}
+
+#[test]
 fn the_work_of_a_face_is_what_is_stored() {
     let faces = "faces = { top = { displacement = [0.0, 0.0, 0.0] }, bottom = { clamped = true } }";
     let mut trial = Trial::new(&block(faces, "symmetry = \"none\""));

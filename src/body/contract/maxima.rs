@@ -26,6 +26,12 @@ pub trait Maxima {
         false
     }
 
+    /// Returns true if that field is right when a step begins. It is not where temperatures have just been prescribed: only
+    /// the nodes of the face have jumped, which strains those next to them by what no body has.
+    fn field_holds_at_beginning(&self) -> bool {
+        true
+    }
+
     /// Computes the present values of that field and keeps them in the memo of the state and its loads.
     fn observe_field(&self, _state: &[f64], _memo: &mut Memo) -> Result<(), BodyError> {
         Ok(())

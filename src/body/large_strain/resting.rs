@@ -5,13 +5,15 @@ use std::slice::from_mut;
 
 use super::snapshot::{Seen, Snapshot, copies};
 use super::totals::{self, Sums, moved_faces};
-use super::{LargeStrainMemo, is_large, plan};
+use super::{is_large, plan};
 use crate::body::{
     Acts, Advice, Body, BodyError, Fields, Given, Giver, Maxima, Memo, Reading, Received, Resources,
 };
 use crate::inputs::InputLayout;
-use crate::method::large_strain::{Conditions, Deformable, Equilibrium, Failure, Rest};
-use crate::runtime::allowance::{Allowance, cost};
+use crate::method::large_strain::{
+    Conditions, Deformable, Equilibrium, Failure, Rest, STEPS, WORK,
+};
+use crate::runtime::allowance::{Allowance, Interrupt, cost};
 use crate::scene::LargeStrain;
 use crate::space::{Form, Mesh};
 use crate::state::{Field, Fields as StateFields, Layout, Per, load, store};
@@ -32,6 +34,19 @@ pub struct RestingBody {
     /// Places of the displacements among the inputs.
     inputs: Range<usize>,
     notes: Vec<String>,
+}
+
+/// Memo of the body: displacements of the moved faces by the inputs, and what is read of the equilibrium under them.
+struct RestingMemo {
+    to: Vec<[f64; 3]>,
+    seen: Option<(Snapshot, Sums, Vec<[f64; 3]>)>,
+}
+
+impl RestingMemo {
+    fn of_mut(memo: &mut Memo) -> &mut Self {
+        let memo: &mut (dyn std::any::Any + Send + Sync) = memo.as_mut();
+        memo.downcast_mut().expect("a memo is that of the body that made it")
+    }
 }
 
 /// Condition on a node along an axis.
@@ -58,10 +73,8 @@ struct Resting {
 
 /// Halvings of a step in which no equilibrium is found.
 const HALVINGS: u32 = 7;
-/// Numbers that an iteration updates for each point, or as many as take as long.
-const WORK: usize = 3000;
-/// Name of the steps in messages.
-const STEPS: &str = "steps of equilibrium";
+/// Iterations of a usual step.
+const ITERATIONS: f64 = 5.0;
 /// Share of the energy that the balance of a state may miss.
 const ENERGY: f64 = 1e-6;
 
@@ -100,11 +113,11 @@ impl RestingBody {
         let held: Vec<[bool; 3]> =
             holds.iter().map(|holds| holds.map(|hold| hold != Hold::Free)).collect();
         let equilibrium = Equilibrium::new(body, &held).map_err(named)?;
-        let axes = |face| solid.faces[&face].axes(face, solid.dimension);
-        let moved: Vec<Vec<usize>> = moved_faces(solid).into_iter().map(axes).collect();
+        let moved: Vec<Vec<usize>> =
+            moved_faces(solid).into_iter().map(|face| solid.moved_axes(face)).collect();
         let forces = vec![[0.0; 3]; moved.len()];
         let start = Resting { rest: equilibrium.rest(), forces, ..Resting::default() };
-        let mut own = Self {
+        let own = Self {
             name: name.to_owned(),
             equilibrium,
             start,
@@ -116,16 +129,7 @@ impl RestingBody {
             inputs: layout.of_body(name),
             notes: super::forecast::notes(solid),
         };
-        let mut start = own.start.clone();
-        own.settle(&mut start, &own.displacements_at_start(solid), 0.0, HALVINGS)
-            .map_err(|failure| own.error(failure))?;
-        (start.time, start.steps) = (0.0, 0.0);
-        own.start = start;
         Ok(own)
-    }
-
-    fn displacements_at_start(&self, solid: &LargeStrain) -> Vec<[f64; 3]> {
-        solid.faces.values().filter_map(|face| face.displacement).collect()
     }
 
     /// Displacements of the moved faces from all inputs.
@@ -146,9 +150,10 @@ impl RestingBody {
         to: &[[f64; 3]],
         dt: f64,
         halvings: u32,
+        allowance: &Allowance,
     ) -> Result<(), Failure> {
         let conditions = self.conditions(to);
-        match self.equilibrium.step(&mut state.rest, &conditions, dt) {
+        match self.equilibrium.step(&mut state.rest, &conditions, dt, allowance) {
             Ok(found) => {
                 let before = state.stored;
                 state.work += match self.equilibrium.body.law.history() {
@@ -162,15 +167,30 @@ impl RestingBody {
                 state.forces = self.forces(&found.reactions);
                 Ok(())
             }
+            Err(failure @ Failure::Halted(_)) => Err(failure),
             Err(failure) if halvings == 0 => Err(failure),
             Err(_) => {
                 let from = self.places(state);
                 let half = |n: usize| [0, 1, 2].map(|a| 0.5 * (from[n][a] + to[n][a]));
                 let middle: Vec<[f64; 3]> = (0..to.len()).map(half).collect();
-                self.settle(state, &middle, 0.5 * dt, halvings - 1)?;
-                self.settle(state, to, 0.5 * dt, halvings - 1)
+                self.settle(state, &middle, 0.5 * dt, halvings - 1, allowance)?;
+                self.settle(state, to, 0.5 * dt, halvings - 1, allowance)
             }
         }
+    }
+
+    /// The equilibrium under the present displacements of the faces, which inputs may have moved since the last step.
+    fn present(&self, state: &[f64], to: &[[f64; 3]]) -> Result<Resting, BodyError> {
+        let mut present = self.resting(state);
+        if present.steps == 0.0 || self.places(&present) != to {
+            let (time, steps) = (present.time, present.steps);
+            let interrupt = Interrupt::default();
+            let allowance = Allowance::of_updates(&interrupt, f64::INFINITY);
+            let settled = self.settle(&mut present, to, 0.0, HALVINGS, &allowance);
+            settled.map_err(|failure| self.error(failure))?;
+            (present.time, present.steps) = (time, steps);
+        }
+        Ok(present)
     }
 
     fn conditions(&self, to: &[[f64; 3]]) -> Conditions {
@@ -239,7 +259,11 @@ impl RestingBody {
     }
 
     fn error(&self, failure: Failure) -> BodyError {
-        BodyError::LargeStrain { body: self.name.clone(), failure }
+        let body = self.name.clone();
+        match failure {
+            Failure::Halted(halt) => BodyError::Halted { body, halt },
+            failure => BodyError::LargeStrain { body, failure },
+        }
     }
 
     fn check_resting(&self, state: &Resting) -> Result<(), String> {
@@ -317,12 +341,12 @@ impl Body for RestingBody {
         Ok(())
     }
 
-    fn memo(&self, _: &[f64], _: &[Received]) -> Memo {
-        Box::new(LargeStrainMemo::default())
+    fn memo(&self, inputs: &[f64], _: &[Received]) -> Memo {
+        Box::new(RestingMemo { to: self.displacements(inputs), seen: None })
     }
 
     fn forget_state(&self, memo: &mut Memo) {
-        *memo = Box::new(LargeStrainMemo::default());
+        RestingMemo::of_mut(memo).seen = None;
     }
 
     fn advance(
@@ -332,12 +356,16 @@ impl Body for RestingBody {
         acts: &Acts,
         allowance: &Allowance,
     ) -> Result<Option<Given>, BodyError> {
-        let halted = |halt| BodyError::Halted { body: self.name.clone(), halt };
-        let work = WORK * self.equilibrium.body.space.volume.len();
-        allowance.spend(1.0, STEPS, work).map_err(halted)?;
         let mut resting = self.resting(state);
+        // Inputs that have jumped act at once, before stress relaxes.
+        let from = self.displacements(&acts.path.at(0, 0.0));
+        let jumps = resting.steps == 0.0 || self.places(&resting) != from;
+        if jumps && self.equilibrium.body.law.history() > 0 {
+            let settled = self.settle(&mut resting, &from, 0.0, HALVINGS, allowance);
+            settled.map_err(|failure| self.error(failure))?;
+        }
         let to = self.displacements(&acts.path.at(0, acts.duration));
-        let settled = self.settle(&mut resting, &to, acts.duration, HALVINGS);
+        let settled = self.settle(&mut resting, &to, acts.duration, HALVINGS, allowance);
         settled.map_err(|failure| self.error(failure))?;
         store(&mut resting, state);
         Ok(None)
@@ -345,24 +373,27 @@ impl Body for RestingBody {
 
     fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError> {
         let Reading::Total(place) = *reading else { return Err(BodyError::NoSuchReading) };
-        let resting = self.resting(state);
-        if let Some((face, axis)) = totals::force(place) {
-            return Ok(resting.forces[face][axis]);
+        let memo = RestingMemo::of_mut(memo);
+        if memo.seen.is_none() {
+            let present = self.present(state, &memo.to)?;
+            let dissipated = copies(self.mirrors) * (present.work - present.stored);
+            let sums = Sums { dissipated, steps: present.steps, ..Sums::default() };
+            memo.seen = Some((self.snapshot(&present)?, sums, present.forces));
         }
-        let memo = LargeStrainMemo::of_mut(memo);
-        let (snapshot, sums) = match memo.0 {
-            Some(known) => known,
-            None => {
-                let dissipated = copies(self.mirrors) * (resting.work - resting.stored);
-                let sums = Sums { dissipated, steps: resting.steps, ..Sums::default() };
-                *memo.0.insert((self.snapshot(&resting)?, sums))
-            }
-        };
-        Ok(totals::read(&snapshot, &sums, place))
+        let (snapshot, sums, forces) = memo.seen.as_ref().expect("made above");
+        Ok(match totals::force(place) {
+            Some((face, axis)) => forces[face][axis],
+            None => totals::read(snapshot, sums, place),
+        })
     }
 
-    fn fields(&self, state: &[f64], _: &mut Memo) -> Result<Fields, BodyError> {
-        Ok(Fields::Particles(self.seen(&self.resting(state)).particles(self.temperature)))
+    fn follows_at_once(&self, reading: &Reading) -> bool {
+        matches!(reading, Reading::Total(_))
+    }
+
+    fn fields(&self, state: &[f64], memo: &mut Memo) -> Result<Fields, BodyError> {
+        let present = self.present(state, &RestingMemo::of_mut(memo).to)?;
+        Ok(Fields::Particles(self.seen(&present).particles(self.temperature)))
     }
 }
 
@@ -379,12 +410,17 @@ impl Advice for RestingBody {
 impl Resources for RestingBody {
     fn foresee(&self, _: &[f64], dt: f64, allowance: &Allowance) -> Result<(), BodyError> {
         let work = WORK * self.equilibrium.body.space.volume.len();
-        let foreseen = allowance.foresee_step(dt, 1.0, STEPS, work);
+        let foreseen = allowance.foresee_step(dt, ITERATIONS, STEPS, work);
         foreseen.map_err(|halt| BodyError::Halted { body: self.name.clone(), halt })
     }
 
     fn updates(&self, _: f64) -> f64 {
-        cost(1.0, WORK * self.equilibrium.body.space.volume.len())
+        cost(ITERATIONS, WORK * self.equilibrium.body.space.volume.len())
+    }
+
+    /// A reading finds the equilibrium under inputs that have changed.
+    fn is_deep(&self, _: Option<&Memo>, _: &Reading) -> bool {
+        true
     }
 
     fn threads(&self) -> usize {

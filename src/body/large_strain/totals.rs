@@ -139,15 +139,16 @@ pub fn offered_totals(solid: &LargeStrain, is_coupled: bool) -> Vec<(usize, Desc
     let is_plane = solid.dimension == 2;
     let described = |key, words, quantity: Quantity| {
         let quantity = if is_plane { quantity.per_depth() } else { quantity };
-        // Bodies in equilibrium follow the displacements of their faces within a step only.
-        Descriptor { key, words, quantity, direct: Direct::Nothing }
+        // Bodies in equilibrium follow the displacements of their faces without delay.
+        let direct = if solid.inertia { Direct::Nothing } else { Direct::OwnInputs };
+        Descriptor { key, words, quantity, direct }
     };
     let own = (0..TOTALS.len()).filter(|&place| is_offered(place)).map(|place| {
         let Total { key, words, quantity, .. } = TOTALS[place];
         (place, described(key, words, quantity))
     });
     let of_faces = moved_faces(solid).into_iter().enumerate().flat_map(|(n, face)| {
-        solid.faces[&face].axes(face, solid.dimension).into_iter().map(move |axis| {
+        solid.moved_axes(face).into_iter().map(move |axis| {
             let words = "force on the face that its displacement takes";
             let key = force_key(face, axis);
             (TOTALS.len() + 3 * n + axis, described(key, words, Quantity::Force))

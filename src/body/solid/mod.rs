@@ -75,6 +75,8 @@ pub struct SolidBody {
     cracks: Vec<(usize, Crack)>,
     /// Quantities with running maxima.
     peaks: Vec<PeakOf>,
+    /// True if a face has a prescribed temperature, which may jump.
+    prescribes_temperature: bool,
     /// Relative tolerance of outputs.
     tolerance: f64,
     threads: usize,
@@ -123,6 +125,7 @@ impl SolidBody {
             shape: solid.shape,
             cracks,
             peaks: solid.peaks.clone(),
+            prescribes_temperature: solid.faces.values().any(|face| face.temperature.is_some()),
             tolerance: scene.fidelity.tolerance,
             threads,
         })
@@ -316,6 +319,10 @@ impl Maxima for SolidBody {
 
     fn keeps_field(&self) -> bool {
         self.solid.flaws().is_some()
+    }
+
+    fn field_holds_at_beginning(&self) -> bool {
+        !self.prescribes_temperature
     }
 
     fn observe_field(&self, state: &[f64], memo: &mut Memo) -> Result<(), BodyError> {

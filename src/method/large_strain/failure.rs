@@ -8,7 +8,7 @@ use crate::space::Refused;
 pub enum Failure {
     #[error(
         "the material is turned inside out at x = {:.3e}, y = {:.3e}, z = {:.3e} m of its reference shape, where the volume would \
-         become {dilatation:.3} of what it was: the load is too large for this mesh (allowed: smaller loads or speeds, a \
+         become {dilatation:.3e} of what it was: the load is too large for this mesh (allowed: smaller loads or speeds, a \
          stiffer material, another `mesh.spacing`)", .at[0], .at[1], .at[2]
     )]
     Inverted { at: [f64; 3], dilatation: f64 },

@@ -19,7 +19,7 @@ pub use deformable::{Deformable, Stresses};
 pub use failure::Failure;
 pub use motion::Dynamics;
 pub use state::{Ledger, Motion};
-pub use statics::{Conditions, Equilibrium, Found, Rest};
+pub use statics::{Conditions, Equilibrium, Found, Rest, STEPS, WORK};
 
 #[cfg(test)]
 mod tests;

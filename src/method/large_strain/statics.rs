@@ -2,6 +2,7 @@
 
 use super::tangent::{Factor, Linearised, Stiffness};
 use super::{Deformable, Failure, Stresses};
+use crate::runtime::allowance::Allowance;
 use crate::runtime::parallel::Team;
 
 /// A body in equilibrium under prescribed displacements and forces.
@@ -44,6 +45,10 @@ pub struct Found {
     pub work: f64,
 }
 
+/// Name of the iterations in messages.
+pub const STEPS: &str = "iterations towards the equilibrium of a solid of large strain";
+/// Numbers that an iteration updates for each point, or as many as take as long.
+pub const WORK: usize = 1000;
 /// Largest residual over the norm of all forces at nodes.
 const TOLERANCE: f64 = 1e-10;
 const ITERATIONS: usize = 25;
@@ -74,6 +79,7 @@ struct Step<'a> {
     to: &'a Conditions,
     dt: f64,
     team: &'a Team,
+    allowance: &'a Allowance,
 }
 
 impl Equilibrium {
@@ -93,9 +99,15 @@ impl Equilibrium {
     }
 
     /// Finds the equilibrium after a time step [s]; `rest` changes only if it is found.
-    pub fn step(&self, rest: &mut Rest, to: &Conditions, dt: f64) -> Result<Found, Failure> {
+    pub fn step(
+        &self,
+        rest: &mut Rest,
+        to: &Conditions,
+        dt: f64,
+        allowance: &Allowance,
+    ) -> Result<Found, Failure> {
         let team = &self.body.team();
-        let step = Step { from: rest, to, dt, team };
+        let step = Step { from: rest, to, dt, team, allowance };
         let mut u = rest.displacement.clone();
         let mut now = self.at(&step, &u)?;
         let before = now.stresses.clone();
@@ -138,6 +150,7 @@ impl Equilibrium {
             let next = sum(u, &change);
             match self.at(step, &next) {
                 Ok(trial) if trial.norm < GROWTH * now.norm => return Ok((next, trial)),
+                Err(Failure::Halted(halt)) => return Err(halt.into()),
                 _ => change.iter_mut().flatten().for_each(|x| *x *= 0.5),
             }
         }
@@ -179,6 +192,7 @@ impl Equilibrium {
 
     fn at<'s>(&self, step: &Step<'s>, u: &[[f64; 3]]) -> Result<Trial<'s>, Failure> {
         let body = &self.body;
+        step.allowance.spend(1.0, STEPS, WORK * body.space.volume.len())?;
         let mut history = step.from.history.clone();
         let stresses = body.respond(u, step.dt, &mut history, step.team)?;
         let (deformations, dilatations) = body.deformations(u, step.team);

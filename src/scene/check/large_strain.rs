@@ -98,7 +98,9 @@ fn check_faces(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
         let at = path.key("faces").key(name.as_str());
         let offered: Vec<FaceName> = match solid.plate() {
             Some(shape) => {
-                let own = shape.faces().iter().copied().chain([FaceName::Sides]);
+                let is_box = matches!(solid.shape, SolidShape::Box(_));
+                let sides = is_box.then_some(FaceName::Sides);
+                let own = shape.faces().iter().copied().chain(sides);
                 own.filter(|&face| is_there(solid, face)).collect()
             }
             None => Vec::new(),
@@ -123,15 +125,17 @@ fn check_faces(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
             let message = "this face has no normal along an axis";
             checker.refuse(&at.key("roller"), message, "`clamped` or `displacement` alone");
         }
-        let taken = face.axes(name, solid.dimension);
+        let taken = solid.moved_axes(name);
         for axis in (0..3).filter(|axis| !taken.contains(axis)) {
             let moves = face.displacement.is_some_and(|by| by[axis] != 0.0);
             let place = at.key("displacement").index(axis);
-            checker.require(!moves, &place, "nothing is prescribed along this axis", "0");
+            checker.require(
+                !moves,
+                &place,
+                "nothing is prescribed along this axis",
+                "0, or `symmetry = \"none\"`",
+            );
         }
-        let turns = solid.is_axisymmetric() && taken.iter().any(|&axis| axis < 2);
-        let message = "the body is modelled as round, and this moves it sideways";
-        checker.require(!turns, &at.key("displacement"), message, "`symmetry = \"none\"`");
     }
 }
 
@@ -171,7 +175,8 @@ fn check_rest(checker: &mut Checker, path: &Path, name: &str, solid: &LargeStrai
     let holds = |face: &FaceName, axis: usize| {
         let held = solid.faces[face];
         let along = face.normal() == Some(axis) || (*face == FaceName::Sides && axis < 2);
-        held.clamped || held.axes(*face, 3).contains(&axis) || held.roller && along
+        let moved = held.displacement.is_some() && !held.roller;
+        held.clamped || moved || held.roller && along
     };
     let mut free = Vec::new();
     for (axis, words) in ["x", "y", "z"].into_iter().enumerate() {

@@ -63,7 +63,12 @@ impl Misfit {
             Misfit::UnknownKey { known, .. } | Misfit::UnknownName { known, .. } => {
                 // The program's own name of a kind is none of a scene.
                 let names = known.iter().copied().filter(|name| *name != KIND);
-                names.collect::<Vec<_>>().join(", ")
+                let mut names: Vec<&str> = names.collect();
+                // The other measure of strain chooses another kind of solid.
+                if names == ["small"] {
+                    names.push("finite");
+                }
+                names.join(", ")
             }
             Misfit::MissingKey(key) => format!("`{key} = …`"),
             Misfit::Unexpected { expected } => expectation(expected),

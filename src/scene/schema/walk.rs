@@ -45,11 +45,12 @@ impl Schema {
 
 /// Returns true if a table has its required keys and constants.
 fn is_table(node: &Node, table: &DeValue) -> bool {
-    node.required.iter().all(|key| {
-        let Some(value) = table.get(*key) else { return false };
-        let said = node.of_key(key).and_then(|own| own.constant);
-        said.is_none_or(|said| value.get_ref().as_str() == Some(said))
-    })
+    let has_required = node.required.iter().all(|key| table.get(*key).is_some());
+    let has_constants = node.properties.iter().all(|(key, own)| {
+        let said = own.constant.zip(table.get(*key));
+        said.is_none_or(|(said, value)| value.get_ref().as_str() == Some(said))
+    });
+    has_required && has_constants
 }
 
 struct Walk<'w, 's, 'v> {

@@ -64,6 +64,11 @@ impl LargeStrainLaw {
         matches!(self.deviator, Deviator::Relaxing(_))
     }
 
+    /// Returns true if the bulk modulus is more than ten times that of shear: at a Poisson's ratio above 0.45.
+    pub fn is_nearly_incompressible(&self) -> bool {
+        self.bulk > 10.0 * self.shear
+    }
+
     /// Modulus of plane waves in the undeformed body [Pa].
     pub fn wave_modulus(&self) -> f64 {
         self.bulk + 4.0 / 3.0 * self.shear

@@ -6,11 +6,14 @@
 //!
 //! `s = s_tr − 2 µ̄ Δγ n`, `‖s_tr‖ − 2 µ̄ Δγ = √⅔ σ_y(α + √⅔ Δγ)`
 //!
-//! (J. C. Simo 1988, doi 10.1016/0045-7825(88)90076-X; Simo and Hughes 1998, box 9.1). The tangent is the derivative of
-//! this step, which is not symmetric.
+//! (J. C. Simo 1988, doi 10.1016/0045-7825(88)90076-X; Simo and Hughes 1998, box 9.1). The spherical part of b̄ after the
+//! return follows from `det b̄ = 1`, so that flow keeps the volume and the energy is elastic. The tangent is the
+//! derivative of this step, which is not symmetric.
 
 use super::{Deformed, Isochoric, Tangent};
-use crate::math::matrix3::{IDENTITY, Matrix3, contraction, full, packed, product, transposed};
+use crate::math::matrix3::{
+    IDENTITY, Matrix3, contraction, full, inverse, packed, product, transposed,
+};
 
 /// Yield stress over the equivalent plastic strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -87,10 +90,12 @@ impl Plastic {
     pub fn respond(&self, shear: f64, at: &Deformed, history: &mut [f64]) -> Isochoric {
         let step = self.step(shear, at, history);
         let kept = kirchhoff(&step);
-        let trace = step.trial[0][0] + step.trial[1][1] + step.trial[2][2];
+        let mut trace = step.trial[0][0] + step.trial[1][1] + step.trial[2][2];
         if step.flow > 0.0 {
+            let mean = spherical(&kept.map(|row| row.map(|value| value / shear)));
+            trace = 3.0 * mean;
             // b̄ = s/µ + ⅓ (tr b̄) 1, pulled back.
-            let entry = |a: usize, b: usize| kept[a][b] / shear + trace * THIRD * IDENTITY[a][b];
+            let entry = |a: usize, b: usize| kept[a][b] / shear + mean * IDENTITY[a][b];
             let b = std::array::from_fn(|a| std::array::from_fn(|c| entry(a, c)));
             let back = transposed(&at.inverse_transposed);
             let j = at.dilatation.powf(2.0 * THIRD);
@@ -160,6 +165,23 @@ impl Plastic {
         };
         std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)))
     }
+}
+
+/// Multiple of the identity that makes the determinant of a deviator 1, by Newton's method from above.
+fn spherical(deviator: &Matrix3) -> f64 {
+    let half = 0.5 * contraction(deviator, deviator);
+    let (_, determinant) = inverse(deviator);
+    // The cubic rises and is convex from the larger of its extrema on, and above 1 at this start.
+    let mut mean = 1.0 + half.sqrt();
+    for _ in 0..ITERATIONS {
+        let excess = mean * (mean * mean - half) + determinant - 1.0;
+        let change = excess / (3.0 * mean * mean - half);
+        mean -= change;
+        if change.abs() <= CONVERGED * mean {
+            break;
+        }
+    }
+    mean
 }
 
 fn kirchhoff(step: &Step) -> Matrix3 {
