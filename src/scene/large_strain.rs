@@ -10,7 +10,7 @@ use super::lookup::BodyInput;
 use super::materials::MaterialChoice;
 use super::types::{Disc, FaceName, Shape};
 use crate::limits::{
-    Bounds, Keys, above_zero, length, own_temperature, plausible, signed, whole, within,
+    Keys, Limits, above_zero, length, own_temperature, plausible, signed, whole, within,
 };
 use crate::quantity::Quantity;
 
@@ -213,7 +213,7 @@ pub struct HeldFace {
     #[serde(default)]
     pub roller: bool,
     /// Displacement along x, y and z at the start; inputs [m].
-    #[schemars(transform = signed("m", "a displacement").otherwise("free"))]
+    #[schemars(transform = displacement().otherwise("free"))]
     pub displacement: Option<[f64; 3]>,
 }
 
@@ -227,6 +227,11 @@ impl HeldFace {
         ];
         given.into_iter().filter(|(_, given)| *given).map(|(key, _)| key).collect()
     }
+}
+
+/// Displacement of a face [m].
+const fn displacement() -> Limits {
+    signed("m", "a displacement")
 }
 
 /// Elements across the smallest extent, by default.
@@ -315,7 +320,7 @@ impl LargeStrain {
                 words: "displacement of the face",
                 quantity: Quantity::Displacement,
                 start: start[axis],
-                bounds: Bounds { low: None, high: None },
+                bounds: displacement().bounds(),
             }))
         };
         self.faces.iter().filter_map(of_face).flatten().collect()

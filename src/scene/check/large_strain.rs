@@ -45,9 +45,18 @@ fn check_shape(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
     let [x, y, z] = solid.extents();
     let smallest = if is_flat { x.min(z) } else { x.min(y).min(z) };
     let spacing = solid.spacing();
+    let path_of_spacing = path.at("mesh.spacing");
+    if solid.mesh.spacing.is_some_and(|spacing| spacing <= 0.0) {
+        checker.refuse(&path_of_spacing, "the distance of nodes must be positive", "> 0 (m)");
+        return;
+    }
+    if smallest <= 0.0 {
+        // Refused as numbers.
+        return;
+    }
     checker.require(
         fits(spacing, smallest),
-        &path.at("mesh.spacing"),
+        &path_of_spacing,
         "the body is thinner than an element",
         format!("up to {smallest} m, a tenth of it or less for results"),
     );
@@ -56,7 +65,7 @@ fn check_shape(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
     let nodes = count(0) * count(1) * count(2);
     checker.require(
         nodes <= MOST_NODES,
-        &path.at("mesh.spacing"),
+        &path_of_spacing,
         format!("the mesh would have {nodes:.1e} nodes"),
         format!("a `mesh.spacing` with at most {MOST_NODES:e} nodes"),
     );
@@ -83,6 +92,10 @@ fn check_kernels(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
 }
 
 fn check_material(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
+    if solid.material.material().fracture.weibull.is_some() {
+        let message = "the probability of failure is that of small strain";
+        checker.refuse(&path.key("material").key("weibull"), message, "no `weibull`");
+    }
     let law = solid.material.material().law.deformation();
     if law.large_strain(solid.initial_temperature).is_none() {
         let message = "a solid of large strain cannot be made of this material";
