@@ -38,9 +38,13 @@ def simulate(fmu: Path, folder: Path) -> dict[str, np.ndarray]:
             readings["time"].append(step * STEP)
             for key, name in READ.items():
                 readings[key].append(unit[name])
-        least = unit["bead.least_jacobian"]
-        print(f"left the plate after {unit['bead.lift_off_time'] * 1e3:.2f} ms, {least:.3f} at last")
+        print(f"left the plate after {unit['bead.lift_off_time'] * 1e3:.2f} ms")
     return {key: np.array(values) for key, values in readings.items()}
+
+
+def moment(run: dict, key: str) -> float:
+    """Time of the largest value [s]."""
+    return run["time"][run[key].argmax()]
 
 
 def draw_beads(folder: Path, out: Path) -> Path:
@@ -100,7 +104,7 @@ def main(given: list[str] | None = None) -> dict:
     shared.print_table(
         ["", "largest", "at"],
         [
-            [words, f"{run[key].max() * scale:.2f} {unit}", f"{run['time'][run[key].argmax()]:.4f} s"]
+            [words, f"{run[key].max() * scale:.2f} {unit}", f"{moment(run, key):.4f} s"]
             for words, key, scale, unit in [
                 ("width", "width", 1e3, "mm"),
                 ("force", "force", 1.0, "N"),
