@@ -294,15 +294,10 @@ fn holds(solid: &LargeStrain, mesh: &Mesh, body: &Deformable) -> Vec<[Hold; 3]> 
         for (side, corners) in mesh.faces.iter().filter(|(side, _)| plan::is_on(solid, face, *side))
         {
             for &node in corners {
-                for a in 0..3 {
-                    let own = match number {
-                        _ if held.roller && plan::normal(*side) != a => continue,
-                        Some(number) => Hold::With(number),
-                        None => Hold::Fixed,
-                    };
-                    let hold = &mut holds[node as usize][a];
-                    if *hold != Hold::Fixed {
-                        *hold = own;
+                for (axis, hold) in holds[node as usize].iter_mut().enumerate() {
+                    let is_free = held.roller && plan::normal(*side) != axis;
+                    if *hold != Hold::Fixed && !is_free {
+                        *hold = number.map_or(Hold::Fixed, Hold::With);
                     }
                 }
             }

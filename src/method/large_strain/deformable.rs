@@ -168,12 +168,12 @@ impl Deformable {
             energy += chunk.energy;
             stiffening = stiffening.max(chunk.stiffening);
             // A dilatation that is not a number is below all others.
-            if !(chunk.least.0 >= least.0) {
+            if chunk.least.0.is_nan() || chunk.least.0 < least.0 {
                 least = chunk.least;
             }
         }
         drop(chunks);
-        if !(least.0 > 0.0) {
+        if least.0.is_nan() || least.0 <= 0.0 {
             let at = self.space.volume.at[least.1];
             return Err(match least.0.is_finite() {
                 true => Failure::Inverted { at, dilatation: least.0 },
@@ -226,7 +226,7 @@ impl Deformable {
                         weight * (response.stress[a][b] + jp * at.inverse_transposed[a][b]);
                 }
                 chunk.energy += weight * response.energy;
-                if !(at.dilatation >= chunk.least.0) {
+                if at.dilatation.is_nan() || at.dilatation < chunk.least.0 {
                     chunk.least = (at.dilatation, point);
                 }
                 let wave = response.wave + self.law.wave_of_dilatation(at, mean);

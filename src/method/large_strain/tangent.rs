@@ -35,7 +35,7 @@ struct Block {
 /// A factored stiffness.
 pub enum Factor {
     Positive(Llt<usize, f64>),
-    Indefinite(Lu<usize, f64>),
+    Indefinite(Box<Lu<usize, f64>>),
 }
 
 /// The matrix could not be factored.
@@ -102,7 +102,7 @@ impl Stiffness {
         // Another thread may have been first with the same.
         let _ = self.lu.set(symbolic.clone());
         let lu = Lu::try_new_with_symbolic(symbolic, matrix.as_ref()).map_err(|_| Singular)?;
-        Ok(Factor::Indefinite(lu))
+        Ok(Factor::Indefinite(Box::new(lu)))
     }
 
     /// Bound on the number of entries of all blocks.

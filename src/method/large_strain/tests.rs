@@ -66,7 +66,8 @@ fn uniform_strain_is_exact() {
             boundary.row(point).iter().for_each(|value| outside[value.node as usize] = true);
         }
         let is_inside = |&(node, _): &(usize, &[f64; 3])| {
-            !outside[node] && !(body.space.form == Form::Axisymmetric && body.fixed[node][0])
+            let on_axis = body.space.form == Form::Axisymmetric && body.fixed[node][0];
+            !outside[node] && !on_axis
         };
         let most = forces.iter().flatten().fold(0.0, |most: f64, f| most.max(f.abs()));
         for (node, force) in forces.iter().enumerate().filter(is_inside) {
