@@ -5,7 +5,7 @@ use impinge::laws::solid::large_strain::{
     Deviator, LargeStrainLaw, MaxwellBranch, Plastic, Relaxing,
 };
 use impinge::method::large_strain::{
-    Conditions, Deformable, Dynamics, Equilibrium, Failure, Plane, Rest,
+    Conditions, Deformable, Dynamics, Equilibrium, Failure, Found, Plane, Rest,
 };
 use impinge::runtime::allowance::{Allowance, Interrupt};
 use impinge::space::{Form, Mesh, Side, Space, finite_elements};
@@ -52,7 +52,7 @@ fn cook_rise(n: usize, law: &LargeStrainLaw, traction: f64, steps: usize) -> f64
             forces: forces.iter().map(|force| force.map(|f| part * f)).collect(),
             displacements: vec![[0.0; 3]; forces.len()],
         };
-        equilibrium.step(&mut rest, &to, 0.0).unwrap();
+        settle(&equilibrium, &mut rest, &to);
     }
     rest.displacement[tip.unwrap()][2]
 }
@@ -114,7 +114,7 @@ fn peak_of_drawn_strip() -> (f64, f64) {
         let place = |at: &[f64; 3]| [if at[0] == 48.0 { drawn } else { 0.0 }, 0.0, 0.0];
         let displacements = nodes.iter().map(place).collect();
         let to = Conditions { forces: vec![[0.0; 3]; nodes.len()], displacements };
-        let found = equilibrium.step(&mut rest, &to, 0.0).unwrap();
+        let found = settle(&equilibrium, &mut rest, &to);
         let right = (0..nodes.len()).filter(|&node| nodes[node][0] == 48.0);
         let force = right.map(|node| found.reactions[node][0]).sum::<f64>() / 12.0;
         if force > peak.0 {
@@ -152,7 +152,7 @@ fn a_drawn_plate_follows_the_root() {
             forces: unit.iter().map(|force| force.map(|f| traction * f)).collect(),
             displacements: vec![[0.0; 3]; nodes.len()],
         };
-        let found = equilibrium.step(&mut rest, &to, 0.0).unwrap();
+        let found = settle(&equilibrium, &mut rest, &to);
         let stretch = 1.0 + rest.displacement[end][0] / 48.0;
         assert!((rubber.force(stretch, Sides::OneHeld) / traction - 1.0).abs() < 1e-9);
         // Residuals fall quadratically until they round.
@@ -170,6 +170,11 @@ fn above_plane(mesh: &Mesh, law: LargeStrainLaw, spacing: f64, speed: f64) -> (D
     let stiffness = body.law.wave_modulus() / spacing;
     let plane = Plane { stiffness, height: -lowest, width: spacing };
     (Dynamics::new(body, plane, if speed > 1.0 { 9.81 } else { 0.0 }, mirrors, None), speed)
+}
+
+fn settle(equilibrium: &Equilibrium, rest: &mut Rest, to: &Conditions) -> Found {
+    let interrupt = Interrupt::default();
+    equilibrium.step(rest, to, 0.0, &Allowance::of_step(&interrupt)).unwrap()
 }
 
 fn advance(dynamics: &Dynamics, motion: &mut impinge::method::large_strain::Motion, dt: f64) {
