@@ -51,7 +51,8 @@ TESTS := $(filter-out verification,$(FOLDERS)) \
 	$(basename $(notdir $(wildcard tests/*.rs build-fmu/tests/*.rs)))
 
 # Tests within the library compile it once more, for themselves: without optimisation that takes a fifth of the time,
-# and they check for overflows and debug assertions, too. All other tests run what is packed.
+# and they check for overflows and debug assertions, too. All other tests run what is packed. Each selects from the whole
+# workspace: a selection of single packages has other features of dependencies, which builds the library once more.
 UNOPTIMISED := --config profile.release.package.impinge.opt-level=0 \
 	--config profile.release.package.impinge.debug-assertions=true \
 	--config profile.release.package.impinge.overflow-checks=true
@@ -60,7 +61,7 @@ rust-test:
 	cargo fmt --all --check
 	cargo clippy --release --workspace --all-targets -- -D warnings
 	cargo test --release --workspace --bins $(TESTS:%=--test %)
-	cargo test --release --package assessments --package closed-form --package fmu-lint --lib
+	cargo test --release --workspace --exclude impinge --lib
 	cargo test --release --workspace --doc
 	cargo test --release --package impinge --lib $(UNOPTIMISED)
 
@@ -80,6 +81,7 @@ fuzz: ## drive the C ABI with random calls for SECONDS seconds
 
 verify: build $(VENV)/ready-verify $(MASTERS)/ready ## slow: closed forms, and an independent finite-element code
 	SWEEP_ALL=1 cargo test --release --test fmi -- too_little at_any_start
+	SWEEP_ALL=1 cargo test --release --test suite -- layers_freeze layers_cool
 	cargo test --release --features verification --test verification -- --nocapture --test-threads 1
 	$(BIN)/python tests/verification/particles.py target/tmp out/verification/particles.png
 	$(BIN)/python tests/verification/flows.py target/tmp out/verification

@@ -138,6 +138,14 @@ impl Trial {
     }
 }
 
+/// All values of a sweep where `SWEEP_ALL` is set, as `make verify` does; otherwise those at some places.
+pub fn sweep<T: Copy>(all: &[T], places: &[usize]) -> Vec<T> {
+    match std::env::var_os("SWEEP_ALL") {
+        Some(_) => all.to_vec(),
+        None => places.iter().map(|&place| all[place]).collect(),
+    }
+}
+
 /// Relative difference to a wanted value other than zero.
 pub fn off(value: f64, wanted: f64) -> f64 {
     (value / wanted - 1.0).abs()

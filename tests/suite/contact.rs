@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::common::{Trial, off};
+use crate::common::{Trial, off, sweep};
 use crate::resting_layer::{Below, RestingLayer};
 use impinge::closed_form::{Conductor, Contact, ResistiveContact};
 use impinge::laws::Viscosity;
@@ -262,13 +262,13 @@ const RESISTED: f64 = 0.01;
 fn layers_cool_through_a_resistance() {
     let time: f64 = 3.5e-6;
     let deep = (PI * WATER.diffusivity() * time).sqrt();
-    for wall in [None, Some(6000.0), Some(500.0), Some(100.0)] {
+    for wall in sweep(&[None, Some(6000.0), Some(500.0), Some(100.0)], &[0, 2]) {
         let second = Conductor { conductivity: 1.0, heat_capacity: wall.map_or(1e30, |e| e * e) };
         let bodies =
             Contact { first: WATER, first_temperature: HOT, second, second_temperature: COLD };
-        for fineness in [0.1, 0.5, 2.0, 8.0] {
+        for fineness in sweep(&[0.1, 0.5, 2.0, 8.0], &[0, 2]) {
             let spacing = deep / fineness;
-            for resisting in [0.03, 0.3, 1.0, 3.0, 30.0, 1e3] {
+            for resisting in sweep(&[0.03, 0.3, 1.0, 3.0, 30.0, 1e3], &[0, 2, 4]) {
                 let conductance = resisting * WATER.effusivity() / time.sqrt();
                 let rows = (6.0 * fineness).ceil().max(6.0) as usize;
                 let below = Below { effusivity: wall, conductance: Some(conductance) };

@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use crate::common::{Trial, off};
+use crate::common::{Trial, off, sweep};
 use crate::resting_layer::{Below, RestingLayer};
 use impinge::closed_form::{Conductor, FreezingColumn, FreezingContact};
 use impinge::laws::{Freezing, Melting, Viscosity};
@@ -91,7 +91,7 @@ fn layers_freeze_as_half_spaces_do() {
     for (temperatures, [growth, _]) in CASES {
         let exact = tin_on_steel(temperatures);
         assert!(off(exact.growth(), growth) < 2e-3, "{} {growth}", exact.growth());
-        for (across, tolerated) in [(0.2, 0.01), (2.0, 0.03), (8.0, 0.012)] {
+        for (across, tolerated) in sweep(&[(0.2, 0.01), (2.0, 0.03), (8.0, 0.012)], &[0, 1]) {
             let time = 1e-4;
             let spacing = exact.front(time) / across;
             let mut layer = layer(&exact, (spacing, time), None);
@@ -119,10 +119,10 @@ fn layers_freeze_as_half_spaces_do() {
 #[test]
 fn layers_freeze_through_a_resistance() {
     let time = 1e-4;
-    for (temperatures, _) in [CASES[1], CASES[3]] {
+    for (temperatures, _) in sweep(&[CASES[1], CASES[3]], &[0]) {
         let bodies = tin_on_steel(temperatures);
         let deep = |body: Conductor| 8.0 * (body.diffusivity() * time).sqrt();
-        for conductance in [1e5, 1e6, 2e7] {
+        for conductance in sweep(&[1e5, 1e6, 2e7], &[1]) {
             let column = FreezingColumn {
                 bodies,
                 solidus: bodies.melts_at,
@@ -132,7 +132,7 @@ fn layers_freeze_through_a_resistance() {
                 cells: 800,
             };
             let exact = column.run(time, 1600);
-            for across in [2.0, 8.0] {
+            for across in sweep(&[2.0, 8.0], &[0]) {
                 let spacing = bodies.front(time) / across;
                 let mut layer = layer(&bodies, (spacing, time), Some(conductance));
                 let (mut heat, mut now) = (0.0, 0.0);
