@@ -40,9 +40,10 @@ units: build ## pack every example that is one unit into out/
 examples: units $(VENV)/ready ## run every example
 	@set -e; for name in $(EXAMPLES); do echo "== $$name"; $(BIN)/python examples/$$name/run.py; done
 
-# Once all is built, tests in Python fill the cores while the compiler of further Rust tests leaves them idle. A failure
-# of one does not cut the other short.
-test: build $(VENV)/ready ## everything that is fast
+# Packages are installed while the compiler runs. Once all is built, tests in Python fill the cores while the compiler of
+# further Rust tests leaves them idle. A failure of one does not cut the other short.
+test: ## everything that is fast
+	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target build $(VENV)/ready
 	@$(MAKE) --no-print-directory --jobs=2 --keep-going --output-sync=target rust-test pytest
 
 # All test programs but that of `make verify`.
@@ -81,7 +82,7 @@ fuzz: ## drive the C ABI with random calls for SECONDS seconds
 
 verify: build $(VENV)/ready-verify $(MASTERS)/ready ## slow: closed forms, and an independent finite-element code
 	SWEEP_ALL=1 cargo test --release --test fmi -- too_little at_any_start
-	SWEEP_ALL=1 cargo test --release --test suite -- layers_freeze layers_cool
+	SWEEP_ALL=1 cargo test --release --test suite -- layers_freeze layers_cool any_number_of_drops faces_of_different half_a_turn
 	cargo test --release --features verification --test verification -- --nocapture --test-threads 1
 	$(BIN)/python tests/verification/particles.py target/tmp out/verification/particles.png
 	$(BIN)/python tests/verification/flows.py target/tmp out/verification

@@ -47,6 +47,8 @@ pub enum Quantity {
     StressIntensity,
     /// Energy per area of a new crack.
     EnergyPerArea,
+    /// Inverse of the radius of a bent line.
+    Curvature,
 }
 
 /// A unit for display: `display value = factor · SI value + offset`.
@@ -62,7 +64,7 @@ const fn scaled(name: &'static str, factor: f64) -> Option<DisplayUnit> {
 }
 
 impl Quantity {
-    pub const ALL: [Quantity; 36] = [
+    pub const ALL: [Quantity; 37] = [
         Quantity::Time,
         Quantity::Temperature,
         Quantity::TemperatureDifference,
@@ -99,6 +101,7 @@ impl Quantity {
         Quantity::HeatFlowPerLength,
         Quantity::StressIntensity,
         Quantity::EnergyPerArea,
+        Quantity::Curvature,
     ];
 
     /// The quantity per metre of a plane model's depth; unchanged if independent of depth.
@@ -157,6 +160,7 @@ impl Quantity {
             Quantity::HeatFlowPerLength => "HeatFlowRatePerLength",
             Quantity::StressIntensity => "StressIntensity",
             Quantity::EnergyPerArea => "EnergyPerArea",
+            Quantity::Curvature => "Curvature",
         }
     }
 
@@ -195,6 +199,7 @@ impl Quantity {
             Quantity::HeatFlowPerLength => "W/m",
             Quantity::StressIntensity => "Pa.m(1/2)",
             Quantity::EnergyPerArea => "J/m2",
+            Quantity::Curvature => "1/m",
         }
     }
 
@@ -232,6 +237,7 @@ impl Quantity {
             Quantity::HeatFlowPerLength => [1, 1, -3, 0],
             Quantity::StressIntensity => return None,
             Quantity::EnergyPerArea => [1, 0, -2, 0],
+            Quantity::Curvature => [0, -1, 0, 0],
         })
     }
 
@@ -296,6 +302,7 @@ impl Quantity {
             Quantity::HeatFlowPerLength => 1e2,
             Quantity::StressIntensity => 1e6,
             Quantity::EnergyPerArea => 10.0,
+            Quantity::Curvature => 1.0,
         }
     }
 }

@@ -30,7 +30,7 @@ impl Rubber {
     }
 
     /// Force per reference area [Pa] along the first principal stretch.
-    fn nominal(&self, [a, b, c]: [f64; 3]) -> f64 {
+    pub(crate) fn nominal(&self, [a, b, c]: [f64; 3]) -> f64 {
         let j = a * b * c;
         let trace = a * a + b * b + c * c;
         let isochoric = self.shear * j.powf(-2.0 / 3.0) * (a - trace / (3.0 * a));

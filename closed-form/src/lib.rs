@@ -32,6 +32,7 @@
 //! | [`radiating_lump`] | body of one temperature that radiates |
 //! | [`constrained_layer`] | step heating of a laterally constrained surface |
 //! | [`bonded_plate`] | bonded layers that expand differently: bimetals, films |
+//! | [`bent_strip`] | strip of neo-Hookean layers that expand differently and bend by any angle (numerical) |
 //! | [`free_plate`] | free plate, temperature through the thickness |
 //! | [`heated_disc`] | thin free disc and long free cylinder, temperature along the radius |
 //! | [`disc_pressure`] | half space under uniform pressure on a disc |
@@ -50,6 +51,7 @@
 //! special functions, [`quadrature`] the integrals that no closed form is known for, and [`tridiagonal`] the
 //! equations of numerical oracles.
 
+pub mod bent_strip;
 pub mod bilinear;
 pub mod bonded_plate;
 pub mod bouncing_ball;
@@ -103,6 +105,7 @@ pub mod yielding_pipe;
 #[cfg(test)]
 mod checks;
 
+pub use bent_strip::{BentLayer, BentStrip};
 pub use bilinear::Bilinear;
 pub use bonded_plate::{BondedLayer, BondedPlate};
 pub use bouncing_ball::ElasticBall;

@@ -107,15 +107,14 @@ impl Body {
 
     /// The materials of the body, each with the number of its layer.
     pub(super) fn materials_mut(&mut self) -> Vec<(Option<usize>, &mut MaterialChoice)> {
-        match self {
-            Body::Solid(solid) => {
-                let layers = solid.layers.iter_mut().flatten().enumerate();
-                let layers = layers.map(|(i, layer)| (Some(i), &mut layer.material));
-                solid.material.iter_mut().map(|own| (None, own)).chain(layers).collect()
-            }
-            Body::LargeStrain(solid) => vec![(None, &mut solid.material)],
-            Body::Droplet(_) | Body::Reservoir(_) => Vec::new(),
-        }
+        let (material, layers) = match self {
+            Body::Solid(solid) => (&mut solid.material, &mut solid.layers),
+            Body::LargeStrain(solid) => (&mut solid.material, &mut solid.layers),
+            Body::Droplet(_) | Body::Reservoir(_) => return Vec::new(),
+        };
+        let layers = layers.iter_mut().flatten().enumerate();
+        let layers = layers.map(|(i, layer)| (Some(i), &mut layer.material));
+        material.iter_mut().map(|own| (None, own)).chain(layers).collect()
     }
 
     /// The solid whose heat finite elements conduct, on a mesh that can be refined.

@@ -7,8 +7,10 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use super::lookup::BodyInput;
-use super::materials::MaterialChoice;
-use super::types::{Disc, FaceName, Shape};
+use super::materials::{MaterialChoice, heights};
+use super::types::{Disc, FaceName, Layer, Shape};
+use crate::laws::Material;
+use crate::laws::solid::large_strain::Thermal;
 use crate::limits::{
     Keys, Limits, above_zero, length, own_temperature, plausible, signed, whole, within,
 };
@@ -23,8 +25,17 @@ pub struct LargeStrain {
     /// `{ ball = { radius = R } }`, `{ disc = { radius = R, thickness = T } }` or `{ box = [LX, LY, LZ] }`.
     pub shape: SolidShape,
     /// Material of the body: a table, or the name of a `[material.NAME]`.
-    #[schemars(extend("condition" = "`model`: `neo_hookean`, `viscoelastic`, `elastoplastic`"))]
-    pub material: MaterialChoice,
+    #[schemars(extend(
+        "otherwise" = "`layers`",
+        "condition" = "`model`: `neo_hookean`, `viscoelastic`, `elastoplastic`"
+    ))]
+    pub material: Option<MaterialChoice>,
+    /// Layers from the top, instead of `material`; they fill the thickness.
+    #[schemars(extend(
+        "otherwise" = "`material`",
+        "condition" = "finite elements without inertia, on a box or a disc"
+    ))]
+    pub layers: Option<Vec<Layer>>,
     /// Uniform temperature, at which constants are taken [K].
     #[schemars(transform = own_temperature())]
     pub initial_temperature: f64,
@@ -247,6 +258,11 @@ impl LargeStrain {
         }
     }
 
+    /// Returns true if the shape is a box.
+    pub fn is_box(&self) -> bool {
+        matches!(self.shape, SolidShape::Box(_))
+    }
+
     /// Distance of nodes [m].
     pub fn spacing(&self) -> f64 {
         let [x, y, z] = self.extents();
@@ -310,7 +326,37 @@ impl LargeStrain {
         }
     }
 
-    /// Inputs: the displacements of faces.
+    /// Material of each layer, from the top.
+    pub fn materials_of_layers(&self) -> Vec<&Material> {
+        let layers = self.layers.iter().flatten().map(|layer| &layer.material);
+        self.material.iter().chain(layers).map(MaterialChoice::material).collect()
+    }
+
+    /// Bottom and top of each layer, from the top [m].
+    pub fn heights_of_layers(&self) -> Vec<[f64; 2]> {
+        let [.., thickness] = self.extents();
+        let own = [-thickness, 0.0];
+        self.layers.as_ref().map_or(vec![own], |layers| heights(layers, -thickness))
+    }
+
+    /// Effects of the temperature on each layer, from the top.
+    pub fn thermal(&self) -> Vec<Thermal> {
+        let of = |own: &Material| own.law.deformation().thermal(self.initial_temperature);
+        self.materials_of_layers().into_iter().map(of).collect()
+    }
+
+    /// Returns true if the temperature is an input: the body rests and expands or relaxes with it, and its other constants
+    /// are the same at every temperature.
+    pub fn has_temperature(&self) -> bool {
+        let is_steady = |own: &Material| {
+            let properties = own.law.deformation().properties();
+            properties.iter().all(|(key, other)| *key == "expansion" || other.is_constant())
+        };
+        let mut materials = self.materials_of_layers().into_iter();
+        !self.inertia && self.thermal().iter().any(Thermal::acts) && materials.all(is_steady)
+    }
+
+    /// Inputs: the displacements of faces, then the temperature.
     pub fn inputs(&self) -> Vec<BodyInput> {
         let of_face = |(&face, held): (&FaceName, &HeldFace)| {
             let start = held.displacement?;
@@ -323,7 +369,14 @@ impl LargeStrain {
                 bounds: displacement().bounds(),
             }))
         };
-        self.faces.iter().filter_map(of_face).flatten().collect()
+        let temperature = self.has_temperature().then(|| BodyInput {
+            key: "temperature",
+            words: "uniform temperature of the body",
+            quantity: Quantity::Temperature,
+            start: self.initial_temperature,
+            bounds: own_temperature().bounds(),
+        });
+        self.faces.iter().filter_map(of_face).flatten().chain(temperature).collect()
     }
 }
 

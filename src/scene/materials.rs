@@ -166,6 +166,20 @@ impl Stratum {
     }
 }
 
+/// Bottom and top of each layer of a body whose bottom is at a height [m].
+pub(super) fn heights(layers: &[Layer], bottom: f64) -> Vec<[f64; 2]> {
+    let (mut depth, mut top) = (0.0, 0.0);
+    let place = |(i, layer): (usize, &Layer)| {
+        depth += layer.thickness;
+        // The lowest layer ends at the body's bottom to the bit.
+        let low = if i + 1 == layers.len() { bottom } else { -depth };
+        let z = [low, top];
+        top = low;
+        z
+    };
+    layers.iter().enumerate().map(place).collect()
+}
+
 impl Solid {
     /// The layers, from the top.
     ///
@@ -179,18 +193,11 @@ impl Solid {
                 .map(|constants| Stratum { constants, z: [bottom, 0.0], contact_resistance: 0.0 })
                 .collect();
         };
-        let mut depth = 0.0;
-        let mut top = 0.0;
-        let place = |(i, layer): (usize, &Layer)| {
-            depth += layer.thickness;
-            // The lowest layer ends at the body's bottom to the bit.
-            let low = if i + 1 == layers.len() { bottom } else { -depth };
-            let z = [low, top];
-            top = low;
+        let place = |(layer, z): (&Layer, [f64; 2])| {
             let contact_resistance = layer.contact_resistance.unwrap_or(0.0);
             Stratum { constants: layer.material.material().at(start), z, contact_resistance }
         };
-        layers.iter().enumerate().map(place).collect()
+        layers.iter().zip(heights(layers, bottom)).map(place).collect()
     }
 
     /// Returns true if part of the body melts.

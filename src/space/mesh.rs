@@ -66,6 +66,17 @@ impl Mesh {
         })
     }
 
+    /// Moves the layers of nodes of a box or a cylinder, which are equally thick, to heights from the bottom on.
+    pub fn at_heights(mut self, heights: &[f64]) -> Self {
+        let (low, high) = (heights[0], heights[heights.len() - 1]);
+        let steps = (heights.len() - 1) as f64;
+        for node in &mut self.nodes {
+            let place = ((node[2] - low) / (high - low) * steps).round();
+            node[2] = heights[place as usize];
+        }
+        self
+    }
+
     /// A cylinder of a radius and a thickness about z below the origin: `counts` are those of the inner block (half of it)
     /// along x and y, from it to the surface, and along z. Only the part with positive x (or y) is meshed where `halved`.
     pub fn of_cylinder(

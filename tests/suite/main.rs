@@ -66,6 +66,7 @@ mod shorthand;
 mod solid;
 mod substance_reference;
 mod tension;
+mod thermal_stretch;
 mod tolerance;
 mod viscosity;
 mod viscous;

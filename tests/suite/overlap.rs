@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::common::{Trial, off};
+use crate::common::{Trial, off, sweep};
 use impinge::advice;
 use impinge::model::tolerance::warnings;
 use impinge::scene;
@@ -98,7 +98,7 @@ fn any_number_of_drops_at_once_leaves_a_plate_between_its_own_and_their_temperat
         (GLYCEROL, STEEL, DISC, [450.0, 300.0], "film"),
     ] {
         let text = drops(liquid, method, drop, ON_DEMAND) + &plate(shape, material, wall);
-        for count in [1.0, 3.0, 60.0] {
+        for count in sweep(&[1.0, 3.0, 60.0], &[2]) {
             let mut trial = bounded(&text, count, (drop, wall), &steps);
             let part = trial.get("drop.heat") / (count * heat_of(liquid, drop - wall));
             assert!(part > 0.0 && part < 1.0 + 1e-9, "{count} drops give {part} of their heat");

@@ -5,7 +5,7 @@ use impinge::laws::solid::large_strain::{
     Deviator, LargeStrainLaw, MaxwellBranch, Plastic, Relaxing,
 };
 use impinge::method::large_strain::{
-    Conditions, Deformable, Dynamics, Equilibrium, Failure, Found, Plane, Rest,
+    Conditions, Course, Deformable, Dynamics, Equilibrium, Failure, Found, Plane, Rest,
 };
 use impinge::runtime::allowance::{Allowance, Interrupt};
 use impinge::space::{Form, Mesh, Side, Space, finite_elements};
@@ -167,14 +167,14 @@ fn above_plane(mesh: &Mesh, law: LargeStrainLaw, spacing: f64, speed: f64) -> (D
     let mirrors = [mesh.form == Form::Plane, false];
     let body = Deformable::new(finite_elements(mesh), law, 1000.0, mirrors, 2);
     let lowest = body.space.nodes.iter().map(|at| at[2]).fold(f64::INFINITY, f64::min);
-    let stiffness = body.law.wave_modulus() / spacing;
+    let stiffness = body.wave_modulus() / spacing;
     let plane = Plane { stiffness, height: -lowest, width: spacing };
     (Dynamics::new(body, plane, if speed > 1.0 { 9.81 } else { 0.0 }, mirrors, None), speed)
 }
 
 fn settle(equilibrium: &Equilibrium, rest: &mut Rest, to: &Conditions) -> Found {
     let interrupt = Interrupt::default();
-    equilibrium.step(rest, to, 0.0, &Allowance::of_step(&interrupt)).unwrap()
+    equilibrium.step(rest, to, &[Course::NONE], &Allowance::of_step(&interrupt)).unwrap()
 }
 
 fn advance(dynamics: &Dynamics, motion: &mut impinge::method::large_strain::Motion, dt: f64) {

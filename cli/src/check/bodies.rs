@@ -1,6 +1,6 @@
 //! Tables of a scene's bodies.
 
-use impinge::scene::{Droplet, MaterialChoice, Scene, Shape, Solid, SolidShape};
+use impinge::scene::{Droplet, Layer, MaterialChoice, Scene, Shape, SolidShape};
 
 use super::words::{key, metres};
 use crate::table::table;
@@ -13,7 +13,7 @@ pub fn bodies(scene: &Scene) -> String {
             [
                 name.to_owned(),
                 shape(&solid.shape),
-                law(solid),
+                law(solid.material.as_ref(), solid.layers.as_deref()),
                 kelvin(solid.initial_temperature),
                 key(&solid.heat),
                 key(&solid.symmetry),
@@ -34,7 +34,7 @@ pub fn large_strains(scene: &Scene) -> String {
                     (_, Some(plate)) => shape(&plate),
                     (_, None) => String::new(),
                 },
-                material(&solid.material),
+                law(solid.material.as_ref(), solid.layers.as_deref()),
                 if solid.inertia { "yes" } else { "no" }.to_owned(),
                 if solid.dimension == 2 { "plane" } else { "space" }.to_owned(),
                 metres(solid.spacing()),
@@ -94,11 +94,12 @@ pub fn shape(shape: &Shape) -> String {
 }
 
 /// Names the material of a body: its named material or constitutive law, or its layers.
-pub fn law(solid: &Solid) -> String {
-    let layers = solid.layers.iter().flatten();
-    let own = solid.material.iter().map(material);
-    let layers =
-        layers.map(|layer| format!("{} {}", metres(layer.thickness), material(&layer.material)));
+pub fn law(own: Option<&MaterialChoice>, layers: Option<&[Layer]>) -> String {
+    let own = own.into_iter().map(material);
+    let layers = layers
+        .into_iter()
+        .flatten()
+        .map(|layer| format!("{} {}", metres(layer.thickness), material(&layer.material)));
     own.chain(layers).collect::<Vec<_>>().join(" on ")
 }
 

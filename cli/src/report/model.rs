@@ -42,7 +42,7 @@ fn solid(scene: &Scene, body: &BodyForecast) -> Part {
     let mut facts = Vec::new();
     if let Some(solid) = scene.solid(&body.name) {
         facts.push(Fact::new("shape", shape(&solid.shape)));
-        facts.push(Fact::new("material", law(solid)));
+        facts.push(Fact::new("material", law(solid.material.as_ref(), solid.layers.as_deref())));
         facts.push(Fact::new("initially", kelvin(solid.initial_temperature)));
         facts.push(Fact::new("heat by", key(&solid.heat)));
         facts.push(Fact::new("symmetry", key(&solid.symmetry)));

@@ -2,6 +2,7 @@
 
 use super::plan;
 use crate::body::threads_for;
+use crate::laws::solid::large_strain::Thermal;
 use crate::scene::{Coupling, LargeStrain, Mechanics, Scene};
 use crate::space::{Form, Integration, Mesh};
 
@@ -42,9 +43,10 @@ impl LargeStrainForecast {
         let nodes = mesh.nodes.len();
         let (points, functions) = points(solid, &mesh);
         let threads = threads_for(scene.solver.threads, super::is_large(points)) as f64;
-        let law = plan::law(solid);
-        let density = solid.material.material().heat.density;
-        let speed = (law.wave_modulus() / density).sqrt();
+        let layers = plan::layers(solid);
+        let speeds = layers.iter().map(|own| (own.law.wave_modulus() / own.density).sqrt());
+        let speed = speeds.fold(0.0, f64::max);
+        let history = layers.iter().map(|own| own.law.history()).max().unwrap_or(0);
         // Four fifths of the largest stable step, with the plane as stiff as the body.
         let time_step = solid.inertia.then(|| OF_CROSSING * solid.spacing() / speed);
         let exchanges = (scene.stop_time / scene.step).ceil();
@@ -56,7 +58,7 @@ impl LargeStrainForecast {
                 assembly + 5.0 * factor_time(plan::form(solid), nodes as f64)
             }
         };
-        let of_point = POINT + FUNCTION * functions + 8.0 * law.history() as f64;
+        let of_point = POINT + FUNCTION * functions + 8.0 * history as f64;
         let solver = if solid.inertia { 0.0 } else { solver_memory(&mesh, functions) };
         let memory = of_point * points as f64 + solver;
         Self {
@@ -141,6 +143,7 @@ pub fn notes(solid: &LargeStrain) -> Vec<String> {
         false => "the body has no inertia: it is in equilibrium at every communication point",
     };
     let mut notes = vec![part, motion.to_owned()];
+    notes.extend(note_on_temperature(solid).map(str::to_owned));
     notes.extend(match solid.mechanics {
         Mechanics::Fem => None,
         Mechanics::Rkpm => {
@@ -150,10 +153,20 @@ pub fn notes(solid: &LargeStrain) -> Vec<String> {
             Some("nodes have moving least squares, which reach over several elements".to_owned())
         }
     });
-    if solid.mechanics != Mechanics::Fem && plan::law(solid).is_nearly_incompressible() {
+    let mut layers = plan::layers(solid).into_iter();
+    let hardly_changes = layers.any(|own| own.law.is_nearly_incompressible());
+    if solid.mechanics != Mechanics::Fem && hardly_changes {
         notes.push(NOTE_ON_LOCKING.to_owned());
     }
     notes
+}
+
+fn note_on_temperature(solid: &LargeStrain) -> Option<&'static str> {
+    if solid.has_temperature() {
+        return Some("the body has one temperature, which is an input: no heat flows in it");
+    }
+    let acts = solid.thermal().iter().any(Thermal::acts);
+    acts.then_some("the body keeps its initial temperature: it neither expands nor relaxes faster where it is warm")
 }
 
 /// Note on kernels whose points each have a dilatation of their own.

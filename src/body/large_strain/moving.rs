@@ -1,6 +1,6 @@
 //! A solid of large strain that moves freely above a plane or another body.
 
-use super::snapshot::{Seen, Snapshot, copies};
+use super::snapshot::{Seen, Snapshot, columns, copies};
 use super::totals::{self, Sums};
 use super::{LargeStrainMemo, is_large, plan};
 use crate::body::{
@@ -19,6 +19,7 @@ pub struct MovingBody {
     dynamics: Dynamics,
     start: Motion,
     mirrors: [bool; 2],
+    columns: Vec<[usize; 2]>,
     temperature: f64,
     /// True if the impulse on what lies below is transferred; `None` above a rigid plane.
     traction: Option<bool>,
@@ -40,6 +41,7 @@ impl MovingBody {
         let threads = threads(is_large(plan::mesh(solid).cells.len() * 8));
         let body = plan::deformable(solid, threads).map_err(named)?;
         let plane = plan::plane(solid, &body);
+        let columns = columns(&body.space, solid.is_box());
         let traction = on.as_ref().map(|(_, link)| link.traction);
         let cells = on.map(|(cells, _)| cells);
         let dynamics = Dynamics::new(body, plane, solid.gravity, solid.mirrors(), cells);
@@ -49,6 +51,7 @@ impl MovingBody {
             start,
             dynamics,
             mirrors: solid.mirrors(),
+            columns,
             temperature: solid.initial_temperature,
             traction,
             notes: super::forecast::notes(solid),
@@ -73,6 +76,8 @@ impl MovingBody {
             mirrors: self.mirrors,
             lifted: self.dynamics.plane.height,
             displacement: &motion.displacement,
+            stretches: &[1.0],
+            columns: &self.columns,
             velocity: Some(&motion.velocity),
             history: &motion.history,
             touch: None,

@@ -1,13 +1,16 @@
 //! Converts a solid of large strain of a scene to its mesh and its mechanics.
 
-use crate::laws::solid::large_strain::LargeStrainLaw;
+use std::ops::Range;
+
+use crate::laws::Material;
 use crate::method::fem::Refinement;
-use crate::method::large_strain::{Deformable, Failure, Plane};
+use crate::method::large_strain::{Deformable, Failure, LayerOfBody, Plane};
 use crate::scene::{
     Coupling, FaceName, KernelIntegration, KernelSettings, LargeStrain, Mechanics, SolidShape,
 };
 use crate::space::{
-    Form, Integration, Kernel, Mesh, Reproducing, Shape, Side, Sides, finite_elements, reproducing,
+    Form, Integration, Kernel, Mesh, Reproducing, Shape, Side, Sides, Space, finite_elements,
+    reproducing,
 };
 
 /// Stiffness of the plane over that of a layer of the body one spacing thick.
@@ -37,14 +40,19 @@ pub fn mesh(solid: &LargeStrain) -> Mesh {
         }
         SolidShape::Disc(disc) if form == Form::Solid => {
             let [inner, outer] = [INNER, OUTER].map(|part| count(part * disc.radius));
-            Mesh::of_cylinder([disc.radius, disc.thickness], [inner, outer, count(z)], mirrors)
+            let heights = heights(solid);
+            let counts = [inner, outer, heights.len() - 1];
+            let mesh = Mesh::of_cylinder([disc.radius, disc.thickness], counts, mirrors);
+            if solid.layers.is_some() { mesh.at_heights(&heights) } else { mesh }
         }
         SolidShape::Box(_) | SolidShape::Disc(_) => {
             let halved = [mirrors[0] || form == Form::Axisymmetric, mirrors[1]];
             let low = |a: usize, length: f64| if halved[a] { 0.0 } else { -0.5 * length };
             let (left, front) = (low(0, x), low(1, y));
-            let counts = [count(0.5 * x - left), count(0.5 * y - front), count(z)];
+            let heights = heights(solid);
+            let counts = [count(0.5 * x - left), count(0.5 * y - front), heights.len() - 1];
             let mesh = Mesh::of_box(form, [left, front, -z], [0.5 * x, 0.5 * y, 0.0], counts);
+            let mesh = if solid.layers.is_some() { mesh.at_heights(&heights) } else { mesh };
             // Planes of symmetry bound the model and not the body.
             let cut =
                 |side: Side| side == Side::Left && halved[0] || side == Side::Front && halved[1];
@@ -53,20 +61,58 @@ pub fn mesh(solid: &LargeStrain) -> Mesh {
     }
 }
 
-pub fn law(solid: &LargeStrain) -> LargeStrainLaw {
-    let law = solid.material.material().law.deformation().large_strain(solid.initial_temperature);
-    law.expect("a checked solid of large strain has a law of large strain")
+/// The layers, from the top.
+pub fn layers(solid: &LargeStrain) -> Vec<LayerOfBody> {
+    let of_layer = |material: &Material| {
+        let law = material.law.deformation().large_strain(solid.initial_temperature);
+        LayerOfBody {
+            law: law.expect("a checked solid of large strain has a law of large strain"),
+            density: material.heat.density,
+        }
+    };
+    solid.materials_of_layers().into_iter().map(of_layer).collect()
 }
 
 pub fn deformable(solid: &LargeStrain, threads: usize) -> Result<Deformable, Failure> {
-    let density = solid.material.material().heat.density;
     let mesh = mesh(solid);
+    let layers = layers(solid);
+    if solid.layers.is_some() {
+        let space = finite_elements(&mesh);
+        let of_groups = layers_of_groups(solid, &space);
+        return Ok(Deformable::layered(space, (layers, of_groups), solid.mirrors(), threads));
+    }
+    let LayerOfBody { law, density } = layers.into_iter().next().expect("a body has a material");
     let space = match solid.mechanics {
         Mechanics::Fem => finite_elements(&mesh),
         Mechanics::Rkpm | Mechanics::Efg => reproducing(&mesh, kernels(solid, &mesh))?,
     };
-    Ok(Deformable::new(space, law(solid), density, solid.mirrors(), threads))
+    Ok(Deformable::new(space, law, density, solid.mirrors(), threads))
 }
+
+/// Layer of each group of points, all of which lie in it.
+fn layers_of_groups(solid: &LargeStrain, space: &Space) -> Vec<usize> {
+    let heights = solid.heights_of_layers();
+    let of_group = |group: &Range<usize>| {
+        let z = space.volume.at[group.start][2];
+        heights.iter().position(|[low, _]| z > *low).unwrap_or(heights.len() - 1)
+    };
+    space.groups.iter().map(of_group).collect()
+}
+
+/// Heights of the nodes of a box or a disc, from the bottom [m]: each layer has elements of its own.
+fn heights(solid: &LargeStrain) -> Vec<f64> {
+    let least = if solid.layers.is_some() { LEAST_IN_LAYER } else { 1 };
+    let mut heights = Vec::new();
+    for [low, high] in solid.heights_of_layers().into_iter().rev() {
+        let count = ((high - low) / solid.spacing()).round().max(least as f64) as usize;
+        heights.extend((0..count).map(|n| low + (high - low) * n as f64 / count as f64));
+    }
+    heights.push(0.0);
+    heights
+}
+
+/// Fewest elements through a layer.
+const LEAST_IN_LAYER: usize = 2;
 
 /// Settings of reproducing kernels, with functions that can be held at the faces of a body.
 pub fn kernels(solid: &LargeStrain, mesh: &Mesh) -> Reproducing {
@@ -97,7 +143,7 @@ pub fn plane(solid: &LargeStrain, body: &Deformable) -> Plane {
     let spacing = solid.spacing();
     let lowest = body.space.nodes.iter().map(|at| at[2]).fold(f64::INFINITY, f64::min);
     Plane {
-        stiffness: PLANE * body.law.wave_modulus() / spacing,
+        stiffness: PLANE * body.wave_modulus() / spacing,
         height: solid.start.height - lowest,
         width: spacing,
     }

@@ -1,17 +1,18 @@
-//! A solid of large strain in equilibrium under the displacements of its faces.
+//! A solid of large strain in equilibrium under the displacements of its faces and its temperature.
 
 use std::ops::Range;
 use std::slice::from_mut;
 
-use super::snapshot::{Seen, Snapshot, copies};
+use super::snapshot::{Seen, Snapshot, columns, copies};
 use super::totals::{self, Sums, moved_faces};
 use super::{is_large, plan};
 use crate::body::{
     Acts, Advice, Body, BodyError, Fields, Given, Giver, Maxima, Memo, Reading, Received, Resources,
 };
 use crate::inputs::InputLayout;
+use crate::laws::solid::large_strain::Thermal;
 use crate::method::large_strain::{
-    Conditions, Deformable, Equilibrium, Failure, Rest, STEPS, WORK,
+    Conditions, Course, Deformable, Equilibrium, Failure, Rest, STEPS, WORK,
 };
 use crate::runtime::allowance::{Allowance, Interrupt, cost};
 use crate::scene::LargeStrain;
@@ -30,15 +31,36 @@ pub struct RestingBody {
     /// Axes along which the displacements of faces are prescribed, face by face.
     moved: Vec<Vec<usize>>,
     mirrors: [bool; 2],
+    columns: Vec<[usize; 2]>,
+    /// Temperature at the start [K].
     temperature: f64,
-    /// Places of the displacements among the inputs.
+    /// Effects of the temperature on each layer.
+    thermal: Vec<Thermal>,
+    /// Places of the displacements, and of the temperature if it acts, among the inputs.
     inputs: Range<usize>,
     notes: Vec<String>,
 }
 
-/// Memo of the body: displacements of the moved faces by the inputs, and what is read of the equilibrium under them.
+/// What the inputs prescribe at a time.
+#[derive(Debug, Clone, PartialEq)]
+struct Prescribed {
+    /// Displacements of the moved faces [m].
+    faces: Vec<[f64; 3]>,
+    /// [K]
+    temperature: f64,
+}
+
+impl Prescribed {
+    fn middle(&self, other: &Self) -> Self {
+        let half = |(a, b): (&[f64; 3], &[f64; 3])| [0, 1, 2].map(|n| 0.5 * (a[n] + b[n]));
+        let faces = self.faces.iter().zip(&other.faces).map(half).collect();
+        Self { faces, temperature: 0.5 * (self.temperature + other.temperature) }
+    }
+}
+
+/// Memo of the body: what the inputs prescribe, and what is read of the equilibrium under it.
 struct RestingMemo {
-    to: Vec<[f64; 3]>,
+    to: Prescribed,
     seen: Option<(Snapshot, Sums, Vec<[f64; 3]>)>,
 }
 
@@ -63,7 +85,9 @@ enum Hold {
 struct Resting {
     time: f64,
     steps: f64,
-    /// Work of the stresses and energy stored [J].
+    /// [K]
+    temperature: f64,
+    /// Work of the stresses and of expansion, and energy stored [J].
     work: f64,
     stored: f64,
     rest: Rest,
@@ -86,7 +110,8 @@ impl StateFields for Resting {
         vec![
             (body("time", "time since the start [s]"), from_mut(&mut self.time)),
             (body("steps", "steps made"), from_mut(&mut self.steps)),
-            (body("work", "work of the stresses [J]"), from_mut(&mut self.work)),
+            (body("temperature", "temperature [K]"), from_mut(&mut self.temperature)),
+            (body("work", "work of stresses and expansion [J]"), from_mut(&mut self.work)),
             (body("stored", "energy stored [J]"), from_mut(&mut self.stored)),
             (
                 of("forces", "forces on moved faces [N]", Per::Face, 3),
@@ -116,7 +141,10 @@ impl RestingBody {
         let moved: Vec<Vec<usize>> =
             moved_faces(solid).into_iter().map(|face| solid.moved_axes(face)).collect();
         let forces = vec![[0.0; 3]; moved.len()];
-        let start = Resting { rest: equilibrium.rest(), forces, ..Resting::default() };
+        let columns = columns(&equilibrium.body.space, solid.is_box());
+        let temperature = solid.initial_temperature;
+        let rest = equilibrium.rest();
+        let start = Resting { temperature, rest, forces, ..Resting::default() };
         let own = Self {
             name: name.to_owned(),
             equilibrium,
@@ -125,44 +153,72 @@ impl RestingBody {
             weight,
             moved,
             mirrors: solid.mirrors(),
-            temperature: solid.initial_temperature,
+            columns,
+            temperature,
+            thermal: solid.thermal(),
             inputs: layout.of_body(name),
             notes: super::forecast::notes(solid),
         };
         Ok(own)
     }
 
-    /// Displacements of the moved faces from all inputs.
-    fn displacements(&self, inputs: &[f64]) -> Vec<[f64; 3]> {
+    /// What all inputs prescribe.
+    fn prescribed(&self, inputs: &[f64]) -> Prescribed {
         let mut own = inputs[self.inputs.clone()].iter();
         let of_face = |axes: &Vec<usize>| {
             let mut displacement = [0.0; 3];
             axes.iter().zip(&mut own).for_each(|(&axis, &value)| displacement[axis] = value);
             displacement
         };
-        self.moved.iter().map(of_face).collect()
+        let faces = self.moved.iter().map(of_face).collect();
+        Prescribed { faces, temperature: own.next().copied().unwrap_or(self.temperature) }
     }
 
-    /// Finds the equilibrium after a time [s] with moved faces there; halves the step where none is found.
+    /// The step of each layer over a time [s] in which the temperature changes linearly [K].
+    fn course(&self, temperatures: [f64; 2], dt: f64) -> Result<Vec<Course>, Failure> {
+        let of_layer = |thermal: &Thermal| {
+            let (temperature, stretch) = (temperatures[1], thermal.stretch(temperatures[1]));
+            if !(stretch > 0.0 && stretch.is_finite()) {
+                return Err(Failure::Shrunk { temperature, stretch });
+            }
+            Ok(Course { time: thermal.reduced_time(temperatures, dt), stretch })
+        };
+        self.thermal.iter().map(of_layer).collect()
+    }
+
+    /// Thermal stretch of each layer at a temperature [K].
+    fn stretches(&self, temperature: f64) -> Vec<f64> {
+        self.thermal.iter().map(|thermal| thermal.stretch(temperature)).collect()
+    }
+
+    /// Returns true if part of the body remembers what happened to it.
+    fn remembers(&self) -> bool {
+        self.equilibrium.body.history() > 0
+    }
+
+    /// Finds the equilibrium after a time [s] under what is prescribed there; halves the step where none is found.
     fn settle(
         &self,
         state: &mut Resting,
-        to: &[[f64; 3]],
+        to: &Prescribed,
         dt: f64,
         halvings: u32,
         allowance: &Allowance,
     ) -> Result<(), Failure> {
-        let conditions = self.conditions(to);
-        match self.equilibrium.step(&mut state.rest, &conditions, dt, allowance) {
+        let conditions = self.conditions(&to.faces);
+        let course = self.course([state.temperature, to.temperature], dt)?;
+        let expansion = self.work_of_expansion(state, to.temperature)?;
+        match self.equilibrium.step(&mut state.rest, &conditions, &course, allowance) {
             Ok(found) => {
                 let before = state.stored;
-                state.work += match self.equilibrium.body.law.history() {
+                state.work += match self.remembers() {
                     // Elastic work is what is stored.
-                    0 => found.stored - before,
-                    _ => found.work,
+                    false => found.stored - before,
+                    true => found.work + expansion,
                 };
                 state.stored = found.stored;
                 state.time += dt;
+                state.temperature = to.temperature;
                 state.steps += 1.0;
                 state.forces = self.forces(&found.reactions);
                 Ok(())
@@ -170,19 +226,28 @@ impl RestingBody {
             Err(failure @ Failure::Halted(_)) => Err(failure),
             Err(failure) if halvings == 0 => Err(failure),
             Err(_) => {
-                let from = self.places(state);
-                let half = |n: usize| [0, 1, 2].map(|a| 0.5 * (from[n][a] + to[n][a]));
-                let middle: Vec<[f64; 3]> = (0..to.len()).map(half).collect();
+                let middle = self.held(state).middle(to);
                 self.settle(state, &middle, 0.5 * dt, halvings - 1, allowance)?;
                 self.settle(state, to, 0.5 * dt, halvings - 1, allowance)
             }
         }
     }
 
-    /// The equilibrium under the present displacements of the faces, which inputs may have moved since the last step.
-    fn present(&self, state: &[f64], to: &[[f64; 3]]) -> Result<Resting, BodyError> {
+    /// Energy that a change of temperature alone gives to a body with a history [J].
+    fn work_of_expansion(&self, state: &Resting, temperature: f64) -> Result<f64, Failure> {
+        let body = &self.equilibrium.body;
+        if !self.remembers() || temperature == state.temperature {
+            return Ok(0.0);
+        }
+        let (u, mut history) = (&state.rest.displacement, state.rest.history.clone());
+        let over = self.course([temperature; 2], 0.0)?;
+        Ok(body.respond(u, &over, &mut history, &body.team())?.energy - state.stored)
+    }
+
+    /// The equilibrium under the present inputs, which may have changed since the last step.
+    fn present(&self, state: &[f64], to: &Prescribed) -> Result<Resting, BodyError> {
         let mut present = self.resting(state);
-        if present.steps == 0.0 || self.places(&present) != to {
+        if present.steps == 0.0 || self.held(&present) != *to {
             let (time, steps) = (present.time, present.steps);
             let interrupt = Interrupt::default();
             let allowance = Allowance::of_updates(&interrupt, f64::INFINITY);
@@ -204,8 +269,8 @@ impl RestingBody {
         Conditions { forces: self.weight.clone(), displacements }
     }
 
-    /// Displacements of the moved faces in a state.
-    fn places(&self, state: &Resting) -> Vec<[f64; 3]> {
+    /// What was prescribed of a state.
+    fn held(&self, state: &Resting) -> Prescribed {
         let mut places = vec![[0.0; 3]; self.moved.len()];
         for (holds, u) in self.holds.iter().zip(&state.rest.displacement) {
             for a in 0..3 {
@@ -214,7 +279,7 @@ impl RestingBody {
                 }
             }
         }
-        places
+        Prescribed { faces: places, temperature: state.temperature }
     }
 
     /// Forces on the moved faces, images included; those of images along mirrored axes cancel.
@@ -243,15 +308,18 @@ impl RestingBody {
     }
 
     fn snapshot(&self, state: &Resting) -> Result<Snapshot, BodyError> {
-        self.seen(state).snapshot().map_err(|failure| self.error(failure))
+        let stretches = self.stretches(state.temperature);
+        self.seen(state, &stretches).snapshot().map_err(|failure| self.error(failure))
     }
 
-    fn seen<'a>(&'a self, state: &'a Resting) -> Seen<'a> {
+    fn seen<'a>(&'a self, state: &'a Resting, stretches: &'a [f64]) -> Seen<'a> {
         Seen {
             body: &self.equilibrium.body,
             mirrors: self.mirrors,
             lifted: 0.0,
             displacement: &state.rest.displacement,
+            stretches,
+            columns: &self.columns,
             velocity: None,
             history: &state.rest.history,
             touch: None,
@@ -269,6 +337,14 @@ impl RestingBody {
     fn check_resting(&self, state: &Resting) -> Result<(), String> {
         if state.time < 0.0 || state.steps < 0.0 {
             return Err("time and steps are not negative".to_owned());
+        }
+        let temperature = state.temperature;
+        let moves = temperature != self.temperature;
+        if temperature.is_nan()
+            || temperature <= 0.0
+            || moves && !self.thermal.iter().any(Thermal::acts)
+        {
+            return Err(format!("a temperature of {temperature} K"));
         }
         for (holds, u) in self.holds.iter().zip(&state.rest.displacement) {
             if (0..3).any(|a| holds[a] == Hold::Fixed && u[a] != 0.0) {
@@ -337,7 +413,7 @@ impl Body for RestingBody {
     }
 
     fn memo(&self, inputs: &[f64], _: &[Received]) -> Memo {
-        Box::new(RestingMemo { to: self.displacements(inputs), seen: None })
+        Box::new(RestingMemo { to: self.prescribed(inputs), seen: None })
     }
 
     fn forget_state(&self, memo: &mut Memo) {
@@ -353,13 +429,13 @@ impl Body for RestingBody {
     ) -> Result<Option<Given>, BodyError> {
         let mut resting = self.resting(state);
         // Inputs that have jumped act at once, before stress relaxes.
-        let from = self.displacements(&acts.path.at(0, 0.0));
-        let jumps = resting.steps == 0.0 || self.places(&resting) != from;
-        if jumps && self.equilibrium.body.law.history() > 0 {
+        let from = self.prescribed(&acts.path.at(0, 0.0));
+        let jumps = resting.steps == 0.0 || self.held(&resting) != from;
+        if jumps && self.remembers() {
             let settled = self.settle(&mut resting, &from, 0.0, HALVINGS, allowance);
             settled.map_err(|failure| self.error(failure))?;
         }
-        let to = self.displacements(&acts.path.at(0, acts.duration));
+        let to = self.prescribed(&acts.path.at(0, acts.duration));
         let settled = self.settle(&mut resting, &to, acts.duration, HALVINGS, allowance);
         settled.map_err(|failure| self.error(failure))?;
         store(&mut resting, state);
@@ -388,7 +464,8 @@ impl Body for RestingBody {
 
     fn fields(&self, state: &[f64], memo: &mut Memo) -> Result<Fields, BodyError> {
         let present = self.present(state, &RestingMemo::of_mut(memo).to)?;
-        Ok(Fields::Particles(self.seen(&present).particles(self.temperature)))
+        let stretches = self.stretches(present.temperature);
+        Ok(Fields::Particles(self.seen(&present, &stretches).particles(present.temperature)))
     }
 }
 

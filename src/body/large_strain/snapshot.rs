@@ -1,9 +1,9 @@
 //! Measures of a deformed solid of large strain.
 
 use crate::laws::solid::large_strain::Deformed;
-use crate::method::large_strain::{Deformable, Failure, Touch};
+use crate::method::large_strain::{Course, Deformable, Failure, Touch};
 use crate::method::sph::ParticleFields;
-use crate::space::Form;
+use crate::space::{Form, Space};
 
 /// Measures of a deformed body, of the whole of it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -25,6 +25,8 @@ pub struct Snapshot {
     pub mass: f64,
     /// Largest distance of a point in contact from the middle of the contact [m].
     pub contact_radius: f64,
+    /// Mean curvature of the middle half of a strip in the plane [1/m].
+    pub curvature: f64,
 }
 
 /// Number of mirror images of which a model is one.
@@ -32,13 +34,36 @@ pub fn copies(mirrors: [bool; 2]) -> f64 {
     mirrors.iter().map(|&mirrored| if mirrored { 2.0 } else { 1.0 }).product()
 }
 
+/// Lowest and highest node of each column of nodes within the middle half of a strip along x, in their order; none if the
+/// model is no box in the plane.
+pub fn columns(space: &Space, is_box: bool) -> Vec<[usize; 2]> {
+    if !is_box || space.form != Form::Plane {
+        return Vec::new();
+    }
+    let most = space.nodes.iter().map(|at| at[0].abs()).fold(0.0, f64::max);
+    let inside = (0..space.nodes.len()).filter(|&n| space.nodes[n][0].abs() <= MIDDLE * most);
+    let mut inside: Vec<usize> = inside.collect();
+    let key = |n: usize| [space.nodes[n][0], space.nodes[n][2]];
+    inside.sort_by(|&a, &b| key(a).partial_cmp(&key(b)).expect("places of nodes are numbers"));
+    let columns = inside.chunk_by(|&a, &b| (key(a)[0] - key(b)[0]).abs() <= SAME * most);
+    columns.map(|column| [column[0], column[column.len() - 1]]).collect()
+}
+
+/// Half of the length within which the curvature of a strip is read, over half of its length; slack against rounding.
+const MIDDLE: f64 = 0.5 + SAME;
+const SAME: f64 = 1e-9;
+
 /// A state of a body, from which it is read.
 pub struct Seen<'a> {
     pub body: &'a Deformable,
     pub mirrors: [bool; 2],
+    /// Columns of a strip; see [`columns`].
+    pub columns: &'a [[usize; 2]],
     /// Height of the reference configuration above its place in space [m].
     pub lifted: f64,
     pub displacement: &'a [[f64; 3]],
+    /// Thermal stretch of each layer.
+    pub stretches: &'a [f64],
     /// `None` for a body at rest.
     pub velocity: Option<&'a [[f64; 3]]>,
     pub history: &'a [f64],
@@ -51,7 +76,8 @@ impl Seen<'_> {
         let body = self.body;
         let mut history = self.history.to_vec();
         let team = &body.team();
-        let stresses = body.respond(self.displacement, 0.0, &mut history, team)?;
+        let over = self.over();
+        let stresses = body.respond(self.displacement, &over, &mut history, team)?;
         let copies = copies(self.mirrors);
         let moved = body.displacements(self.displacement);
         let places = || body.space.nodes.iter().zip(&moved);
@@ -76,6 +102,7 @@ impl Seen<'_> {
             stored: copies * (stresses.energy + energy_of_contact),
             mass: copies * mass,
             contact_radius: self.touch.map_or(0.0, |touch| self.radius(touch)),
+            curvature: self.curvature(&moved),
             ..Snapshot::default()
         };
         if let Some(velocity) = self.velocity {
@@ -91,6 +118,32 @@ impl Seen<'_> {
             }
         }
         Ok(snapshot)
+    }
+
+    /// Change of the columns' directions over the length of the strip between them [1/m].
+    fn curvature(&self, moved: &[[f64; 3]]) -> f64 {
+        let nodes = &self.body.space.nodes;
+        let direction = |&[bottom, top]: &[usize; 2]| {
+            let along =
+                |a: usize| nodes[top][a] + moved[top][a] - nodes[bottom][a] - moved[bottom][a];
+            [along(0), along(2)]
+        };
+        let turn = |pair: &[[usize; 2]]| {
+            let ([a, b], [c, d]) = (direction(&pair[0]), direction(&pair[1]));
+            (b * c - a * d).atan2(a * c + b * d)
+        };
+        let turned: f64 = self.columns.windows(2).map(turn).sum();
+        match (self.columns.first(), self.columns.last()) {
+            (Some(first), Some(last)) if first != last => {
+                -turned / (nodes[last[0]][0] - nodes[first[0]][0])
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// No time at the thermal stretch of each layer.
+    fn over(&self) -> Vec<Course> {
+        self.stretches.iter().map(|&stretch| Course { time: 0.0, stretch }).collect()
     }
 
     fn radius(&self, touch: &Touch) -> f64 {
@@ -136,17 +189,20 @@ impl Seen<'_> {
     /// Density [kg/m³] and pressure of the dilatation [Pa] at each node: means over the points around it.
     fn swelling(&self) -> Vec<[f64; 2]> {
         let body = self.body;
-        let (deformed, dilatations) = body.deformations(self.displacement, &body.team());
+        let (deformed, dilatations) =
+            body.deformations(self.displacement, &self.over(), &body.team());
         let mut sums = vec![[0.0; 3]; body.nodes()];
-        for (group, &mean) in body.space.groups.iter().zip(&dilatations) {
-            let [slope, _] = body.law.pressure(mean);
+        for (number, (group, &mean)) in body.space.groups.iter().zip(&dilatations).enumerate() {
+            let layer = body.layer_of_group[number];
+            let (free, density) = (self.stretches[layer].powi(3), body.layers[layer].density);
+            let [slope, _] = body.law_of(number).pressure(mean);
             for point in group.clone() {
                 let Deformed { dilatation, .. } = deformed[point];
                 for value in body.space.volume.row(point) {
                     let share = value.value * body.space.volume.weights[point];
                     let sum = &mut sums[value.node as usize];
                     sum[0] += share;
-                    sum[1] += share * body.density / dilatation;
+                    sum[1] += share * density / (free * dilatation);
                     sum[2] -= share * slope;
                 }
             }

@@ -33,6 +33,8 @@ enum Offered {
     Moving,
     /// Those on a solid, over whose edge they may reach.
     OnASolid,
+    /// Boxes in a plane.
+    PlaneBox,
 }
 
 enum Read {
@@ -40,7 +42,7 @@ enum Read {
     Sums(fn(&Sums) -> f64),
 }
 
-const TOTALS: [Total; 19] = [
+const TOTALS: [Total; 20] = [
     all("width", "extent along x", Quantity::Length, |s| s.width),
     all("height", "extent along z", Quantity::Length, |s| s.height),
     all("centre_z", "height of the centre of mass", Quantity::Length, |s| s.centre),
@@ -89,6 +91,13 @@ const TOTALS: [Total; 19] = [
         read: Read::Sums(|sums| sums.force_outside),
     },
     Total {
+        key: "curvature",
+        words: "mean curvature of the middle half along x, positive if the ends turn towards z",
+        quantity: Quantity::Curvature,
+        of: Offered::PlaneBox,
+        read: Read::Snapshot(|s| s.curvature),
+    },
+    Total {
         key: "steps",
         words: "steps of equilibrium made inside the unit",
         quantity: Quantity::Ratio,
@@ -130,13 +139,14 @@ const fn sum(
 /// Returns the totals that a solid offers, each with its place: first those of the table, then the forces of faces whose
 /// displacement is prescribed. In a plane model they are amounts per metre of depth.
 pub fn offered_totals(solid: &LargeStrain, is_coupled: bool) -> Vec<(usize, Descriptor)> {
+    let is_plane = solid.dimension == 2;
     let is_offered = |place: usize| match TOTALS[place].of {
         _ if place == STEPS_AT_REST => !solid.inertia,
         Offered::All => true,
         Offered::Moving => solid.inertia,
         Offered::OnASolid => is_coupled,
+        Offered::PlaneBox => is_plane && solid.is_box(),
     };
-    let is_plane = solid.dimension == 2;
     let described = |key, words, quantity: Quantity| {
         let quantity = if is_plane { quantity.per_depth() } else { quantity };
         // Bodies in equilibrium follow the displacements of their faces without delay.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::elastoplastic::respond_at;
-use super::large_strain::LargeStrainLaw;
+use super::large_strain::{LargeStrainLaw, Thermal};
 use super::{Elasticity, PlasticHistory, PointConstants, Relaxation, Relaxing, Thermoelastic};
 use crate::laws::{Part, Property};
 
@@ -56,6 +56,12 @@ pub trait Deformation: Keys {
     /// Returns the law of large strain at a temperature [K]; `None` if there is none, or constants are missing or beyond it.
     fn large_strain(&self, _temperature: f64) -> Option<LargeStrainLaw> {
         None
+    }
+
+    /// Effects of a uniform temperature on a solid of large strain without stress at a temperature [K].
+    fn thermal(&self, free: f64) -> Thermal {
+        let shift = self.relaxing().and_then(|relaxing| relaxing.shift);
+        Thermal::new(self.elasticity(), shift, free)
     }
 
     /// Returns true if stress is a linear function of deformation and temperature alone.

@@ -2,18 +2,19 @@
 
 use std::ops::Range;
 
-use super::Failure;
+use super::{Course, Failure};
 use crate::laws::solid::large_strain::{Deformed, LargeStrainLaw};
 use crate::math::matrix3::{IDENTITY, Matrix3, contraction};
 use crate::runtime::parallel::Team;
 use crate::space::{Form, Samples, Space};
 
-/// A body in its reference configuration with its law.
+/// A body in its reference configuration with the laws of its layers.
 pub struct Deformable {
     pub space: Space,
-    pub law: LargeStrainLaw,
-    /// Reference density ρ₀ [kg/m³].
-    pub density: f64,
+    pub layers: Vec<LayerOfBody>,
+    /// Layer of each group of points, and where its history begins; that of the whole ends the list.
+    pub layer_of_group: Vec<usize>,
+    histories: Vec<usize>,
     /// Mass of each node [kg].
     pub mass: Vec<f64>,
     /// Axes along which each node is at rest: those that a model lacks, and normals of its planes of symmetry.
@@ -22,6 +23,13 @@ pub struct Deformable {
     uses: Vec<Vec<Use>>,
     /// Number of threads of its loops.
     pub threads: usize,
+}
+
+/// A layer's law and reference density ρ₀ [kg/m³].
+#[derive(Debug, Clone, PartialEq)]
+pub struct LayerOfBody {
+    pub law: LargeStrainLaw,
+    pub density: f64,
 }
 
 /// A function of a node at a point of the volume.
@@ -60,7 +68,7 @@ struct Chunk<'a> {
 }
 
 impl Deformable {
-    /// Creates a body with mirrors at x = 0 and y = 0, where these are planes of symmetry.
+    /// Creates a body of one law with mirrors at x = 0 and y = 0, where these are planes of symmetry.
     pub fn new(
         space: Space,
         law: LargeStrainLaw,
@@ -68,7 +76,43 @@ impl Deformable {
         mirrors: [bool; 2],
         threads: usize,
     ) -> Self {
+        let layer_of_group = vec![0; space.groups.len()];
         let mass = space.shares.iter().map(|share| density * share).collect();
+        let layers = (vec![LayerOfBody { law, density }], layer_of_group);
+        Self::with(space, layers, mass, mirrors, threads)
+    }
+
+    /// Creates a body of layers, with the layer of each group of points; see [`Self::new`].
+    pub fn layered(
+        space: Space,
+        layers: (Vec<LayerOfBody>, Vec<usize>),
+        mirrors: [bool; 2],
+        threads: usize,
+    ) -> Self {
+        let mut mass = vec![0.0; space.nodes.len()];
+        for (group, &layer) in space.groups.iter().zip(&layers.1) {
+            for point in group.clone() {
+                let share = layers.0[layer].density * space.volume.weights[point];
+                for value in space.volume.row(point) {
+                    mass[value.node as usize] += share * value.value;
+                }
+            }
+        }
+        Self::with(space, layers, mass, mirrors, threads)
+    }
+
+    fn with(
+        space: Space,
+        (layers, layer_of_group): (Vec<LayerOfBody>, Vec<usize>),
+        mass: Vec<f64>,
+        mirrors: [bool; 2],
+        threads: usize,
+    ) -> Self {
+        let mut histories = vec![0];
+        for (group, &layer) in space.groups.iter().zip(&layer_of_group) {
+            let own = group.len() * layers[layer].law.history();
+            histories.push(histories[histories.len() - 1] + own);
+        }
         let fixed = space.nodes.iter().map(|at| fixed(space.form, mirrors, *at)).collect();
         let mut uses = vec![Vec::new(); space.nodes.len()];
         for point in 0..space.volume.len() {
@@ -79,7 +123,7 @@ impl Deformable {
                 uses[value.node as usize].push(Use { point: point as u32, gradient, hoop });
             }
         }
-        Self { space, law, density, mass, fixed, uses, threads }
+        Self { space, layers, layer_of_group, histories, mass, fixed, uses, threads }
     }
 
     /// Starts the threads of its loops, which end with the value.
@@ -108,7 +152,27 @@ impl Deformable {
 
     /// Length of the history of all points.
     pub fn history(&self) -> usize {
-        self.law.history() * self.space.volume.len()
+        self.histories[self.space.groups.len()]
+    }
+
+    /// Place of the history of a group's points.
+    pub fn history_of(&self, group: usize) -> Range<usize> {
+        self.histories[group]..self.histories[group + 1]
+    }
+
+    /// Law of a group of points.
+    pub fn law_of(&self, group: usize) -> &LargeStrainLaw {
+        &self.layers[self.layer_of_group[group]].law
+    }
+
+    /// Largest modulus of plane waves of a layer [Pa].
+    pub fn wave_modulus(&self) -> f64 {
+        self.layers.iter().map(|layer| layer.law.wave_modulus()).fold(0.0, f64::max)
+    }
+
+    /// A step in which all layers go through the same.
+    pub fn in_all(&self, over: Course) -> Vec<Course> {
+        vec![over; self.layers.len()]
     }
 
     /// `F` at a point for displacements u of the nodes.
@@ -128,10 +192,11 @@ impl Deformable {
         f
     }
 
-    /// Deformation of the points of a group, and its mean dilatation.
-    fn group(&self, points: &Range<usize>, u: &[[f64; 3]]) -> (Vec<Deformed>, f64) {
+    /// Elastic deformation of the points of a group over a thermal stretch, and its mean dilatation.
+    fn group(&self, points: &Range<usize>, u: &[[f64; 3]], stretch: f64) -> (Vec<Deformed>, f64) {
         let volume = &self.space.volume;
-        let at = |point| Deformed::of(self.gradient(volume, point, u));
+        let elastic = |f: Matrix3| f.map(|row| row.map(|value| value / stretch));
+        let at = |point| Deformed::of(elastic(self.gradient(volume, point, u)));
         let all: Vec<Deformed> = points.clone().map(at).collect();
         let weights = &volume.weights[points.clone()];
         let whole: f64 = weights.iter().sum();
@@ -139,19 +204,27 @@ impl Deformable {
         (all, swollen / whole)
     }
 
-    /// Deformation of all points, and the mean dilatation of each group.
-    pub fn deformations(&self, u: &[[f64; 3]], team: &Team) -> (Vec<Deformed>, Vec<f64>) {
+    /// Elastic deformation of all points over the thermal stretches of layers, and the mean dilatation of each group.
+    pub fn deformations(
+        &self,
+        u: &[[f64; 3]],
+        over: &[Course],
+        team: &Team,
+    ) -> (Vec<Deformed>, Vec<f64>) {
         let groups = &self.space.groups;
-        let all = team.map(groups.len(), |group| self.group(&groups[group], u));
+        let of_group =
+            |group: usize| self.group(&groups[group], u, over[self.layer_of_group[group]].stretch);
+        let all = team.map(groups.len(), of_group);
         let (points, dilatations): (Vec<_>, Vec<_>) = all.into_iter().unzip();
         (points.concat(), dilatations)
     }
 
-    /// Advances the history to displacements u at the end of a time step [s]; returns the stresses there.
+    /// Advances the history to displacements u at the end of a step, by the course of each layer; returns the stresses
+    /// there.
     pub fn respond(
         &self,
         u: &[[f64; 3]],
-        dt: f64,
+        over: &[Course],
         history: &mut [f64],
         team: &Team,
     ) -> Result<Stresses, Failure> {
@@ -162,7 +235,7 @@ impl Deformable {
             ..Stresses::default()
         };
         let mut chunks = self.chunks(history, &mut stresses);
-        team.for_each(&mut chunks, |_, chunk| self.respond_in(chunk, u, dt));
+        team.for_each(&mut chunks, |_, chunk| self.respond_in(chunk, u, over));
         let (mut energy, mut stiffening, mut least) = (0.0, 0.0_f64, (f64::INFINITY, 0));
         for chunk in &chunks {
             energy += chunk.energy;
@@ -191,7 +264,8 @@ impl Deformable {
         for first in (0..groups.len()).step_by(CHUNK) {
             let last = (first + CHUNK).min(groups.len());
             let points = groups[last - 1].end - groups[first].start;
-            let (history, after) = rest.0.split_at_mut(points * self.law.history());
+            let own = self.histories[last] - self.histories[first];
+            let (history, after) = rest.0.split_at_mut(own);
             let (loads, later) = rest.1.split_at_mut(points);
             rest = (after, later);
             chunks.push(Chunk {
@@ -206,35 +280,39 @@ impl Deformable {
         chunks
     }
 
-    fn respond_in(&self, chunk: &mut Chunk, u: &[[f64; 3]], dt: f64) {
-        let length = self.law.history();
-        let modulus = self.law.wave_modulus();
-        let mut place = 0;
-        for group in &self.space.groups[chunk.groups.clone()] {
-            let (deformed, mean) = self.group(group, u);
-            let [pressure, _] = self.law.pressure(mean);
+    fn respond_in(&self, chunk: &mut Chunk, u: &[[f64; 3]], over: &[Course]) {
+        let (mut place, mut history) = (0, &mut chunk.history[..]);
+        for number in chunk.groups.clone() {
+            let Course { time, stretch } = over[self.layer_of_group[number]];
+            let (area, volume) = (stretch * stretch, stretch * stretch * stretch);
+            let (group, law) = (&self.space.groups[number], self.law_of(number));
+            let (length, modulus) = (law.history(), law.wave_modulus());
+            let (deformed, mean) = self.group(group, u, stretch);
+            let [pressure, _] = law.pressure(mean);
             let mut whole = 0.0;
             for (point, at) in group.clone().zip(&deformed) {
                 let weight = self.space.volume.weights[point];
-                let own = &mut chunk.history[length * place..length * (place + 1)];
-                let response = self.law.respond(at, dt, own);
+                let (own, rest) = history.split_at_mut(length);
+                history = rest;
+                let response = law.respond(at, time, own);
                 let jp = pressure * at.dilatation;
                 let load = &mut chunk.loads[place];
                 for n in 0..9 {
                     let (a, b) = (n / 3, n % 3);
                     load[a][b] =
-                        weight * (response.stress[a][b] + jp * at.inverse_transposed[a][b]);
+                        area * weight * (response.stress[a][b] + jp * at.inverse_transposed[a][b]);
                 }
-                chunk.energy += weight * response.energy;
-                if at.dilatation.is_nan() || at.dilatation < chunk.least.0 {
-                    chunk.least = (at.dilatation, point);
+                chunk.energy += volume * weight * response.energy;
+                let dilatation = volume * at.dilatation;
+                if dilatation.is_nan() || dilatation < chunk.least.0 {
+                    chunk.least = (dilatation, point);
                 }
-                let wave = response.wave + self.law.wave_of_dilatation(at, mean);
-                chunk.stiffening = chunk.stiffening.max(wave / modulus);
+                let wave = response.wave + law.wave_of_dilatation(at, mean);
+                chunk.stiffening = chunk.stiffening.max(stretch * wave / modulus);
                 whole += weight;
                 place += 1;
             }
-            chunk.energy += whole * self.law.energy_of_dilatation(mean);
+            chunk.energy += volume * whole * law.energy_of_dilatation(mean);
         }
     }
 
@@ -279,13 +357,14 @@ impl Deformable {
         let size = self.space.nodes.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
         let mut shape: Vec<[f64; 3]> = (0..self.nodes()).map(rough).collect();
         let mut square: f64 = 0.0;
+        let still = self.in_all(Course::NONE);
         for _ in 0..ITERATIONS {
             self.flatten(&mut shape);
             let largest = shape.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
             let scale = TINY * size / largest;
             let u: Vec<[f64; 3]> = shape.iter().map(|x| x.map(|x| scale * x)).collect();
             let mut history = vec![0.0; self.history()];
-            let Ok(stresses) = self.respond(&u, 0.0, &mut history, team) else { break };
+            let Ok(stresses) = self.respond(&u, &still, &mut history, team) else { break };
             let forces = self.forces(&stresses, team);
             let products = forces.iter().zip(&u).zip(&self.mass).map(|((f, u), m)| {
                 let along: f64 = (0..3).map(|a| f[a] * u[a]).sum();

@@ -12,6 +12,11 @@ pub enum Failure {
          stiffer material, another `mesh.spacing`)", .at[0], .at[1], .at[2]
     )]
     Inverted { at: [f64; 3], dilatation: f64 },
+    #[error(
+        "at {temperature} K the body would shrink to {stretch:.3} of its length (allowed: temperatures at which `expansion` \
+         leaves it one)"
+    )]
+    Shrunk { temperature: f64, stretch: f64 },
     #[error("a displacement is not finite")]
     NotFinite,
     #[error(

@@ -7,6 +7,7 @@
 //! 10.1016/0045-7825(85)90033-7). [`motion`] advances bodies with inertia, [`statics`] finds equilibria without.
 
 mod contact;
+mod course;
 mod deformable;
 mod failure;
 mod motion;
@@ -15,7 +16,8 @@ mod statics;
 mod tangent;
 
 pub use contact::{Plane, Spot, Touch};
-pub use deformable::{Deformable, Stresses};
+pub use course::Course;
+pub use deformable::{Deformable, LayerOfBody, Stresses};
 pub use failure::Failure;
 pub use motion::Dynamics;
 pub use state::{Ledger, Motion};

@@ -2,7 +2,7 @@
 //!
 //! Momentum is conserved to rounding, and energy to the square of the time step.
 
-use super::{Deformable, Failure, Ledger, Motion, Plane, Stresses, Touch};
+use super::{Course, Deformable, Failure, Ledger, Motion, Plane, Stresses, Touch};
 use crate::port::WallCells;
 use crate::runtime::allowance::Allowance;
 use crate::runtime::parallel::Team;
@@ -85,7 +85,8 @@ impl Dynamics {
     }
 
     fn at(&self, motion: &mut Motion, dt: f64, team: &Team) -> Result<Moment, Failure> {
-        let stresses = self.body.respond(&motion.displacement, dt, &mut motion.history, team)?;
+        let over = self.body.in_all(Course::of(dt));
+        let stresses = self.body.respond(&motion.displacement, &over, &mut motion.history, team)?;
         let mut forces = self.body.forces(&stresses, team);
         let touch = self.plane.touch(&self.body, &motion.displacement);
         touch.add_to(&mut forces);

@@ -1,7 +1,7 @@
 //! Equilibrium without inertia, by Newton's method with a line search.
 
 use super::tangent::{Factor, Linearised, Stiffness};
-use super::{Deformable, Failure, Stresses};
+use super::{Course, Deformable, Failure, Stresses};
 use crate::runtime::allowance::Allowance;
 use crate::runtime::parallel::Team;
 
@@ -77,7 +77,7 @@ struct Trial<'a> {
 struct Step<'a> {
     from: &'a Rest,
     to: &'a Conditions,
-    dt: f64,
+    over: &'a [Course],
     team: &'a Team,
     allowance: &'a Allowance,
 }
@@ -88,7 +88,7 @@ impl Equilibrium {
         let both = |(own, held): (&[bool; 3], &[bool; 3])| [0, 1, 2].map(|a| own[a] || held[a]);
         let held: Vec<[bool; 3]> = body.fixed.iter().zip(held).map(both).collect();
         let stiffness = Stiffness::new(&body, &held).map_err(|_| Failure::Singular)?;
-        let rounding = ROUNDING * body.law.wave_modulus() * stretch(&body);
+        let rounding = ROUNDING * body.wave_modulus() * stretch(&body);
         Ok(Self { body, stiffness, held, rounding })
     }
 
@@ -98,16 +98,16 @@ impl Equilibrium {
         Rest { displacement, history: vec![0.0; self.body.history()] }
     }
 
-    /// Finds the equilibrium after a time step [s]; `rest` changes only if it is found.
+    /// Finds the equilibrium after a step with a course of each layer; `rest` changes only if it is found.
     pub fn step(
         &self,
         rest: &mut Rest,
         to: &Conditions,
-        dt: f64,
+        over: &[Course],
         allowance: &Allowance,
     ) -> Result<Found, Failure> {
         let team = &self.body.team();
-        let step = Step { from: rest, to, dt, team, allowance };
+        let step = Step { from: rest, to, over, team, allowance };
         let mut u = rest.displacement.clone();
         let mut now = self.at(&step, &u)?;
         let before = now.stresses.clone();
@@ -194,8 +194,8 @@ impl Equilibrium {
         let body = &self.body;
         step.allowance.spend(1.0, STEPS, WORK * body.space.volume.len())?;
         let mut history = step.from.history.clone();
-        let stresses = body.respond(u, step.dt, &mut history, step.team)?;
-        let (deformations, dilatations) = body.deformations(u, step.team);
+        let stresses = body.respond(u, step.over, &mut history, step.team)?;
+        let (deformations, dilatations) = body.deformations(u, step.over, step.team);
         let internal = body.forces(&stresses, step.team);
         let mut residual = sum(&internal, &step.to.forces);
         let (mut norm, mut scale) = (0.0, 0.0);
@@ -211,7 +211,7 @@ impl Equilibrium {
             }
         }
         let before = &step.from.history[..];
-        let linearised = Linearised { deformations, dilatations, before, dt: step.dt };
+        let linearised = Linearised { deformations, dilatations, before, over: step.over };
         let scale = scale.sqrt().max(f64::MIN_POSITIVE);
         Ok(Trial { linearised, stresses, residual, norm: norm.sqrt(), scale, history, reactions })
     }

@@ -8,7 +8,7 @@ use faer::sparse::linalg::solvers::{Llt, Lu, SymbolicLlt, SymbolicLu};
 use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
 use faer::{Mat, Side};
 
-use super::Deformable;
+use super::{Course, Deformable};
 use crate::laws::solid::large_strain::{Deformed, Tangent};
 use crate::runtime::parallel::Team;
 use crate::space::Form;
@@ -85,7 +85,7 @@ impl Stiffness {
         values.resize(values.len() + self.count, 0.0);
         let matrix = SparseColMat::new_from_argsort(self.pattern.clone(), &self.order, &values)
             .map_err(|_| Singular)?;
-        if !body.law.is_symmetric() {
+        if !body.layers.iter().all(|layer| layer.law.is_symmetric()) {
             return self.factor_indefinite(&matrix);
         }
         match Llt::try_new_with_symbolic(self.llt.clone(), matrix.as_ref(), Side::Lower) {
@@ -136,7 +136,7 @@ pub struct Linearised<'a> {
     pub dilatations: Vec<f64>,
     /// History at the beginning of the step.
     pub before: &'a [f64],
-    pub dt: f64,
+    pub over: &'a [Course],
 }
 
 fn block(body: &Deformable, group: &Range<usize>) -> Block {
@@ -168,14 +168,17 @@ fn element(body: &Deformable, state: &Linearised, block: &Block, group: usize) -
     let mut matrix = vec![0.0; width * width];
     let mut swelling = vec![0.0; width];
     let volume = &body.space.volume;
-    let [pressure, slope] = body.law.pressure(state.dilatations[group]);
+    let law = body.law_of(group);
+    let Course { time, stretch } = state.over[body.layer_of_group[group]];
+    let history = &state.before[body.history_of(group)];
+    let [pressure, slope] = law.pressure(state.dilatations[group]);
     let mut whole = 0.0;
-    for point in block.points.clone() {
+    let length = law.history();
+    for (place, point) in block.points.clone().enumerate() {
         let (at, weight) = (&state.deformations[point], volume.weights[point]);
         whole += weight;
-        let length = body.law.history();
-        let before = &state.before[length * point..length * (point + 1)];
-        let tangent = body.law.tangent(at, state.dt, before, pressure);
+        let before = &history[length * place..length * (place + 1)];
+        let tangent = law.tangent(at, time, before, pressure);
         let strains = strains(body, point, &block.nodes);
         let cofactor = at.inverse_transposed.map(|row| row.map(|g| at.dilatation * g));
         for (a, strain) in strains.iter().enumerate() {
@@ -189,6 +192,7 @@ fn element(body: &Deformable, state: &Linearised, block: &Block, group: usize) -
             matrix[a * width + b] += slope / whole * swelling[a] * swelling[b];
         }
     }
+    matrix.iter_mut().for_each(|value| *value *= stretch);
     matrix
 }
 

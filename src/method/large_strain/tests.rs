@@ -58,7 +58,7 @@ fn uniform_strain_is_exact() {
         }
         // Nodes inside bear no force.
         let mut history = vec![0.0; body.history()];
-        let stresses = body.respond(&u, 0.01, &mut history, team).unwrap();
+        let stresses = body.respond(&u, &[Course::of(0.01)], &mut history, team).unwrap();
         let forces = body.forces(&stresses, team);
         let mut outside = vec![false; body.nodes()];
         let boundary = &body.space.boundary.samples;
@@ -94,7 +94,8 @@ fn rotation_costs_no_energy() {
         let turn = [[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]];
         let team = &body.team();
         let mut history = vec![0.0; body.history()];
-        let stresses = body.respond(&uniform(&body, &turn), 0.1, &mut history, team).unwrap();
+        let stresses =
+            body.respond(&uniform(&body, &turn), &[Course::of(0.1)], &mut history, team).unwrap();
         assert!(stresses.energy.abs() < 1e-13);
         assert!(body.forces(&stresses, team).iter().flatten().all(|f| f.abs() < 1e-13));
     }
@@ -105,18 +106,19 @@ fn the_stiffness_is_the_derivative_of_the_forces() {
     for body in bodies() {
         let team = &body.team();
         let mut before = vec![0.0; body.history()];
+        let over = &[Course { time: 0.05, stretch: 1.2 }];
         let half = |a: usize, b: usize| 0.5 * (IDENTITY[a][b] + allowed(body.space.form)[a][b]);
         let gradient = std::array::from_fn(|a| std::array::from_fn(|b| half(a, b)));
-        body.respond(&uniform(&body, &gradient), 0.05, &mut before, team).unwrap();
+        body.respond(&uniform(&body, &gradient), over, &mut before, team).unwrap();
         let mut u = uniform(&body, &allowed(body.space.form));
         u.iter_mut().enumerate().for_each(|(n, u)| u[2] += 0.02 * (n as f64).sin());
         let forces = |u: &[[f64; 3]]| {
             let mut history = before.clone();
-            let stresses = body.respond(u, 0.05, &mut history, team).unwrap();
+            let stresses = body.respond(u, over, &mut history, team).unwrap();
             body.forces(&stresses, team)
         };
-        let (deformations, dilatations) = body.deformations(&u, team);
-        let state = Linearised { deformations, dilatations, before: &before, dt: 0.05 };
+        let (deformations, dilatations) = body.deformations(&u, over, team);
+        let state = Linearised { deformations, dilatations, before: &before, over };
         // Held, so that the stiffness has an inverse.
         let mut held = body.fixed.clone();
         held[0] = [true; 3];

@@ -1,6 +1,8 @@
 //! Checks that solids of large strain can be modelled.
 
-use super::{Checker, fits};
+use super::layers::Materials;
+use super::{Checker, fits, layers, material};
+use crate::laws::Material;
 use crate::scene::large_strain::{
     LargeStrain, LargeStrainStart, LargeStrainSymmetry, Mechanics, SolidShape,
 };
@@ -14,6 +16,10 @@ pub fn check(checker: &mut Checker) {
     for (name, solid) in checker.scene.large_strains() {
         let path = Path::default().key("body").key(name);
         check_shape(checker, &path, solid);
+        let thickness = Some(solid.extents()[2]).filter(|thickness| *thickness > 0.0);
+        let (material, layers) = (solid.material.as_ref(), solid.layers.as_deref());
+        let own = Materials { material, layers, check: material::sound };
+        layers::materials(checker, &path, own, thickness);
         check_material(checker, &path, solid);
         check_kernels(checker, &path, solid);
         match solid.inertia {
@@ -73,7 +79,7 @@ fn check_shape(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
         let message = "a disc has no plane model";
         checker.refuse(&path.key("dimension"), message, "3; or a box, or a ball");
     }
-    let is_box = matches!(solid.shape, SolidShape::Box(_));
+    let is_box = solid.is_box();
     if solid.symmetry == LargeStrainSymmetry::Axisymmetric && (is_box || is_flat) {
         let message = "only a disc and a ball in three dimensions are round about z";
         checker.refuse(&path.key("symmetry"), message, "auto, none, quarter");
@@ -92,17 +98,43 @@ fn check_kernels(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
 }
 
 fn check_material(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
-    if solid.material.material().fracture.weibull.is_some() {
-        let message = "the probability of failure is that of small strain";
-        checker.refuse(&path.key("material").key("weibull"), message, "no `weibull`");
+    let own = solid.material.iter().map(|choice| (path.key("material"), choice.material()));
+    for (path, material) in own.collect::<Vec<_>>() {
+        check_law(checker, &path, material, solid.initial_temperature);
     }
-    let law = solid.material.material().law.deformation();
-    if law.large_strain(solid.initial_temperature).is_none() {
+    for (n, layer) in solid.layers.iter().flatten().enumerate() {
+        let path = path.key("layers").index(n);
+        check_law(
+            checker,
+            &path.key("material"),
+            layer.material.material(),
+            solid.initial_temperature,
+        );
+        let message = "no heat flows in a solid of large strain, between its layers neither";
+        let fine = layer.contact_resistance.is_none();
+        checker.require(fine, &path.key("contact_resistance"), message, "no `contact_resistance`");
+    }
+    if solid.layers.is_none() {
+        return;
+    }
+    let message =
+        "layers are those of finite elements in equilibrium, and of a shape with a flat top";
+    let fine = solid.mechanics == Mechanics::Fem && !solid.inertia && solid.plate().is_some();
+    let allowed = "`mechanics = \"fem\"`, `inertia = false`, a box or a disc; or `material`";
+    checker.require(fine, &path.key("layers"), message, allowed);
+}
+
+fn check_law(checker: &mut Checker, path: &Path, material: &Material, temperature: f64) {
+    if material.fracture.weibull.is_some() {
+        let message = "the probability of failure is that of small strain";
+        checker.refuse(&path.key("weibull"), message, "no `weibull`");
+    }
+    if material.law.deformation().large_strain(temperature).is_none() {
         let message = "a solid of large strain cannot be made of this material";
         let allowed = "`model = \"neo_hookean\"` with `young` and `poisson`; `\"viscoelastic\"` with \
                        `shear_relaxation`, too, without `bulk_relaxation`; or `\"elastoplastic\"` with `yield_stress`, \
                        without `kinematic_hardening`, with a `saturation` not below the yield stress";
-        checker.refuse(&path.key("material"), message, allowed);
+        checker.refuse(path, message, allowed);
     }
 }
 
@@ -111,7 +143,7 @@ fn check_faces(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
         let at = path.key("faces").key(name.as_str());
         let offered: Vec<FaceName> = match solid.plate() {
             Some(shape) => {
-                let is_box = matches!(solid.shape, SolidShape::Box(_));
+                let is_box = solid.is_box();
                 let sides = is_box.then_some(FaceName::Sides);
                 let own = shape.faces().iter().copied().chain(sides);
                 own.filter(|&face| is_there(solid, face)).collect()

@@ -12,7 +12,14 @@ pub fn named(checker: &mut Checker) {
     }
 }
 
+/// Checks a material of a body of small strain, or a named one.
 pub fn check(checker: &mut Checker, path: &Path, material: &Material) {
+    sound(checker, path, material);
+    needs(checker, path, material, material.law.deformation().needs());
+}
+
+/// Checks the constants that are given.
+pub fn sound(checker: &mut Checker, path: &Path, material: &Material) {
     for (key, property) in material.properties() {
         if let Property::Table(values) = property {
             table(checker, &path.key(key), values);
@@ -24,7 +31,6 @@ pub fn check(checker: &mut Checker, path: &Path, material: &Material) {
     if let Some(weibull) = material.fracture.weibull {
         flaws(checker, &path.key("weibull"), &weibull);
     }
-    needs(checker, path, material, material.law.deformation().needs());
     material.law.deformation().relaxing().into_iter().for_each(|own| relaxing(checker, path, own));
 }
 

@@ -1,5 +1,6 @@
-//! The constants of solids of large strain: those of their material.
+//! The constants of solids of large strain: those of their material, or of each layer's.
 
+use super::solid::{of_layer_material, places_in_layers};
 use super::{Constant, OfferedConstant};
 use crate::laws::MaterialConstant;
 use crate::scene::large_strain::LargeStrain;
@@ -9,14 +10,37 @@ const MECHANICAL: [&str; 5] =
     ["density", "young", "poisson", "yield_stress", "isotropic_hardening"];
 
 pub fn offered(body: &str, solid: &LargeStrain) -> Vec<OfferedConstant> {
-    let material = solid.material.material();
-    let acts = |constant: &&MaterialConstant| {
-        MECHANICAL.contains(&constant.key) && constant.is_given(material)
+    let matters = |constant: &MaterialConstant| {
+        MECHANICAL.contains(&constant.key) || constant.key == "expansion" && solid.has_temperature()
+    };
+    let own = solid.material.as_ref().map(|choice| choice.material());
+    let given = |constant: &&MaterialConstant| {
+        matters(constant) && own.is_some_and(|material| constant.is_given(material))
     };
     let offer = |constant: &'static MaterialConstant| OfferedConstant {
         key: constant.key.to_owned(),
         description: format!("{} of {body}", constant.description),
         constant: Constant::Material(constant),
     };
-    MaterialConstant::all().into_iter().filter(acts).map(offer).collect()
+    let own = MaterialConstant::all().into_iter().filter(given).map(offer);
+    let layers = solid.layers.as_deref().unwrap_or_default();
+    let of_layer = |place| of_layer_material(body, layers, place, matters);
+    own.chain((0..layers.len()).flat_map(of_layer)).collect()
+}
+
+/// Places of a constant in a solid of large strain.
+///
+/// # Panics
+/// If no such solid offers the constant.
+pub fn places<'a>(solid: &'a mut LargeStrain, constant: &Constant) -> Vec<&'a mut f64> {
+    match constant {
+        Constant::Material(constant) => {
+            let own = solid.material.iter_mut();
+            own.filter_map(|choice| choice.material_mut().number(constant.key)).collect()
+        }
+        Constant::LayerMaterial { layers, constant } => {
+            places_in_layers(solid.layers.as_mut(), layers, constant)
+        }
+        _ => panic!("a solid of large strain offers constants of its materials"),
+    }
 }

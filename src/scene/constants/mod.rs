@@ -106,9 +106,7 @@ impl Body {
             (Body::Droplet(droplet), Constant::Material(constant)) => {
                 droplet.fluid.viscosity.number(constant.key).into_iter().collect()
             }
-            (Body::LargeStrain(solid), Constant::Material(constant)) => {
-                solid.material.material_mut().number(constant.key).into_iter().collect()
-            }
+            (Body::LargeStrain(solid), constant) => large_strain::places(solid, constant),
             _ => panic!("a body offers the constants of its kind"),
         }
     }

@@ -55,7 +55,7 @@ pub fn offered(body: &str, solid: &Solid) -> Vec<OfferedConstant> {
 
 /// Those of the layer at a place, and of its contact with the one above.
 fn of_layer(body: &str, layers: &[Layer], place: usize) -> Vec<OfferedConstant> {
-    let mut list = of_layer_material(body, layers, place);
+    let mut list = of_layer_material(body, layers, place, |_| true);
     if layers[place].contact_resistance.is_some() {
         list.push(OfferedConstant {
             key: format!("layer[{}].contact_resistance", place + 1),
@@ -69,7 +69,13 @@ fn of_layer(body: &str, layers: &[Layer], place: usize) -> Vec<OfferedConstant> 
     list
 }
 
-fn of_layer_material(body: &str, all: &[Layer], place: usize) -> Vec<OfferedConstant> {
+/// Those of a layer's material that matter.
+pub(super) fn of_layer_material(
+    body: &str,
+    all: &[Layer],
+    place: usize,
+    matters: impl Fn(&MaterialConstant) -> bool,
+) -> Vec<OfferedConstant> {
     let layer = &all[place];
     let (prefix, owner, layers) = match &layer.material.name {
         // Once for all layers of it.
@@ -85,13 +91,27 @@ fn of_layer_material(body: &str, all: &[Layer], place: usize) -> Vec<OfferedCons
             (format!("layer[{number}]"), owner, LayersOf::Single(place))
         }
     };
-    let given = |constant: &&MaterialConstant| constant.is_given(layer.material.material());
+    let given = |constant: &&MaterialConstant| {
+        constant.is_given(layer.material.material()) && matters(constant)
+    };
     let offered = |constant: &'static MaterialConstant| OfferedConstant {
         key: format!("{prefix}.{}", constant.key),
         description: format!("{} of {owner}", constant.description),
         constant: Constant::LayerMaterial { layers: layers.clone(), constant },
     };
     MaterialConstant::all().into_iter().filter(given).map(offered).collect()
+}
+
+/// Places of a constant in the layers of a body that share a material.
+pub(super) fn places_in_layers<'a>(
+    layers: Option<&'a mut Vec<Layer>>,
+    own: &LayersOf,
+    constant: &MaterialConstant,
+) -> Vec<&'a mut f64> {
+    let all = layers.into_iter().flatten().enumerate();
+    all.filter(|(i, layer)| own.contains(*i, layer))
+        .filter_map(|(_, layer)| constant.place(layer.material.material_mut()))
+        .collect()
 }
 
 /// Places of a constant in a solid.
@@ -105,11 +125,8 @@ pub fn places<'a>(solid: &'a mut Solid, constant: &Constant) -> Vec<&'a mut f64>
             let own = solid.material.iter_mut();
             own.filter_map(|choice| constant.place(choice.material_mut())).collect()
         }
-        Constant::LayerMaterial { layers, constant } => {
-            let all = solid.layers.iter_mut().flatten().enumerate();
-            all.filter(|(i, layer)| layers.contains(*i, layer))
-                .filter_map(|(_, layer)| constant.place(layer.material.material_mut()))
-                .collect()
+        Constant::LayerMaterial { layers: own, constant } => {
+            places_in_layers(solid.layers.as_mut(), own, constant)
         }
         Constant::ContactResistance { layer } => {
             let layer = solid.layers.iter_mut().flatten().nth(*layer);

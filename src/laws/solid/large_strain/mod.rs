@@ -2,15 +2,17 @@
 //!
 //! The energy of the dilatation `J = det F` per reference volume is `U(J) = ½ κ (½ (J² − 1) − ln J)`, source: J. C. Simo and
 //! T. J. R. Hughes, *Computational Inelasticity*, Springer 1998, eq. 9.2.3. Deviators have no part in the volume:
-//! [`relaxing`] is neo-Hooke with Maxwell branches, [`plastic`] multiplicative J₂ plasticity.
+//! [`relaxing`] is neo-Hooke with Maxwell branches, [`plastic`] multiplicative J₂ plasticity. [`thermal`] adds expansion.
 
 mod deformed;
 mod plastic;
 mod relaxing;
+mod thermal;
 
 pub use deformed::Deformed;
 pub use plastic::Plastic;
 pub use relaxing::{MaxwellBranch, Relaxing};
+pub use thermal::Thermal;
 
 use crate::math::matrix3::{Matrix3, eigenvalue_bound, product, transposed};
 
