@@ -75,10 +75,20 @@ impl Model {
             return Ok(());
         }
         cache.update(self, state);
-        let peaks = (0..self.peaks.len()).map(|number| {
+        let holds = |number: usize| {
+            let (place, which) = self.peaks[number];
+            when == When::End || self.bodies[place].holds_at_beginning(which)
+        };
+        // The first maxima are noted together.
+        let is_soon = state.peaks.is_empty() && !(0..self.peaks.len()).all(holds);
+        let count = if is_soon { 0 } else { self.peaks.len() };
+        let peaks = (0..count).map(|number| {
+            let known = state.peaks.get(number).copied();
+            if let Some(known) = known.filter(|_| !holds(number)) {
+                return Ok(known);
+            }
             let now = self.peak_now(state, cache, number);
             let now = now.map_err(|error| (self.peaks[number].0, error))?;
-            let known = state.peaks.get(number).copied();
             Ok(known.filter(|known| known.highest.value >= now.highest.value).unwrap_or(now))
         });
         let peaks = peaks.collect::<Result<Vec<_>, _>>()?;

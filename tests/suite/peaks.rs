@@ -489,3 +489,26 @@ fn mechanics_that_only_running_maxima_ask_for_is_prepared_and_counted() {
     trial.step(1e-6);
     assert!(trial.get("plate.peak_von_mises") > 1e5);
 }
+
+/// The face of a quenched body bears `E α ΔT/(1 − ν)` at most; elements beside a face whose temperature has just jumped
+/// would show up to a quarter more.
+#[test]
+fn jumps_of_prescribed_temperatures_leave_no_false_stress() {
+    for (material, bound) in [
+        (ALUMINA, 300e9 * 8.1e-6 * 100.0 / 0.79),
+        (ICE.split(", melting").next().expect("a start"), 9e9 * 5e-5 * 100.0 / 0.67),
+    ] {
+        let text = format!(
+            "name = \"Quench\"\nstop_time = 1e-3\nstep = 1e-4\n[body.plate]\nkind = \"solid\"\n\
+             shape = {{ disc = {{ radius = 2e-2, thickness = 1e-2 }} }}\nmaterial = {{ {material} }}\n\
+             initial_temperature = 270.0\npeaks = [\"max_principal\"]\nfaces.top = {{ temperature = 270.0 }}\n\
+             faces.sides = {{ roller = true }}\nfaces.bottom = {{ roller = true }}\n\
+             mesh = {{ spacing = 2e-3, depth_spacing = 1e-5, growth = 1.3, order = 1 }}\n"
+        );
+        let mut trial = Trial::new(&text);
+        trial.set("plate.top.temperature", 170.0);
+        (0..20).for_each(|_| trial.step(1e-4));
+        let peak = trial.get("plate.peak_max_principal");
+        assert!(peak > 0.97 * bound && peak < 1.02 * bound, "{peak:e} {bound:e}");
+    }
+}

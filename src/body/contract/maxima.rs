@@ -21,13 +21,19 @@ pub trait Maxima {
         Err(BodyError::NoSuchReading)
     }
 
+    /// Returns true if the quantity behind a running maximum is right when a step begins. Stress is not where temperatures
+    /// have just been prescribed: only the nodes of the face have jumped, which strains those next to them by what no
+    /// body has.
+    fn holds_at_beginning(&self, _which: usize) -> bool {
+        true
+    }
+
     /// Returns true if the state holds running maxima of a field.
     fn keeps_field(&self) -> bool {
         false
     }
 
-    /// Returns true if that field is right when a step begins. It is not where temperatures have just been prescribed: only
-    /// the nodes of the face have jumped, which strains those next to them by what no body has.
+    /// Returns true if that field is right when a step begins.
     fn field_holds_at_beginning(&self) -> bool {
         true
     }

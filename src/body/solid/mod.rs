@@ -317,6 +317,10 @@ impl Maxima for SolidBody {
         self.highest(&mut SolidReader { body: self, state, memo }, which)
     }
 
+    fn holds_at_beginning(&self, which: usize) -> bool {
+        !(self.prescribes_temperature && self.is_stress_peak(which))
+    }
+
     fn keeps_field(&self) -> bool {
         self.solid.flaws().is_some()
     }

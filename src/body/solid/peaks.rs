@@ -11,7 +11,7 @@ use crate::scene::{PeakOf, Shape, Solid};
 const SLACK: f64 = 1e-9;
 
 /// Returns the running maxima kept for a solid of a scene. They follow no input without delay: jumps caused by an input
-/// are noted when a step begins.
+/// are noted when a step begins, but for the stress of a body with prescribed temperatures.
 pub fn kept_peaks(solid: &Solid) -> Vec<Descriptor> {
     let descriptor = |of: &PeakOf| {
         let (key, words, quantity) = match of {
