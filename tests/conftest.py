@@ -51,7 +51,13 @@ COARSE = {
         "\nspacing = 3e-6": "\nspacing = 8e-6",
         "spacing = 3e-5, depth_spacing = 5e-6": "spacing = 6e-5, depth_spacing = 1e-5",
     },
-    "printed_strand": {"spacing = 0.1e-3": "spacing = 0.4e-3"},
+    "printed_strand": {
+        "spacing = 0.1e-3 }\nfaces.right = { clamped = true }      #": "spacing = 0.2e-3 }\n"
+        "faces.right = { clamped = true }      #",
+        "spacing = 0.1e-3 }\nfaces.right = { clamped = true }\n\n[material": "spacing = 0.2e-3 }\n"
+        "faces.right = { clamped = true }\n\n[material",
+    },
+    "thermostat_strip": {"spacing = 0.2e-3": "spacing = 0.8e-3"},
     "tin_drop": {"\nspacing = 60e-6": "\nspacing = 200e-6"},
 }
 # Fields of examples that have hundreds of points.
