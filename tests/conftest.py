@@ -43,6 +43,7 @@ COARSE = {
         "\nspacing = 10e-6": "\nspacing = 50e-6",
         "{ spacing = 10e-6 }": "{ spacing = 50e-6 }",
     },
+    "mini_slump": {"\nspacing = 1.2e-3": "\nspacing = 3e-3"},
     "moving_spot": {
         "spacing = 40e-6, depth_spacing = 10e-6, growth = 1.4": "spacing = 1e-4, "
         "depth_spacing = 2e-5, growth = 2.0"
