@@ -30,6 +30,7 @@ pub enum Quantity {
     ThermalResistance,
     Area,
     Volume,
+    VolumeFlow,
     Velocity,
     ShearRate,
     Viscosity,
@@ -62,7 +63,7 @@ const fn scaled(name: &'static str, factor: f64) -> Option<DisplayUnit> {
 }
 
 impl Quantity {
-    pub const ALL: [Quantity; 36] = [
+    pub const ALL: [Quantity; 37] = [
         Quantity::Time,
         Quantity::Temperature,
         Quantity::TemperatureDifference,
@@ -84,6 +85,7 @@ impl Quantity {
         Quantity::ThermalResistance,
         Quantity::Area,
         Quantity::Volume,
+        Quantity::VolumeFlow,
         Quantity::Velocity,
         Quantity::ShearRate,
         Quantity::Viscosity,
@@ -142,6 +144,7 @@ impl Quantity {
             Quantity::ThermalResistance => "ThermalInsulance",
             Quantity::Area => "Area",
             Quantity::Volume => "Volume",
+            Quantity::VolumeFlow => "VolumeFlowRate",
             Quantity::Velocity => "Velocity",
             Quantity::ShearRate => "ShearRate",
             Quantity::Viscosity => "DynamicViscosity",
@@ -180,6 +183,7 @@ impl Quantity {
             Quantity::ThermalResistance => "m2.K/W",
             Quantity::Area => "m2",
             Quantity::Volume => "m3",
+            Quantity::VolumeFlow => "m3/s",
             Quantity::Velocity => "m/s",
             Quantity::ShearRate => "1/s",
             Quantity::Viscosity => "Pa.s",
@@ -217,6 +221,7 @@ impl Quantity {
             Quantity::ThermalResistance => [-1, 0, 3, 1],
             Quantity::Area => [0, 2, 0, 0],
             Quantity::Volume => [0, 3, 0, 0],
+            Quantity::VolumeFlow => [0, 3, -1, 0],
             Quantity::Velocity => [0, 1, -1, 0],
             Quantity::ShearRate => [0, 0, -1, 0],
             Quantity::Viscosity => [1, -1, -1, 0],
@@ -281,6 +286,7 @@ impl Quantity {
             Quantity::ThermalResistance => 1e-6,
             Quantity::Area => 1e-10,
             Quantity::Volume => 1e-12,
+            Quantity::VolumeFlow => 1e-8,
             Quantity::Velocity => 10.0,
             Quantity::ShearRate => 1e3,
             Quantity::Viscosity => 1e-3,

@@ -2,6 +2,7 @@
 
 use super::Body;
 use super::droplet;
+use super::filament;
 use super::large_strain::contact_interval;
 use super::solid::plan;
 use crate::laws::Constants;
@@ -9,7 +10,7 @@ use crate::method::fem::Plan;
 use crate::method::sph::DropletSph;
 use crate::port::{CommonCells, LateralModes};
 use crate::port::{SurfaceResponse, WallCells};
-use crate::scene::{Coupling, Droplet, FaceName, Scene};
+use crate::scene::{self, Coupling, Droplet, FaceName, Scene};
 
 /// Largest number of parts of a step that is cut at the moments bodies ask for.
 pub const MOST_PARTS: usize = 64;
@@ -182,9 +183,10 @@ const LEAST_ALONG: f64 = 0.01;
 pub fn links(scene: &Scene, place: impl Fn(&str) -> Option<usize>) -> Vec<Link> {
     let link = |coupling: &Coupling| {
         let solid = coupling.solid()?;
-        let interval = match scene.large_strain(&coupling.from) {
-            Some(body) => contact_interval(coupling, body),
-            None => {
+        let interval = match scene.body.get(&coupling.from)? {
+            scene::Body::LargeStrain(body) => contact_interval(coupling, body),
+            scene::Body::Filament(_) => filament::interval(coupling),
+            _ => {
                 let plan = plan(scene, solid, scene.solid(solid)?);
                 interval(coupling, scene.droplet(&coupling.from)?, &plan)
             }
