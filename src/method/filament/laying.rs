@@ -25,7 +25,7 @@ pub struct Motion {
 /// Number of pieces of a segment, each of which touches down at a place of its own.
 const PIECES: f64 = 4.0;
 /// Speed of the nozzle over that of the fluid in it below which fluid piles up in a heap, which is complete when it is as
-/// long as wide or when the nozzle moves on.
+/// long as wide, or when it has the volume of a segment and the nozzle moves on.
 const SLOW: f64 = 0.25;
 /// Least gap above an older segment, over the diameter of the nozzle, with which a strand lies on that.
 const CLEARANCE: f64 = 0.1;
@@ -53,10 +53,14 @@ impl Motion {
     fn least_flow(&self) -> f64 {
         let [_, slope, bend] = self.flow;
         let turn = if bend > 0.0 { (-slope / bend).clamp(0.0, self.duration) } else { 0.0 };
-        [0.0, turn, self.duration]
-            .map(|s| at(self.flow, s))
-            .into_iter()
-            .fold(f64::INFINITY, f64::min)
+        let flows = [0.0, turn, self.duration].map(|s| at(self.flow, s));
+        flows.into_iter().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Flow that is rounding of an input that falls to zero within the duration [m³/s].
+    fn rounding(&self) -> f64 {
+        let [value, slope, bend] = self.flow.map(f64::abs);
+        SLACK * (value + self.duration * (slope + self.duration * bend))
     }
 
     /// The time from `from` on at which a volume has come [s].
@@ -93,7 +97,7 @@ impl Line {
         motion: &Motion,
     ) -> Result<Vec<Arrival>, Failure> {
         let flow = motion.least_flow();
-        if flow < 0.0 {
+        if flow < -motion.rounding() {
             return Err(Failure::NegativeFlow { flow });
         }
         let begin = motion.outlet(0.0);
@@ -163,9 +167,10 @@ impl Line {
         let free = (end[2] - open.base - thickness).max(0.0);
         let touch = touchdown(strand.touch, [begin, end], (duration, 0.5 * free / speed));
         let path = (touch[0] - open.end[0]).hypot(touch[1] - open.end[1]);
-        let is_heap = path < SLOW * speed * duration;
-        let is_new = last.is_none_or(|last| last.is_heap != is_heap);
-        let mut segment = Segment { is_heap, ..if is_new { next() } else { open } };
+        let whole = self.plan.segment_volume() * (1.0 - SLACK);
+        let moves_on = path >= SLOW * speed * duration;
+        let is_new = last.is_none_or(|last| last.is_heap && last.volume >= whole && moves_on);
+        let mut segment = if is_new { next() } else { open };
         segment.path += path;
         segment.end = touch;
         let middle = strand.time + 0.5 * (piece.from + piece.to);
@@ -173,16 +178,15 @@ impl Line {
         segment.born += part * (middle - segment.born);
         let heat = self.heat.content_at(temperature) * self.heat.capacity(piece.volume);
         segment.volume += piece.volume;
+        segment.is_heap = segment.path * self.plan.outlet() < SLOW * segment.volume;
         segment.heat += heat;
         strand.supplied += heat;
         strand.volume += piece.volume;
         strand.touch = touch;
         let width = laid_width(&segment, end[2] - segment.base);
         segment.half_width = segment.half_width.max(0.5 * width);
-        let is_complete = match is_heap {
-            true => segment.path >= segment.width(),
-            false => piece.is_full && segment.volume >= self.plan.segment_volume() * (1.0 - SLACK),
-        };
+        let is_long = !segment.is_heap || segment.path >= segment.width();
+        let is_complete = piece.is_full && is_long && segment.volume >= whole;
         strand.open = if is_complete { 0.0 } else { 1.0 };
         strand.count += if is_new { 1.0 } else { 0.0 };
         let index = strand.len() - 1;
