@@ -60,7 +60,8 @@ rules! {
     "enlarge the solid, or keep the nozzle above it"
 
     Step nozzle_jumps(jump, segment)
-    "the nozzle jumps by {jump} m between two steps while fluid comes, more than a segment of {segment} m: the fluid of a      step is laid at one place"; "send derivatives of the inputs with the steps, or take shorter steps"
+    "the nozzle jumps by {jump} m between two steps while fluid comes, more than a segment of {segment} m: the fluid \
+     of a step is laid at one place"; "send derivatives of the inputs with the steps, or take shorter steps"
 
     Step particles_lack_neighbours(fallback, particles, support)
     "{fallback} of {particles} particles conduct by the plain operator, as they have too few neighbours for the \

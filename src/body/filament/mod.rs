@@ -85,8 +85,7 @@ impl FilamentBody {
         memo.0.get_or_insert_with(|| {
             let strand = self.strand(state);
             let totals = self.line.totals(&strand);
-            let apart = self.line.plan().spacing;
-            let deviation = self.target.as_ref().map(|target| target.deviation(&strand, apart));
+            let deviation = self.target.as_ref().map(|target| target.deviation(&strand));
             (strand, totals, deviation.unwrap_or_default())
         })
     }

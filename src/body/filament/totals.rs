@@ -38,8 +38,14 @@ impl Seen<'_> {
     }
 }
 
-const TOTALS: [Total; 25] = [
+const TOTALS: [Total; 26] = [
     total("volume", "volume that has come so far", Quantity::Volume, |seen| seen.strand.volume),
+    total(
+        "volume_drift",
+        "error of the volume balance: volume of the segments minus volume that has come",
+        Quantity::Volume,
+        |seen| seen.totals.volume - seen.strand.volume,
+    ),
     total("mass", "mass that has come so far", Quantity::Mass, |seen| {
         seen.density * seen.strand.volume
     }),
@@ -123,6 +129,15 @@ const TOTALS: [Total; 25] = [
         ),
     ),
     of(
+        Offered::OfHeat,
+        total(
+            "heat_drift",
+            "error of the heat balance: heat_stored, heat and heat_lost together",
+            Quantity::Energy,
+            |seen| seen.totals.missing,
+        ),
+    ),
+    of(
         Offered::Freezing,
         total("solid_fraction", "frozen fraction of the volume", Quantity::Ratio, |seen| {
             seen.totals.frozen
@@ -184,12 +199,6 @@ const TOTALS: [Total; 25] = [
             Quantity::Length,
             |seen| seen.deviation.gap,
         ),
-    ),
-    total(
-        "jump",
-        "largest jump of the nozzle between two steps while fluid came",
-        Quantity::Length,
-        |seen| seen.strand.jump,
     ),
 ];
 

@@ -65,6 +65,16 @@ impl Heat {
         self.conductivity(frozen) / height * released / (b - a)
     }
 
+    /// The ratio for which [`Self::settle`] relaxes exponentially to a constant temperature as with the given ratio of a
+    /// short step, unless the fluid is freezing.
+    pub fn exact_ratio(&self, ratio: f64, content: f64) -> f64 {
+        match (self.phases, self.frozen(content)) {
+            (Some(phases), 1.0) => phases.heat * (ratio / phases.heat).exp_m1(),
+            (_, 0.0) => ratio.exp_m1(),
+            _ => ratio,
+        }
+    }
+
     /// `−ln(1 − F)` between two ages of a slab.
     pub fn cooling(&self, height: f64, [from, to]: [f64; 2]) -> f64 {
         let fourier = |age: f64| self.conductivity / self.capacity * age / (height * height);

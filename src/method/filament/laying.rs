@@ -101,6 +101,10 @@ impl Line {
             return Err(Failure::NegativeFlow { flow });
         }
         let begin = motion.outlet(0.0);
+        let (volume, most) = (strand.volume + motion.volume(motion.duration), self.plan.most);
+        if volume > most * (1.0 + SLACK) {
+            return Err(Failure::BeyondMost { volume, most });
+        }
         let comes = motion.volume(motion.duration) > 0.0;
         if !comes || strand.flowing == 0.0 {
             strand.open = 0.0;
@@ -152,7 +156,7 @@ impl Line {
     ) -> Result<Arrival, Failure> {
         let [begin, end] = [piece.from, piece.to].map(|s| motion.outlet(s));
         let temperature = at(motion.temperature, 0.5 * (piece.from + piece.to));
-        self.check_piece(strand, (begin[2].min(end[2]), temperature), piece.volume)?;
+        self.check_piece(strand, begin[2].min(end[2]), temperature)?;
         let duration = piece.to - piece.from;
         let speed = piece.volume / (duration * self.plan.outlet());
         let velocity = [0, 1, 2].map(|axis| (end[axis] - begin[axis]) / duration);
@@ -199,22 +203,12 @@ impl Line {
         Ok(Arrival { segment: index, impulse })
     }
 
-    fn check_piece(
-        &self,
-        strand: &Strand,
-        (height, temperature): (f64, f64),
-        volume: f64,
-    ) -> Result<(), Failure> {
-        let most = self.plan.most;
-        let volume = strand.volume + volume;
+    fn check_piece(&self, strand: &Strand, height: f64, temperature: f64) -> Result<(), Failure> {
         if height <= 0.0 {
             return Err(Failure::NozzleInPlate { height });
         }
         if temperature <= 0.0 {
             return Err(Failure::BelowAbsoluteZero { temperature });
-        }
-        if volume > most * (1.0 + SLACK) {
-            return Err(Failure::BeyondMost { volume, most });
         }
         match strand.open == 0.0 && strand.len() == strand.capacity() {
             true => Err(Failure::Full { segments: strand.len() }),

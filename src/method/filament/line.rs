@@ -41,6 +41,8 @@ pub struct LineTotals {
     pub frozen: f64,
     /// Heat gained since it came, negative when cooled [J].
     pub heat_stored: f64,
+    /// Volume of all segments [m³].
+    pub volume: f64,
     /// Heat that appeared from nowhere: the rounding of the balance [J].
     pub missing: f64,
 }
@@ -252,6 +254,7 @@ impl Line {
         }
         let [x, y, _] = strand.nozzle;
         totals.lag = (x - strand.touch[0]).hypot(y - strand.touch[1]);
+        totals.volume = volume;
         totals.heat_stored = heat - strand.supplied;
         totals.missing = totals.heat_stored + strand.given + strand.lost;
         totals
@@ -267,19 +270,18 @@ impl Line {
     /// Refuses a state that no run produces, with the reason.
     pub fn check(&self, strand: &Strand) -> Result<(), String> {
         strand.check()?;
-        let capacity = |volume: f64| self.heat.capacity(volume);
-        let (mut volume, mut scale) = (0.0, strand.supplied.abs() + strand.given.abs());
+        let totals = self.totals(strand);
+        let mut scale = strand.supplied.abs() + strand.given.abs();
         for (n, segment) in strand.segments().enumerate() {
-            volume += segment.volume;
-            scale += segment.heat.abs() + capacity(segment.volume) * self.plan.reference;
+            scale += segment.heat.abs() + self.heat.capacity(segment.volume) * self.plan.reference;
             if self.temperature(&segment) <= 0.0 {
                 return Err(format!("segment {n} is below absolute zero"));
             }
         }
+        let (volume, missing) = (totals.volume, totals.missing);
         if (volume - strand.volume).abs() > BALANCE * strand.volume {
             return Err(format!("{} m³ came, and {volume} m³ are in segments", strand.volume));
         }
-        let missing = self.totals(strand).missing;
         match missing.abs() <= BALANCE * scale {
             true => Ok(()),
             false => Err(format!("{missing:e} J of heat have no cause")),
@@ -363,6 +365,7 @@ impl SegmentStep<'_> {
             _ => self.line.heat.cooling(segment.height(), self.ages),
         };
         let duration = self.ages[1] - self.ages[0];
+        let cooling = cooling + self.air_ratio(segment, duration);
         let growth = self.spreading(segment).speed(segment.half_width) * duration;
         let growth = (growth / segment.half_width).min(1.0);
         (cooling / COOLING).max(growth / GROWTH).ceil().clamp(1.0, MOST_STEPS) as usize
@@ -381,14 +384,19 @@ impl SegmentStep<'_> {
         } else {
             0.0
         };
-        let sides = 2.0 * segment.height() * segment.length();
-        let exposed = if self.covered { sides } else { sides + segment.area() };
-        let up = self.line.plan.air * exposed;
+        let up = heat.exact_ratio(self.air_ratio(segment, duration), content) * capacity / duration;
         let to_rise = |temperature: f64| temperature - heat.reference;
         let ratio = duration * (down + up) / capacity;
         let drive = duration * (down * to_rise(below) + up * to_rise(self.air)) / capacity;
         let temperature = heat.temperature(heat.settle(ratio, content + drive));
         [duration * down * (temperature - below), duration * up * (temperature - self.air)]
+    }
+
+    /// Heat per difference of temperature that passes to the air in a time, over the heat capacity of the molten segment.
+    fn air_ratio(&self, segment: &Segment, duration: f64) -> f64 {
+        let sides = 2.0 * segment.height() * segment.length();
+        let exposed = if self.covered { sides } else { sides + segment.area() };
+        duration * self.line.plan.air * exposed / self.line.heat.capacity(segment.volume)
     }
 
     /// Area through which the segment touches what lies below it [m²].

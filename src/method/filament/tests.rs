@@ -235,6 +235,7 @@ fn impossible_motions_are_refused() {
     assert!(refusal(along(1.0, (0.0, 0.0), 0.01, 1e-8)).contains("outlet"));
     assert!(refusal(Motion { flow: [1e-6, 0.0, 0.0], ..fine }).contains("most"));
     assert!(refusal(Motion { flow: [1e-8, -2e-8, 0.0], ..fine }).contains("flow"));
+    assert!(refusal(Motion { flow: [1e3, 0.0, 0.0], ..fine }).contains("most"));
     assert!(refusal(Motion { temperature: [-1.0, 0.0, 0.0], ..fine }).contains("absolute zero"));
 }
 
@@ -269,7 +270,7 @@ fn deviations_converge_with_the_length_of_segments() {
             });
         }
         line.advance(&mut strand, &motions, &around).unwrap();
-        let found = target.deviation(&strand, 0.1e-3);
+        let found = target.deviation(&strand);
         [(found.mean / mean - 1.0).abs(), (found.largest / largest - 1.0).abs()]
     };
     let [coarse, middle, fine] = [2e-3, 1e-3, 0.25e-3].map(errors);
@@ -285,8 +286,12 @@ fn gaps_are_lengths_that_nothing_covers() {
     let strand = straight(&line, 3, (0.01, 0.1, 0.1 * line.plan().outlet()));
     let end = strand.touch[0];
     let target = Target::new(vec![[0.0, 0.0], [end + 0.5, 0.0]]);
-    let found = target.deviation(&strand, 1e-3);
-    let half_width = strand.segment(40).half_width;
-    assert!((found.gap - (0.5 - half_width)).abs() < 3e-3, "{found:?}");
+    let found = target.deviation(&strand);
+    let half_width = strand.segment(strand.len() - 1).half_width;
+    assert!((found.gap - (0.5 - half_width)).abs() < 1e-9, "{found:?}");
     assert!(found.largest < 1e-12);
+    // Across the strand, half of its width on each side is covered.
+    let middle = strand.segment(40);
+    let across = Target::new(vec![[middle.middle()[0], -0.1], [middle.middle()[0], 0.3]]);
+    assert!((across.deviation(&strand).gap - (0.4 - middle.width())).abs() < 1e-9);
 }
