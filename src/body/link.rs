@@ -185,10 +185,12 @@ pub fn links(scene: &Scene, place: impl Fn(&str) -> Option<usize>) -> Vec<Link> 
         let solid = coupling.solid()?;
         let interval = match scene.body.get(&coupling.from)? {
             scene::Body::LargeStrain(body) => contact_interval(coupling, body),
-            scene::Body::Filament(_) => filament::interval(coupling),
-            _ => {
+            from => {
                 let plan = plan(scene, solid, scene.solid(solid)?);
-                interval(coupling, scene.droplet(&coupling.from)?, &plan)
+                match from {
+                    scene::Body::Filament(own) => filament::interval(coupling, own, &plan),
+                    _ => interval(coupling, scene.droplet(&coupling.from)?, &plan),
+                }
             }
         };
         Some(Link {
@@ -244,7 +246,7 @@ pub fn interval(coupling: &Coupling, droplet: &Droplet, plan: &Plan) -> f64 {
 
 /// Returns a note on the chosen interval.
 pub fn note(interval: f64) -> String {
-    format!("heat and momentum pass between droplet and solid at least every {interval:.3e} s")
+    format!("heat and momentum pass to the solid below at least every {interval:.3e} s")
 }
 
 /// Length of the shortest element along the surface [m].

@@ -31,10 +31,12 @@ kind = "solid"
 shape = {{ box = [14e-3, 10e-3, 1e-3] }}
 material = "{material}"
 initial_temperature = 293.15
-mesh = {{ spacing = 0.8e-3 }}
+mesh = {{ spacing = 1e-3, order = 1 }}
+faces = {{ bottom = {{ clamped = true }} }}
 [[coupling]]
 from = "ink"
 to = "plate.top"
+traction = false
 "#
     )
 }
@@ -60,7 +62,7 @@ fn balances_close_for_all_fluids() {
     ] {
         let text = line(fluid, temperature, material, air);
         let mut heats = Vec::new();
-        for steps in [4, 40] {
+        for steps in [4, 20] {
             let mut trial = run(&text, steps);
             let said = format!("{fluid} on {material} in {steps} steps");
             let [volume, drift] =
@@ -77,7 +79,7 @@ fn balances_close_for_all_fluids() {
             assert!(trial.get("ink.max_temperature") < temperature + 1e-9, "{said}");
             heats.push(heat);
         }
-        assert!((heats[0] / heats[1] - 1.0).abs() < 0.12, "{fluid} on {material}: {heats:?}");
+        assert!((heats[0] / heats[1] - 1.0).abs() < 0.06, "{fluid} on {material}: {heats:?}");
     }
 }
 
@@ -85,15 +87,16 @@ fn balances_close_for_all_fluids() {
 #[test]
 fn the_plate_carries_the_strand() {
     let text = line(CONCRETE, 310.0, "steel-304", "").replace("flow = 8e-9", "flow = 0.0");
-    let mut trial = Trial::new(&text);
+    let mut trial = Trial::new(&text.replace("traction = false", ""));
     trial.set("ink.flow", 8e-9);
     (0..5).for_each(|_| trial.step(0.1));
     trial.set("ink.flow", 0.0);
     trial.step(0.1);
     let weight = 9.81 * trial.get("ink.mass");
     assert!((trial.get("ink.force") / weight - 1.0).abs() < 1e-9);
-    let without = text.replace("to = \"plate.top\"", "to = \"plate.top\"\ntraction = false");
-    let mut trial = run(&without, 5);
+    let mut trial = Trial::new(&text);
+    trial.set("ink.flow", 8e-9);
+    trial.step(0.1);
     assert_eq!(trial.get("ink.force"), 0.0);
 }
 
@@ -142,6 +145,7 @@ fn inputs_follow_polynomials() {
     // From rest, at 0.04 m/s², while the flow grows from nothing.
     let mut trial = Trial::new(&by_inputs.replace("flow = 8e-9", "flow = 0.0"));
     trial.set("ink.nozzle_x", -5e-3);
+    trial.set("ink.nozzle_z", 0.6e-3);
     trial.set_derivative("ink.nozzle_x", 2, 0.04);
     trial.set_derivative("ink.flow", 1, 1.6e-8);
     trial.step(0.5);
@@ -208,12 +212,12 @@ fn saved_states_continue_to_the_bit() {
 /// Any number of a state that a run cannot produce is refused, or leads to finite outputs or a refusal.
 #[test]
 fn damaged_states_do_no_harm() {
-    let text = line(WAX, 343.0, "soda-lime-glass", "");
+    let text = line(WAX, 343.0, "soda-lime-glass", "").replace("spacing = 1e-3", "spacing = 4e-3");
     let mut trial = run(&text, 3);
     let saved = trial.state.clone();
     let (mut refused, count) = (0, saved.bodies[0].len());
     for place in 0..count {
-        for value in [f64::NAN, -1.0, 0.5, 3.0, 1e300, f64::INFINITY] {
+        for value in [f64::NAN, -1.0, 3.5, 1e300] {
             let mut damaged = saved.clone();
             if damaged.bodies[0][place] == value {
                 continue;
@@ -230,5 +234,5 @@ fn damaged_states_do_no_harm() {
             }
         }
     }
-    assert!(refused >= 3 * count, "{refused} of {count}");
+    assert!(refused >= 2 * count, "{refused} of {count}");
 }

@@ -1,6 +1,10 @@
 //! Cost of filaments, and notes on their model.
 
-use super::plan;
+use super::{interval, plan};
+use crate::body::droplet::exchange_time;
+use crate::body::link;
+use crate::body::solid::plan as solid_plan;
+use crate::method::fem::Plan;
 use crate::scene::{Filament, Scene};
 
 #[derive(Debug, Clone, PartialEq)]
@@ -30,14 +34,27 @@ impl FilamentForecast {
         // Half of them in the mean.
         let laid = 0.5 * volume / plan.segment_volume();
         let steps = (scene.stop_time / scene.step).ceil();
+        let below = contact(scene, name, filament);
+        let parts = below.as_ref().map_or(1, |(interval, _)| link::parts(*interval, scene.step));
+        let exchanges = steps * parts as f64;
+        let exchange = scene.step / parts as f64;
+        let of_solid = below.map_or(0.0, |(_, plan)| exchanges * exchange_time(&plan, exchange));
         Self {
             name: name.to_owned(),
             segments,
             memory: SEGMENT * segments as f64,
-            run_time: STEP * steps * laid,
+            run_time: STEP * exchanges * laid + of_solid,
             notes: notes(scene, (name, filament)),
         }
     }
+}
+
+/// Longest time between two exchanges with the solid below [s] and the plan of that, if there is one.
+fn contact(scene: &Scene, name: &str, filament: &Filament) -> Option<(f64, Plan)> {
+    let coupling = &scene.coupling[scene.coupling_from(name)?];
+    let solid = coupling.solid()?;
+    let plan = solid_plan(scene, solid, scene.solid(solid)?);
+    Some((interval(coupling, filament, &plan), plan))
 }
 
 /// Viscosity [Pa s] and kinetic pressure over that of viscosity or surface tension above which inertia throws strands.
@@ -54,11 +71,12 @@ pub fn notes(scene: &Scene, (name, filament): (&str, &Filament)) -> Vec<String> 
         ),
         "strands side by side do not touch, no strand spans a gap, and heat does not pass along the strand".to_owned(),
     ];
-    if scene.coupling_from(name).is_none() {
-        notes.push(
-            "the strand lies on an insulated plane, as no coupling joins it to a solid".to_owned(),
-        );
-    }
+    notes.push(match contact(scene, name, filament) {
+        Some((interval, _)) => link::note(interval),
+        None => {
+            "the strand lies on an insulated plane, as no coupling joins it to a solid".to_owned()
+        }
+    });
     if filament.fluid.melting.is_some() {
         let held = "a strand whose frozen fraction passes 0.64 neither spreads nor flows";
         notes.push(held.to_owned());

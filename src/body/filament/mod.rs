@@ -15,6 +15,8 @@ use crate::body::{
     Received, Resources,
 };
 use crate::inputs::InputLayout;
+use crate::laws::Constants;
+use crate::method::fem::Plan;
 use crate::method::filament::{
     Around, Deviation, Failure, Line, LineTotals, Segment, Strand, Target,
 };
@@ -198,6 +200,7 @@ impl Body for FilamentBody {
             fields.position.push([x, y, segment.base + 0.5 * segment.height()]);
             fields.velocity.push([0.0; 3]);
             fields.mass.push(density * segment.volume);
+            fields.width.push(segment.width());
             fields.density.push(density);
             fields.pressure.push(density * self.line.plan().gravity * segment.height());
             fields.temperature.push(self.line.temperature(&segment));
@@ -263,7 +266,22 @@ impl Resources for FilamentBody {
     }
 }
 
-/// Longest time between two exchanges with the solid below [s]: that of the scene, or the communication step.
-pub fn interval(coupling: &Coupling) -> f64 {
-    coupling.interval.unwrap_or(f64::INFINITY)
+/// Part of the time that heat takes to spread along the surface of a solid, to which an exchange is limited.
+const ALONG: f64 = 3e-3;
+
+/// Longest time between two exchanges with the solid below [s]: that of the scene, or `c D²/a ((e + e_f)/e_f)²`. Within
+/// an exchange the surface responds as a half space does. So the heat that spreads along it, with the diffusivity a,
+/// stays small there, the more so the smaller the rise `e_f/(e + e_f)` of its temperature is. D is the diameter of the
+/// nozzle, e and e_f are the effusivities of solid and fluid; of layers, the largest a and the smallest e. With
+/// c = 0.003 the heat of wax and solder on glass, copper and FR4 is accurate to 3 % in steps of any length.
+pub fn interval(coupling: &Coupling, filament: &Filament, plan: &Plan) -> f64 {
+    let of_layer = |share: f64, constants: Constants| {
+        let along = filament.nozzle.diameter.powi(2) * constants.heat_capacity();
+        ALONG * share * along / constants.conductivity
+    };
+    let layers = || plan.strata.iter().map(|layer| layer.constants);
+    let solid = layers().map(|c| c.effusivity()).fold(f64::INFINITY, f64::min);
+    let share = (1.0 + solid / filament.fluid.effusivity()).powi(2);
+    let along = layers().map(|c| of_layer(share, c)).fold(f64::INFINITY, f64::min);
+    coupling.interval.unwrap_or(along)
 }

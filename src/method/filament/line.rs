@@ -138,16 +138,16 @@ impl Line {
             }
             let below = match segment.below {
                 Some(lower) => Below::Segment(strand.segment(lower)),
-                None => self.below_on_plate((around.surface, &free), &feet[n], &covered, {
-                    let part = |time: f64| (time - begin) / duration;
-                    [part(from), 1.0]
-                }),
+                None => {
+                    let parts = [(from - begin) / duration, 1.0];
+                    let foot = (&feet[n], segment.area());
+                    self.below_on_plate((around.surface, &free), foot, &covered, parts)
+                }
             };
             let step = SegmentStep {
                 line: self,
                 below: &below,
                 ages: [from - segment.born, strand.time - segment.born],
-                contact: segment.area(),
                 covered: on_top[n],
                 air: around.air,
             };
@@ -191,7 +191,7 @@ impl Line {
     fn below_on_plate<'a>(
         &self,
         (surface, free): (&'a Surface, &[Vec<f64>; 2]),
-        foot: &Footprint,
+        (foot, area): (&Footprint, f64),
         covered: &[f64],
         parts: [f64; 2],
     ) -> Below<'a> {
@@ -199,7 +199,8 @@ impl Line {
         let [Some(first), Some(last)] = ends else { return Below::Nothing };
         let at = |part: f64| first + part * (last - first);
         let cover = foot.mean(|cell| covered[cell]).unwrap_or(0.0);
-        Below::Plate { surface, ends: parts.map(at), cover, inside: foot.inside() }
+        let inside = foot.inside();
+        Below::Plate { surface, ends: parts.map(at), flux: cover / (area * inside), inside }
     }
 
     /// Passes the weight of the strand and the momentum of arriving fluid to the plate, through the segments below.
@@ -296,8 +297,8 @@ enum Below<'a> {
         surface: &'a Surface,
         /// Mean temperature of the cells without the strand's heat when contact begins in this step, and at its end [K].
         ends: [f64; 2],
-        /// Covered part of the cells.
-        cover: f64,
+        /// Flux into the cells over the heat flow of the segment, as others share them with it [1/m²].
+        flux: f64,
         /// Part of the segment above the plate.
         inside: f64,
     },
@@ -310,8 +311,6 @@ struct SegmentStep<'a> {
     below: &'a Below<'a>,
     /// Ages of the segment at its beginning and end [s].
     ages: [f64; 2],
-    /// Area of its lower side when the step begins [m²].
-    contact: f64,
     /// True if another segment lies on it.
     covered: bool,
     /// [K]
@@ -378,12 +377,8 @@ impl SegmentStep<'_> {
         let content = self.line.content(segment);
         let capacity = heat.capacity(segment.volume);
         let (below, resistance) = self.below(segment, ages, before);
-        let down = if resistance.is_finite() {
-            let own = 1.0 / heat.conductance(segment.height(), ages, content);
-            self.contact(segment) / (own + resistance)
-        } else {
-            0.0
-        };
+        let own = heat.conductance(segment.height(), ages, content);
+        let down = 1.0 / (1.0 / (own * self.contact(segment)) + resistance);
         let up = heat.exact_ratio(self.air_ratio(segment, duration), content) * capacity / duration;
         let to_rise = |temperature: f64| temperature - heat.reference;
         let ratio = duration * (down + up) / capacity;
@@ -403,27 +398,25 @@ impl SegmentStep<'_> {
     fn contact(&self, segment: &Segment) -> f64 {
         match self.below {
             Below::Nothing => 0.0,
-            // It is what the plate's cells expect.
-            Below::Plate { inside, .. } => self.contact * inside,
+            Below::Plate { inside, .. } => segment.area() * inside,
             Below::Segment(_) => segment.area(),
         }
     }
 
-    /// Temperature below [K], and the resistance to it per area, with the rise that the heat of this inner step causes
-    /// [m² K/W].
+    /// Temperature below [K], and the resistance to it, with the rise that the heat of this inner step causes [K/W].
     fn below(&self, segment: &Segment, ages: [f64; 2], before: f64) -> (f64, f64) {
         let heat = &self.line.heat;
         let duration = ages[1] - ages[0];
         match self.below {
             Below::Nothing => (self.air, f64::INFINITY),
-            Below::Plate { surface, ends, cover, .. } => {
+            Below::Plate { surface, ends, flux, .. } => {
                 let part = (ages[1] - self.ages[0]) / (self.ages[1] - self.ages[0]);
                 let free = ends[0] + part * (ends[1] - ends[0]);
                 let elapsed = ages[1] - self.ages[0];
-                let rise = cover * surface.response.of_held_flux(elapsed) / elapsed;
-                let contact =
-                    self.line.plan.conductance.map_or(0.0, |conductance| 1.0 / conductance);
-                (free + rise * before / self.contact(segment), contact + rise * duration)
+                let rise = flux * surface.response.of_held_flux(elapsed) / elapsed;
+                let area = self.contact(segment);
+                let contact = self.line.plan.conductance.map_or(0.0, |value| 1.0 / (value * area));
+                (free + rise * before, contact + rise * duration)
             }
             Below::Segment(lower) => {
                 let content = self.line.content(lower);
@@ -431,7 +424,7 @@ impl SegmentStep<'_> {
                     heat.capacity(lower.volume) * heat.phases.map_or(1.0, |p| p.heat.min(1.0));
                 let temperature = heat.temperature(content) + before / capacity;
                 let own = 1.0 / heat.conductance(lower.height(), ages, content);
-                (temperature, own + duration * segment.area() / capacity)
+                (temperature, own / segment.area() + duration / capacity)
             }
         }
     }

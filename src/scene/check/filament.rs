@@ -58,6 +58,8 @@ fn fluid(checker: &mut Checker, path: &Path, filament: &Filament) {
 
 fn places(checker: &mut Checker, path: &Path, table: &PathTable) {
     let count = table.len();
+    let message = format!("{count} times are no motion");
+    checker.require(count >= 2, &path.key("time"), message, "two or more times");
     let heights = table.z.as_ref().map(|z| ("z", z.len()));
     for (key, own) in [("x", table.x.len()), ("y", table.y.len())].into_iter().chain(heights) {
         let message = format!("{own} places at {count} times");
@@ -107,6 +109,9 @@ fn targets(checker: &mut Checker) {
         let is_first = scene.target[..i].iter().all(|other| other.of != target.of);
         let message = format!("`{}` has a target already", target.of);
         checker.require(is_first, &of, message, "one target a filament");
+        let places = target.line.len();
+        let message = format!("{places} places are no line");
+        checker.require(places >= 2, &path.key("line"), message, "two or more places");
         let repeated = target.line.windows(2).position(|ends| ends[0] == ends[1]);
         if let Some(n) = repeated {
             let message = "the place is that before it";
