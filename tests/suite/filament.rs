@@ -100,7 +100,8 @@ fn the_plate_carries_the_strand() {
     assert_eq!(trial.get("ink.force"), 0.0);
 }
 
-/// On an insulated plane in air a strand cools as a lump: `T = T_a + (T_0 − T_a) exp(−h A t/(ρ c V))`.
+/// On an insulated plane in air a strand cools as a lump, at its Biot number of 0.01: `T = T_a + (T_0 − T_a) exp(−h A
+/// t/(ρ c V))`.
 #[test]
 fn strands_in_air_cool_as_lumps() {
     let keys = "convection = { coefficient = 15.0, ambient = 290.0 }";
@@ -118,7 +119,7 @@ fn strands_in_air_cool_as_lumps() {
         let decay = (-15.0 * exposed * (duration + from) / (2200.0 * 900.0)).exp();
         let expected = 290.0 + (start - 290.0) * decay;
         let found = trial.get("ink.max_temperature");
-        assert!((found - expected).abs() < 1e-6 * (start - 290.0), "{found} {expected}");
+        assert!((found - expected).abs() < 0.01 * (start - 290.0), "{found} {expected}");
     }
 }
 

@@ -6,6 +6,7 @@
 //! height H − h and the mean speed u in the nozzle. Under a nozzle of steady velocity v the strand touches down at the
 //! distance `v t_r` behind it. Threads that swing, coil or buckle are not modelled.
 
+use super::cooling::{LAYERS, SHARES};
 use super::line::Line;
 use super::{Failure, Segment, Strand};
 
@@ -183,7 +184,7 @@ impl Line {
         let heat = self.heat.content_at(temperature) * self.heat.capacity(piece.volume);
         segment.volume += piece.volume;
         segment.is_heap = segment.path * self.plan.outlet() < SLOW * segment.volume;
-        segment.heat += heat;
+        (0..LAYERS).for_each(|n| segment.heats[n] += SHARES[n] * heat);
         strand.supplied += heat;
         strand.volume += piece.volume;
         strand.touch = touch;

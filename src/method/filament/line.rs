@@ -1,6 +1,6 @@
 //! Steps of a strand: fluid is laid, then every segment spreads and exchanges heat.
 
-use super::cooling::Heat;
+use super::cooling::{Column, Heat, LAYERS, SHARES, Surroundings};
 use super::footprint::Footprint;
 use super::laying::Arrival;
 use super::spreading::Spreading;
@@ -48,10 +48,14 @@ pub struct LineTotals {
 }
 
 /// Part of its heat that a segment releases in an inner step, at most.
-const COOLING: f64 = 0.1;
+const COOLING: f64 = 0.05;
 /// Growth of the width in an inner step, at most.
 const GROWTH: f64 = 0.05;
 const MOST_STEPS: f64 = 64.0;
+/// Number of inner steps of the first step of a segment, at least.
+const FIRST_STEPS: f64 = 12.0;
+/// Difference of a segment's temperatures from those around it that is worth an inner step [K].
+const LEAST_APART: f64 = 0.1;
 /// Relative error of the heat balance of a state that runs never reach.
 const BALANCE: f64 = 1e-6;
 
@@ -77,18 +81,23 @@ impl Line {
         Strand::new(self.plan.capacity(), self.areas.len(), nozzle)
     }
 
-    /// Temperature of a segment [K].
+    /// Temperatures of the layers of a segment [K], from below.
+    fn temperatures(&self, segment: &Segment) -> [f64; LAYERS] {
+        self.contents(segment).map(|content| self.heat.temperature(content))
+    }
+
+    /// Mean temperature of a segment [K].
     pub fn temperature(&self, segment: &Segment) -> f64 {
-        self.heat.temperature(self.content(segment))
+        mean(self.temperatures(segment))
     }
 
     /// Frozen fraction of a segment.
     pub fn frozen(&self, segment: &Segment) -> f64 {
-        self.heat.frozen(self.content(segment))
+        mean(self.contents(segment).map(|content| self.heat.frozen(content)))
     }
 
-    fn content(&self, segment: &Segment) -> f64 {
-        segment.heat / self.heat.capacity(segment.volume)
+    fn contents(&self, segment: &Segment) -> [f64; LAYERS] {
+        self.heat.contents(&segment.heats, segment.volume)
     }
 
     /// Advances a strand through motions of the nozzle, one after the other.
@@ -157,7 +166,7 @@ impl Line {
             match segment.below {
                 Some(lower) => {
                     let mut lower_segment = strand.segment(lower);
-                    lower_segment.heat += given;
+                    lower_segment.heats[LAYERS - 1] += given;
                     strand.set(lower, &lower_segment);
                 }
                 None => {
@@ -240,11 +249,12 @@ impl Line {
             length += segment.length();
             area += segment.area();
             volume += segment.volume;
-            heat += segment.heat;
+            heat += segment.heat();
             frozen += segment.volume * self.frozen(&segment);
-            let temperature = self.temperature(&segment);
-            totals.hottest = totals.hottest.max(temperature);
-            totals.coldest = totals.coldest.min(temperature);
+            for temperature in self.temperatures(&segment) {
+                totals.hottest = totals.hottest.max(temperature);
+                totals.coldest = totals.coldest.min(temperature);
+            }
             (totals.last_width, totals.last_height) = (segment.width(), segment.height());
         }
         if volume > 0.0 {
@@ -274,8 +284,9 @@ impl Line {
         let totals = self.totals(strand);
         let mut scale = strand.supplied.abs() + strand.given.abs();
         for (n, segment) in strand.segments().enumerate() {
-            scale += segment.heat.abs() + self.heat.capacity(segment.volume) * self.plan.reference;
-            if self.temperature(&segment) <= 0.0 {
+            scale +=
+                segment.heat().abs() + self.heat.capacity(segment.volume) * self.plan.reference;
+            if self.temperatures(&segment).iter().any(|&temperature| temperature <= 0.0) {
                 return Err(format!("segment {n} is below absolute zero"));
             }
         }
@@ -335,10 +346,11 @@ impl SegmentStep<'_> {
                 continue;
             }
             if self.line.heat.conductivity > 0.0 {
-                let [given, lost] = self.exchange(segment, ages, sums[0]);
-                sums[0] += given;
-                sums[1] += lost;
-                segment.heat -= given + lost;
+                let column = Column { volume: segment.volume, height: segment.height() };
+                let around = self.surroundings(segment, ages, sums[0]);
+                let heat = &self.line.heat;
+                let passed = heat.advance(&mut segment.heats, column, ages[1] - ages[0], &around);
+                (0..2).for_each(|n| sums[n] += passed[n]);
             }
             segment.half_width =
                 self.spreading(segment).advance(segment.half_width, ages[1] - ages[0]);
@@ -347,51 +359,53 @@ impl SegmentStep<'_> {
     }
 
     fn spreading(&self, segment: &Segment) -> Spreading<'_> {
-        let content = self.line.content(segment);
         Spreading {
             fluid: &self.line.plan.fluid,
             gravity: self.line.plan.gravity,
             section: segment.section(),
-            temperature: self.line.heat.temperature(content),
-            frozen: self.line.heat.frozen(content),
+            temperature: self.line.temperature(segment),
+            frozen: self.line.frozen(segment),
         }
     }
 
     /// Number of inner steps, by what a step changes.
     fn steps(&self, segment: &Segment) -> usize {
-        let cooling = match self.below {
-            Below::Nothing => 0.0,
-            _ => self.line.heat.cooling(segment.height(), self.ages),
-        };
         let duration = self.ages[1] - self.ages[0];
+        let heat = &self.line.heat;
+        let cooling = heat.cooling(segment.height(), self.ages);
+        // A segment that is as warm as its surroundings has nothing to resolve.
+        let around = self.surroundings(segment, self.ages, 0.0);
+        let apart = self.line.temperatures(segment).map(|temperature| {
+            let to_air = if self.line.plan.air > 0.0 { temperature - around.air } else { 0.0 };
+            (temperature - around.below).abs().max(to_air.abs())
+        });
+        let apart = apart.into_iter().fold(0.0, f64::max);
+        let cooling = cooling.min(apart / LEAST_APART);
         let cooling = cooling + self.air_ratio(segment, duration);
         let growth = self.spreading(segment).speed(segment.half_width) * duration;
         let growth = (growth / segment.half_width).min(1.0);
-        (cooling / COOLING).max(growth / GROWTH).ceil().clamp(1.0, MOST_STEPS) as usize
+        let least = if self.ages[0] == 0.0 && apart > LEAST_APART { FIRST_STEPS } else { 1.0 };
+        (cooling / COOLING).max(growth / GROWTH).ceil().clamp(least, MOST_STEPS) as usize
     }
 
-    /// Heat that passes down and to the air between two ages [J], after some has passed down in this step.
-    fn exchange(&self, segment: &Segment, ages: [f64; 2], before: f64) -> [f64; 2] {
-        let heat = &self.line.heat;
-        let duration = ages[1] - ages[0];
-        let content = self.line.content(segment);
-        let capacity = heat.capacity(segment.volume);
-        let (below, resistance) = self.below(segment, ages, before);
-        let own = heat.conductance(segment.height(), ages, content);
-        let down = 1.0 / (1.0 / (own * self.contact(segment)) + resistance);
-        let up = heat.exact_ratio(self.air_ratio(segment, duration), content) * capacity / duration;
-        let to_rise = |temperature: f64| temperature - heat.reference;
-        let ratio = duration * (down + up) / capacity;
-        let drive = duration * (down * to_rise(below) + up * to_rise(self.air)) / capacity;
-        let temperature = heat.temperature(heat.settle(ratio, content + drive));
-        [duration * down * (temperature - below), duration * up * (temperature - self.air)]
+    /// Areas of the upper side and of the others that face the air [m²].
+    fn exposed(&self, segment: &Segment) -> [f64; 2] {
+        let above = if self.covered { 0.0 } else { segment.area() };
+        [above, 2.0 * segment.height() * segment.length()]
     }
 
     /// Heat per difference of temperature that passes to the air in a time, over the heat capacity of the molten segment.
     fn air_ratio(&self, segment: &Segment, duration: f64) -> f64 {
-        let sides = 2.0 * segment.height() * segment.length();
-        let exposed = if self.covered { sides } else { sides + segment.area() };
+        let exposed: f64 = self.exposed(segment).iter().sum();
         duration * self.line.plan.air * exposed / self.line.heat.capacity(segment.volume)
+    }
+
+    /// What the segment exchanges heat with between two ages, after some heat has passed down in this step [J].
+    fn surroundings(&self, segment: &Segment, ages: [f64; 2], before: f64) -> Surroundings {
+        let (below, resistance) = self.below(segment, ages, before);
+        let [above, aside] = self.exposed(segment).map(|area| self.line.plan.air * area);
+        let contact = self.contact(segment);
+        Surroundings { below, resistance, contact, air: self.air, above, aside }
     }
 
     /// Area through which the segment touches what lies below it [m²].
@@ -419,15 +433,20 @@ impl SegmentStep<'_> {
                 (free + rise * before, contact + rise * duration)
             }
             Below::Segment(lower) => {
-                let content = self.line.content(lower);
-                let capacity =
-                    heat.capacity(lower.volume) * heat.phases.map_or(1.0, |p| p.heat.min(1.0));
-                let temperature = heat.temperature(content) + before / capacity;
-                let own = 1.0 / heat.conductance(lower.height(), ages, content);
-                (temperature, own / segment.area() + duration / capacity)
+                let top = LAYERS - 1;
+                let content = self.line.contents(lower)[top];
+                let least = heat.phases.map_or(1.0, |phases| phases.heat.min(1.0));
+                let capacity = least * SHARES[top] * heat.capacity(lower.volume);
+                let own = heat.half_resistance(top, lower.height(), content) / segment.area();
+                (heat.temperature(content) + before / capacity, own + duration / capacity)
             }
         }
     }
+}
+
+/// Mean over the volume of a segment.
+fn mean(values: [f64; LAYERS]) -> f64 {
+    values.iter().zip(SHARES).map(|(value, share)| share * value).sum()
 }
 
 fn add(sum: &mut [f64; 3], vector: [f64; 3], weight: f64) {

@@ -1,5 +1,7 @@
 //! A segment of a strand.
 
+use super::cooling::LAYERS;
+
 /// A piece of the strand between two places of its centre line.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Segment {
@@ -10,8 +12,8 @@ pub struct Segment {
     pub base: f64,
     /// [m³]
     pub volume: f64,
-    /// Heat content above the reference temperature [J].
-    pub heat: f64,
+    /// Heat contents of its layers above the reference temperature, from below [J].
+    pub heats: [f64; LAYERS],
     /// Half of its mean width [m].
     pub half_width: f64,
     /// Mean time at which its fluid came [s].
@@ -25,6 +27,11 @@ pub struct Segment {
 }
 
 impl Segment {
+    /// Heat content [J].
+    pub fn heat(&self) -> f64 {
+        self.heats.iter().sum()
+    }
+
     pub fn width(&self) -> f64 {
         2.0 * self.half_width
     }

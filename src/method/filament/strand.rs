@@ -3,6 +3,7 @@
 use std::slice::from_mut;
 
 use super::Segment;
+use super::cooling::LAYERS;
 use crate::state::{Field, Fields, Per};
 
 /// A strand, with the sums over the run and the exchange of the last step.
@@ -38,7 +39,7 @@ pub struct Strand {
     end: Vec<[f64; 2]>,
     base: Vec<f64>,
     volumes: Vec<f64>,
-    heats: Vec<f64>,
+    heats: Vec<[f64; LAYERS]>,
     half_width: Vec<f64>,
     born: Vec<f64>,
     path: Vec<f64>,
@@ -61,7 +62,7 @@ impl Strand {
             end: vec![[0.0; 2]; capacity],
             base: numbers.clone(),
             volumes: numbers.clone(),
-            heats: numbers.clone(),
+            heats: vec![[0.0; LAYERS]; capacity],
             half_width: numbers.clone(),
             born: numbers.clone(),
             path: numbers.clone(),
@@ -92,7 +93,7 @@ impl Strand {
             end: self.end[n],
             base: self.base[n],
             volume: self.volumes[n],
-            heat: self.heats[n],
+            heats: self.heats[n],
             half_width: self.half_width[n],
             born: self.born[n],
             path: self.path[n],
@@ -106,7 +107,7 @@ impl Strand {
         self.end[n] = segment.end;
         self.base[n] = segment.base;
         self.volumes[n] = segment.volume;
-        self.heats[n] = segment.heat;
+        self.heats[n] = segment.heats;
         self.half_width[n] = segment.half_width;
         self.born[n] = segment.born;
         self.path[n] = segment.path;
@@ -201,7 +202,10 @@ impl Fields for Strand {
             (segment("end", "end of the centre line [m]", 2), self.end.as_flattened_mut()),
             (segment("base", "height of the plane below [m]", 1), &mut self.base),
             (segment("segment_volume", "volume [m³]", 1), &mut self.volumes),
-            (segment("heat", "heat content [J]", 1), &mut self.heats),
+            (
+                segment("heat", "heat contents of the layers [J]", LAYERS),
+                self.heats.as_flattened_mut(),
+            ),
             (segment("half_width", "half of the width [m]", 1), &mut self.half_width),
             (segment("born", "mean time at which its fluid came [s]", 1), &mut self.born),
             (segment("path", "length of the path [m]", 1), &mut self.path),
