@@ -25,6 +25,7 @@ pub enum Per {
     Node,
     Particle,
     Point,
+    Segment,
 }
 
 /// The fields of a state in their order of storage.
@@ -108,6 +109,7 @@ impl fmt::Display for Place {
             Per::Node => "node",
             Per::Particle => "particle",
             Per::Point => "point",
+            Per::Segment => "segment",
         };
         write!(out, " of {entry} {}", self.entry)
     }

@@ -5,7 +5,13 @@ use impinge::variables::{InputLayout, Quantity, Registry, Slot};
 
 /// Returns a note if neither an input nor a face nor a droplet acts on any body.
 pub fn note(scene: &Scene, inputs: &[f64]) -> Option<String> {
-    let moves = |body: &Body| matches!(body, Body::LargeStrain(solid) if solid.inertia || solid.gravity > 0.0 || !solid.inputs().is_empty());
+    let moves = |body: &Body| match body {
+        Body::LargeStrain(solid) => {
+            solid.inertia || solid.gravity > 0.0 || !solid.inputs().is_empty()
+        }
+        Body::Filament(_) => true,
+        _ => false,
+    };
     if scene.droplets().next().is_some() || scene.body.values().any(moves) || acts_by_itself(scene)
     {
         return None;

@@ -3,6 +3,7 @@
 use super::contract::Body;
 use super::droplet::{DropletBody, ReplayBody};
 use super::error::BodyError;
+use super::filament::FilamentBody;
 use super::large_strain::{MovingBody, RestingBody};
 use super::link::{self, Joint, Link};
 use super::reduced::ReducedBody;
@@ -71,6 +72,17 @@ pub fn build(
                     Box::new(body.map_err(named)?)
                 }
             });
+        }
+    }
+    for (index, (name, body)) in scene.body.iter().enumerate() {
+        if let scene::Body::Filament(filament) = body {
+            let link = links.iter().find(|link| link.from == index);
+            let cells = link.and_then(|link| {
+                let below = built[link.to].as_ref()?.conductor()?;
+                Some((below.cells(link.face)?, link))
+            });
+            let body = FilamentBody::new(scene, (layout, start), (name, filament), cells);
+            built[index] = Some(Box::new(body));
         }
     }
     for (index, (name, body)) in scene.body.iter().enumerate() {

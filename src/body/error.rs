@@ -2,6 +2,7 @@
 
 use crate::math::cholesky::SolverError;
 use crate::method::fem::NonlinearFailure;
+use crate::method::filament;
 use crate::method::inelastic::InelasticError;
 use crate::method::large_strain;
 use crate::method::sph::Failure;
@@ -59,6 +60,9 @@ pub enum BodyError {
     /// A step of a solid of large strain has no physical meaning.
     #[error("{body}: {failure}")]
     LargeStrain { body: String, failure: large_strain::Failure },
+    /// A step of a filament has no physical meaning.
+    #[error("{body}: {failure}")]
+    Filament { body: String, failure: filament::Failure },
     /// A reduced model could not be made.
     #[error("the body cannot be reduced: {message} (allowed: fidelity full)")]
     Reduction { message: String },

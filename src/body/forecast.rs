@@ -1,6 +1,7 @@
 //! Cost of a scene.
 
 pub use super::droplet::DropletForecast;
+use super::filament::FilamentForecast;
 use super::large_strain::LargeStrainForecast;
 use super::solid::forecast_solid;
 pub use super::solid::{BodyForecast, ParticleForecast};
@@ -14,6 +15,7 @@ pub struct Forecast {
     pub bodies: Vec<BodyForecast>,
     pub droplets: Vec<DropletForecast>,
     pub large_strains: Vec<LargeStrainForecast>,
+    pub filaments: Vec<FilamentForecast>,
     /// Number of communication steps of the default experiment.
     pub steps: f64,
     /// Time to solve for the heat between touching solids in one communication step [s].
@@ -27,7 +29,8 @@ impl Forecast {
         let of_bodies = self.bodies.iter().map(of_solid);
         let of_large_strains = self.large_strains.iter().map(|body| body.run_time);
         let all = of_bodies.chain(self.droplets.iter().map(|body| body.run_time));
-        let all = all.chain(of_large_strains);
+        let of_filaments = self.filaments.iter().map(|body| body.run_time);
+        let all = all.chain(of_large_strains).chain(of_filaments);
         // From zero: a sum of nothing is negative zero.
         all.fold(0.0, |sum, time| sum + time) + self.steps * self.contact_time
     }
@@ -46,7 +49,15 @@ pub fn forecast(scene: &Scene) -> Forecast {
     let large_strains = scene.large_strains();
     let large_strains =
         large_strains.map(|(name, solid)| LargeStrainForecast::of(scene, name, solid)).collect();
-    Forecast { bodies, droplets: droplets.collect(), large_strains, steps, contact_time }
+    let filaments = scene.filaments().map(|(name, own)| FilamentForecast::of(scene, name, own));
+    Forecast {
+        bodies,
+        droplets: droplets.collect(),
+        large_strains,
+        filaments: filaments.collect(),
+        steps,
+        contact_time,
+    }
 }
 
 /// Time of an exchange between solids per node of both [s]: some eight iterations of two stages each, measured on pairs

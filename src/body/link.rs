@@ -2,6 +2,7 @@
 
 use super::Body;
 use super::droplet;
+use super::filament;
 use super::large_strain::contact_interval;
 use super::solid::plan;
 use crate::laws::Constants;
@@ -9,7 +10,7 @@ use crate::method::fem::Plan;
 use crate::method::sph::DropletSph;
 use crate::port::{CommonCells, LateralModes};
 use crate::port::{SurfaceResponse, WallCells};
-use crate::scene::{Coupling, Droplet, FaceName, Scene};
+use crate::scene::{self, Coupling, Droplet, FaceName, Scene};
 
 /// Largest number of parts of a step that is cut at the moments bodies ask for.
 pub const MOST_PARTS: usize = 64;
@@ -182,11 +183,14 @@ const LEAST_ALONG: f64 = 0.01;
 pub fn links(scene: &Scene, place: impl Fn(&str) -> Option<usize>) -> Vec<Link> {
     let link = |coupling: &Coupling| {
         let solid = coupling.solid()?;
-        let interval = match scene.large_strain(&coupling.from) {
-            Some(body) => contact_interval(coupling, body),
-            None => {
+        let interval = match scene.body.get(&coupling.from)? {
+            scene::Body::LargeStrain(body) => contact_interval(coupling, body),
+            from => {
                 let plan = plan(scene, solid, scene.solid(solid)?);
-                interval(coupling, scene.droplet(&coupling.from)?, &plan)
+                match from {
+                    scene::Body::Filament(own) => filament::interval(coupling, own, &plan),
+                    _ => interval(coupling, scene.droplet(&coupling.from)?, &plan),
+                }
             }
         };
         Some(Link {
@@ -242,7 +246,7 @@ pub fn interval(coupling: &Coupling, droplet: &Droplet, plan: &Plan) -> f64 {
 
 /// Returns a note on the chosen interval.
 pub fn note(interval: f64) -> String {
-    format!("heat and momentum pass between droplet and solid at least every {interval:.3e} s")
+    format!("heat and momentum pass to the solid below at least every {interval:.3e} s")
 }
 
 /// Length of the shortest element along the surface [m].

@@ -6,6 +6,7 @@ mod build;
 mod contract;
 mod droplet;
 mod error;
+mod filament;
 mod forecast;
 mod large_strain;
 mod link;
@@ -24,6 +25,7 @@ pub use droplet::{
     to_be_recorded, wall_quantities, warnings_on_landing,
 };
 pub use error::BodyError;
+pub use filament::FilamentForecast;
 pub use forecast::{BodyForecast, DropletForecast, Forecast, ParticleForecast, forecast};
 pub use large_strain::LargeStrainForecast;
 pub use link::{Joint, Link, MOST_PARTS, Side};

@@ -1,6 +1,6 @@
 //! Readings of bodies: each quantity is listed once, in a table beside the body that has it.
 
-use super::{droplet, large_strain, reduced, reservoir, solid};
+use super::{droplet, filament, large_strain, reduced, reservoir, solid};
 use crate::quantity::Quantity;
 use crate::scene::{Body, Flaw, Scene};
 
@@ -76,6 +76,7 @@ pub fn totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
         Body::Solid(solid) => solid::offered_totals(scene, (name, solid)),
         Body::Droplet(_) => droplet::offered_totals(scene, name),
         Body::Reservoir(_) => reservoir::offered_totals(),
+        Body::Filament(own) => filament::offered_totals(scene, (name, own)),
         Body::LargeStrain(solid) => {
             large_strain::offered_totals(solid, scene.coupling_from(name).is_some())
         }

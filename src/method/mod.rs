@@ -21,3 +21,5 @@ pub mod large_strain;
 pub mod sph;
 
 pub mod record;
+
+pub mod filament;

@@ -40,7 +40,13 @@ impl Forecast {
             size: format!("{:.2e} nodes", body.nodes as f64),
             remedy: "a larger `mesh.spacing`",
         });
-        solids.chain(droplets).chain(large_strains).collect()
+        let filaments = self.filaments.iter().map(|body| Need {
+            name: &body.name,
+            memory: body.memory,
+            size: format!("{:.2e} segments", body.segments as f64),
+            remedy: "a smaller `most` or a larger `spacing`",
+        });
+        solids.chain(droplets).chain(large_strains).chain(filaments).collect()
     }
 }
 

@@ -54,8 +54,10 @@ impl FilesForecast {
         let droplets = forecast.droplets.iter().map(|body| body.drawn as f64 * OF_PARTICLE);
         let large_strains =
             forecast.large_strains.iter().map(|body| body.drawn as f64 * OF_PARTICLE);
+        let filaments = forecast.filaments.iter().map(|body| body.segments as f64 * OF_PARTICLE);
+        let strands = large_strains.chain(filaments);
         let of_body: Vec<f64> =
-            solids.chain(droplets).chain(large_strains).filter(|numbers| *numbers > 0.0).collect();
+            solids.chain(droplets).chain(strands).filter(|numbers| *numbers > 0.0).collect();
         let series = if times > 0 { of_body.len() } else { 0 };
         Self {
             // The table, the files of each body with their list, and the list of all if there are several.

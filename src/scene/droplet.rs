@@ -301,19 +301,19 @@ pub struct WallStart {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Coupling {
-    /// The droplet or solid of large strain that falls, or the top face of the lower solid.
-    #[schemars(extend("condition" = "a droplet without wall, a solid of large strain with inertia; `SOLID.top`"))]
+    /// The droplet or solid of large strain that falls, the filament that is laid, or the top face of the lower solid.
+    #[schemars(extend("condition" = "a droplet without wall, a solid of large strain with inertia, a filament; `SOLID.top`"))]
     pub from: String,
     /// The face.
     #[schemars(extend(
-        "condition" = "`SOLID.top` without prescribed temperature, below a droplet; `SOLID.bottom` of the upper solid"
+        "condition" = "`SOLID.top` without prescribed temperature, below a droplet or filament; `SOLID.bottom` of the upper solid"
     ))]
     pub to: String,
     /// Heat flux over the difference of the temperatures of both surfaces [W/(m² K)].
     #[schemars(transform = conductance()
-        .otherwise("perfect contact of a droplet; needed between solids"))]
+        .otherwise("perfect contact of a droplet or filament; needed between solids"))]
     pub conductance: Option<f64>,
-    /// Load of the droplet's pressure and shear on the solid.
+    /// Load of the fluid's pressure and shear on the solid.
     #[serde(default = "yes")]
     pub traction: bool,
     /// Longest time between two exchanges [s].
@@ -322,7 +322,7 @@ pub struct Coupling {
     pub interval: Option<f64>,
     /// Distance from each arrival within which the solid's mesh is fine [m].
     #[schemars(transform = length("the radius of the fine mesh")
-        .otherwise("the expected spread of the drop"))]
+        .otherwise("the expected spread of the drop; the path of a nozzle"))]
     pub radius: Option<f64>,
 }
 
@@ -383,7 +383,7 @@ pub fn velocity(speed: f64, angle: f64, direction: f64) -> [f64; 3] {
 }
 
 /// Lets a substance of the library stand for a fluid's constants.
-fn or_substance(schema: &mut Schema) {
+pub(super) fn or_substance(schema: &mut Schema) {
     if let Some(table) = schema.remove("$ref") {
         let choices = json!([{ "$ref": table }, { "type": "string" }, substances::schema()]);
         schema.insert("anyOf".into(), choices);

@@ -22,6 +22,7 @@ impl Body {
             Body::Droplet(droplet) => droplet.initial_temperature,
             Body::Reservoir(reservoir) => reservoir.initial_temperature,
             Body::LargeStrain(solid) => solid.initial_temperature,
+            Body::Filament(filament) => filament.nozzle.temperature,
         }
     }
 
@@ -32,6 +33,7 @@ impl Body {
             Body::Droplet(droplet) => &mut droplet.initial_temperature,
             Body::Reservoir(reservoir) => &mut reservoir.initial_temperature,
             Body::LargeStrain(solid) => &mut solid.initial_temperature,
+            Body::Filament(filament) => &mut filament.nozzle.temperature,
         }
     }
 
@@ -42,13 +44,14 @@ impl Body {
             Body::Droplet(droplet) => droplet.inputs(),
             Body::Reservoir(reservoir) => reservoir.inputs(),
             Body::LargeStrain(solid) => solid.inputs(),
+            Body::Filament(filament) => filament.inputs(),
         }
     }
 
     /// A description of a body that has no extent.
     pub(super) fn lump(&self) -> Option<String> {
         match self {
-            Body::Solid(_) | Body::Droplet(_) | Body::LargeStrain(_) => None,
+            Body::Solid(_) | Body::Droplet(_) | Body::LargeStrain(_) | Body::Filament(_) => None,
             Body::Reservoir(reservoir) => Some(reservoir.words()),
         }
     }
@@ -62,7 +65,7 @@ impl Body {
     pub fn drawn_as(&self) -> Option<Drawn> {
         match self {
             Body::Solid(_) => Some(Drawn::Grid),
-            Body::Droplet(_) | Body::LargeStrain(_) => Some(Drawn::Particles),
+            Body::Droplet(_) | Body::LargeStrain(_) | Body::Filament(_) => Some(Drawn::Particles),
             Body::Reservoir(_) => None,
         }
     }
@@ -77,7 +80,7 @@ impl Body {
         match self {
             Body::Droplet(droplet) => droplet.dimension == 2,
             Body::LargeStrain(solid) => solid.dimension == 2,
-            Body::Solid(_) | Body::Reservoir(_) => false,
+            Body::Solid(_) | Body::Reservoir(_) | Body::Filament(_) => false,
         }
     }
 
@@ -96,6 +99,7 @@ impl Body {
             Body::Solid(solid) => solid.stress_free_temperature,
             Body::Droplet(_) | Body::LargeStrain(_) => None,
             Body::Reservoir(reservoir) => reservoir.ambient,
+            Body::Filament(filament) => filament.convection.map(|convection| convection.ambient),
         };
         let of_faces = self.faces().flat_map(|(_, face)| {
             let ambient = face.convection.map(|convection| convection.ambient);
@@ -110,7 +114,7 @@ impl Body {
         let (material, layers) = match self {
             Body::Solid(solid) => (&mut solid.material, &mut solid.layers),
             Body::LargeStrain(solid) => (&mut solid.material, &mut solid.layers),
-            Body::Droplet(_) | Body::Reservoir(_) => return Vec::new(),
+            Body::Droplet(_) | Body::Reservoir(_) | Body::Filament(_) => return Vec::new(),
         };
         let layers = layers.iter_mut().flatten().enumerate();
         let layers = layers.map(|(i, layer)| (Some(i), &mut layer.material));
@@ -172,7 +176,7 @@ impl Scene {
             Body::Solid(solid) => solid.heat == HeatMethod::Sph,
             Body::Droplet(_) => true,
             Body::LargeStrain(solid) => solid.inertia,
-            Body::Reservoir(_) => false,
+            Body::Reservoir(_) | Body::Filament(_) => false,
         };
         self.body.values().any(is_filled)
     }

@@ -1,6 +1,7 @@
 //! Look-ups in a checked scene.
 
 use super::droplet::{Coupling, Droplet};
+use super::filament::{Filament, Target};
 use super::large_strain::LargeStrain;
 use super::reservoir::Reservoir;
 use super::types::*;
@@ -64,6 +65,24 @@ impl Scene {
         }
     }
 
+    /// The filament of that name.
+    pub fn filament(&self, name: &str) -> Option<&Filament> {
+        match self.body.get(name)? {
+            Body::Filament(filament) => Some(filament),
+            _ => None,
+        }
+    }
+
+    /// The filaments, in the order of their names.
+    pub fn filaments(&self) -> impl Iterator<Item = (&str, &Filament)> {
+        self.body.keys().filter_map(|name| Some((name.as_str(), self.filament(name)?)))
+    }
+
+    /// The target of a filament.
+    pub fn target_of(&self, filament: &str) -> Option<&Target> {
+        self.target.iter().find(|target| target.of == filament)
+    }
+
     /// The solids of large strain, in the order of their names.
     pub fn large_strains(&self) -> impl Iterator<Item = (&str, &LargeStrain)> {
         self.body.keys().filter_map(|name| Some((name.as_str(), self.large_strain(name)?)))
@@ -85,6 +104,7 @@ impl Scene {
         own.refinement.retain(|other, _| other == name);
         own.wall.clear();
         own.coupling.clear();
+        own.target.clear();
         own.resolved.clear();
         own
     }

@@ -11,6 +11,7 @@ mod droplet;
 mod droplet_symmetry;
 mod error;
 mod excerpt;
+mod filament;
 mod file;
 mod flaw;
 mod footprint;
@@ -40,13 +41,16 @@ use std::path::Path;
 
 pub use cells::Cells;
 pub use check::takes_newton;
-pub use constants::{Constant, DropletConstant, LayersOf, OfferedConstant};
+pub use constants::{
+    Constant, DropletConstant, FilamentConstant, FluidConstant, LayersOf, OfferedConstant,
+};
 pub use contact::FirstContact;
 pub use droplet::{
     Arrival, Coupling, Droplet, DropletMethod, DropletSymmetry, Governing, Placement, Precision,
     ReleaseBy, ViscousAdvance, Wall, WallStart, velocity,
 };
 pub use error::{Problem, SceneError};
+pub use filament::{ByInput, Filament, FilamentMethod, Nozzle, NozzlePath, PathTable, Target};
 pub use file::{bytes_of, open_file};
 pub use flaw::{Flaw, FlawDepth, FlawGives, FlawShape, Worst};
 pub use footprint::Profile;

@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::droplet::{Coupling, Droplet, Wall};
+use super::filament::{Filament, Target};
 use super::flaw::Flaw;
 use super::large_strain::{LargeStrain, SmallStrain, name_kind};
 use super::materials::MaterialChoice;
@@ -56,7 +57,7 @@ pub struct Scene {
     /// Tables `[material.NAME]` that solids and layers name.
     #[serde(default)]
     pub material: BTreeMap<String, Material>,
-    /// Tables `[body.NAME]`, each a solid, a droplet or a reservoir.
+    /// Tables `[body.NAME]`, each a solid, a droplet, a filament or a reservoir.
     #[schemars(extend("minProperties" = 1, "condition" = "at least one"))]
     pub body: BTreeMap<String, Body>,
     /// Tables `[[load]]`: loads on faces, whose amounts become inputs.
@@ -75,9 +76,12 @@ pub struct Scene {
     /// outputs.
     #[serde(default)]
     pub wall: Vec<Wall>,
-    /// Tables `[[coupling]]`: droplets on solids of the same scene, and solids on solids.
+    /// Tables `[[coupling]]`: droplets and filaments on solids of the same scene, and solids on solids.
     #[serde(default)]
     pub coupling: Vec<Coupling>,
+    /// Tables `[[target]]`: lines that filaments are meant to follow.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub target: Vec<Target>,
     /// Level of detail of the model.
     #[serde(default)]
     #[schemars(extend("otherwise" = ""))]
@@ -155,6 +159,8 @@ pub enum Body {
     /// A solid whose strains and rotations may be of any size.
     #[serde(rename(serialize = "solid", deserialize = "solid of large strain"))]
     LargeStrain(Box<LargeStrain>),
+    /// A fluid that a moving nozzle lays as a strand.
+    Filament(Box<Filament>),
 }
 
 /// A solid body.

@@ -55,6 +55,14 @@ rules! {
     "fluid lies beyond the edge of the solid: it transfers no heat there, and its force, which does not act on the \
      solid, is counted apart as `force_outside`"; "enlarge the solid if its edge is not meant to be hit"
 
+    Step strand_beyond_edge()
+    "the strand lies beyond the edge of the solid, where it transfers neither heat nor force";
+    "enlarge the solid, or keep the nozzle above it"
+
+    Step nozzle_jumps(jump, segment)
+    "the nozzle jumps by {jump} m between two steps while fluid comes, more than a segment of {segment} m: the fluid \
+     of a step is laid at one place"; "send derivatives of the inputs with the steps, or take shorter steps"
+
     Step particles_lack_neighbours(fallback, particles, support)
     "{fallback} of {particles} particles conduct by the plain operator, as they have too few neighbours for the \
      corrected one: temperatures are wrong by tens of per cent, or grow without end";

@@ -247,6 +247,7 @@ fn upper_half(drop: DropletSph) -> (DropletSph, Vec<f64>) {
         pressure: of(&whole.pressure),
         temperature: of(&whole.temperature),
         solid_fraction: Vec::new(),
+        width: Vec::new(),
     });
     (drop, state)
 }

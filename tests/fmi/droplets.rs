@@ -305,3 +305,57 @@ fn fluid_that_would_boil_is_warned_of_once_and_leaves_states_alone() {
     assert_eq!([warned, silent], [1, 0]);
     assert_eq!(watched, plain);
 }
+
+/// A strand of a fluid that freezes, on a plate.
+const STRAND: &str = r#"
+name = "Strand"
+stop_time = 2e-6
+step = 1e-7
+[body.ink]
+kind = "filament"
+fluid = { density = 780.0, viscosity = 4e-3, specific_heat = 2200.0, conductivity = 0.15, melting = { solidus = 309.0, liquidus = 310.0, latent_heat = 247e3 } }
+nozzle = { diameter = 2e-5, height = 1.5e-5, temperature = 343.0, flow = 1e-8 }
+path = { time = [0.0, 2e-6, 4e-6], x = [-1e-4, 0.0, 0.0], y = [0.0, 0.0, 1e-4] }
+most = 1e-12
+convection = { coefficient = 20.0, ambient = 293.15 }
+[body.plate]
+kind = "solid"
+shape = { box = [3e-4, 3e-4, 1e-4] }
+material = { model = "thermoelastic", density = 2500.0, specific_heat = 800.0, conductivity = 1.0, young = 7e10, poisson = 0.2, expansion = 9e-6 }
+initial_temperature = 293.15
+mesh = { spacing = 2e-5, depth_spacing = 2e-5, order = 1 }
+faces = { bottom = { clamped = true } }
+[[coupling]]
+from = "ink"
+to = "plate.top"
+[[target]]
+of = "ink"
+line = [[-1e-4, 0.0], [0.0, 0.0], [0.0, 1e-4]]
+"#;
+
+#[test]
+fn strands_go_on_from_a_state_to_the_bit() {
+    repeats_to_the_bit(STRAND, "ink.flow", 1e-8);
+}
+
+#[test]
+fn strands_that_cannot_be_laid_are_refused_and_change_nothing() {
+    let unit = started(STRAND);
+    for _ in 0..3 {
+        assert_eq!(unit.step(unit.time(), STEP), OK, "{:?}", unit.messages.take());
+    }
+    assert_eq!(unit.set("ink.flow", -1e-9), ERROR);
+    unit.expect_message(ERROR, &["ink.flow"]);
+    for (flow, rate, words) in
+        [(1.0, 0.0, "more than `most`"), (1e-8, -1.0, "flow of the nozzle falls")]
+    {
+        let (before, state) = (unit.snapshot(), unit.save());
+        assert_eq!(unit.set("ink.flow", flow), OK);
+        assert_eq!(unit.set_derivative("ink.flow", 1, rate), OK);
+        unit.messages.take();
+        assert_eq!(unit.step(unit.time(), STEP), DISCARD);
+        unit.expect_message(DISCARD, &[words]);
+        assert_eq!(unit.restore(state), OK);
+        assert_eq!(unit.snapshot().0, before.0);
+    }
+}

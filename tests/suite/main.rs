@@ -26,6 +26,7 @@ mod derivatives;
 mod droplet;
 mod failure;
 mod field_means;
+mod filament;
 mod fine_meshes;
 mod flaws;
 mod flows;

@@ -15,12 +15,13 @@ use serde_json::ser::{PrettyFormatter, Serializer};
 const PLATE: &str = include_str!("../scenes/plate.toml");
 const DROP: &str = include_str!("../scenes/drop.toml");
 const IMPACT: &str = include_str!("../scenes/impact.toml");
+const FILAMENT: &str = include_str!("../scenes/filament.toml");
 
 /// A section, a scene with a place in it that takes the section's keys, what stands there, what
 /// stands there with a key that there is not, and keys that choose the section's type.
 type Section = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
-const SECTIONS: [Section; 43] = [
+const SECTIONS: [Section; 47] = [
     ("The whole", PLATE, "stop_time =", "zz = 1\nstop_time =", &[]),
     ("`fidelity`", PLATE, "level =", "zz = 1\nlevel =", &[]),
     ("`solver`", PLATE, "stop_time =", "solver = { zz = 1 }\nstop_time =", &[]),
@@ -168,6 +169,10 @@ const SECTIONS: [Section; 43] = [
     ),
     ("`arrivals` of a droplet", DROP, "arrivals = [{", "arrivals = [{ zz = 1,", &[]),
     ("`record` of a droplet", DROP, "gravity = 9.81", "record = { zz = 1 }", &[]),
+    ("`[body.NAME]` of a filament", FILAMENT, "spacing =", "zz = 1\nspacing =", &["kind"]),
+    ("`nozzle` of a filament", FILAMENT, "nozzle = {", "nozzle = { zz = 1,", &[]),
+    ("`path` of a filament", FILAMENT, "path = {", "path = { zz = 1,", &[]),
+    ("`[[target]]`", FILAMENT, "[[target]]", "[[target]]\nzz = 1", &[]),
     (
         "`[body.NAME]` of a reservoir",
         PLATE,

@@ -76,6 +76,24 @@ pub fn droplets(scene: &Scene) -> String {
     table(heading, &rows)
 }
 
+pub fn filaments(scene: &Scene) -> String {
+    let rows: Vec<_> = scene
+        .filaments()
+        .map(|(name, filament)| {
+            let by_inputs = filament.table().is_none();
+            [
+                name.to_owned(),
+                metres(filament.nozzle.diameter),
+                metres(filament.nozzle.height),
+                kelvin(filament.nozzle.temperature),
+                if by_inputs { "by inputs" } else { "by its table" }.to_owned(),
+                metres(filament.segment_length()),
+            ]
+        })
+        .collect();
+    table(["filament", "nozzle", "height", "comes at", "moves", "segments"], &rows)
+}
+
 pub fn speed(droplet: &Droplet) -> String {
     let speed = engineering(droplet.impact_velocity, "m/s");
     match droplet.is_straight() {

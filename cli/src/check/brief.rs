@@ -88,7 +88,9 @@ fn models(scene: &Scene, forecast: &Forecast) -> String {
         .large_strains
         .iter()
         .map(|body| format!("{}: {} nodes of large strain", body.name, body.nodes));
-    let all: Vec<_> = solids.chain(droplets).chain(large_strains).collect();
+    let filaments =
+        forecast.filaments.iter().map(|body| format!("{}: {} segments", body.name, body.segments));
+    let all: Vec<_> = solids.chain(droplets).chain(large_strains).chain(filaments).collect();
     if all.is_empty() { "nothing with an extent".to_owned() } else { all.join("; ") }
 }
 

@@ -105,6 +105,7 @@ fn sections(scene: &Scene, forecast: &Forecast, estimates: &[BodyEstimate]) -> S
         ("Bodies without extent", bodies::lumps(scene)),
         ("Bodies of large strain", bodies::large_strains(scene)),
         ("Droplets", bodies::droplets(scene)),
+        ("Filaments", bodies::filaments(scene)),
         ("Faces", conditions::faces(scene)),
         ("Loads", conditions::loads(scene)),
         ("Probes", readings::probes(scene)),

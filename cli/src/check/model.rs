@@ -100,6 +100,18 @@ pub fn notes(forecast: &Forecast) -> String {
             let _ = writeln!(text, "    - {note}");
         }
     }
+    for body in &forecast.filaments {
+        let _ = writeln!(text, "  {}: room for {} segments", body.name, body.segments);
+        let _ = writeln!(
+            text,
+            "    about {:.0} MB, {} for all its steps",
+            body.memory / 1e6,
+            lasting(body.run_time)
+        );
+        for note in &body.notes {
+            let _ = writeln!(text, "    - {note}");
+        }
+    }
     text
 }
 

@@ -34,6 +34,11 @@ pub fn omissions(scene: &Scene, forecast: &Forecast) -> Vec<String> {
     if scene.large_strains().next().is_some() {
         list.push("heat and friction of solids of large strain".to_owned());
     }
+    if scene.filaments().next().is_some() {
+        list.push(
+            "inertia, swelling and coiling of strands, bridges between them, boiling and evaporation".to_owned(),
+        );
+    }
     let heavy = |&(name, droplet): &(&str, &Droplet)| {
         let bond = bond(droplet);
         (droplet.gravity == 0.0 && bond > FELT && bond.is_finite())

@@ -14,7 +14,8 @@ pub fn balances(scene: &Scene, outputs: &Outputs) -> Vec<Balance> {
         let of = Of { scene, body, droplet, outputs };
         [of.heat(), of.mass(), of.momentum(), of.energy()]
     });
-    solids.chain(droplets.flatten()).collect()
+    let filaments = scene.filaments().filter_map(|(name, _)| of_filament(scene, name, outputs));
+    solids.chain(droplets.flatten()).chain(filaments).collect()
 }
 
 fn term(label: &str, value: f64) -> Term {
@@ -43,6 +44,20 @@ fn heat(scene: &Scene, body: &str, outputs: &Outputs) -> Option<Balance> {
     ];
     let expected = Some(expected_residual(scene, body));
     Some(Balance { expected, ..balance(format!("Heat of {body}"), "J", terms, [missing, largest]) })
+}
+
+/// Heat of a filament: stored since its fluid came, given to what lies below and lost to the air.
+fn of_filament(scene: &Scene, body: &str, outputs: &Outputs) -> Option<Balance> {
+    let last = |key: &str| outputs.last(&name(scene, body, key));
+    let stored = last("heat_stored")?;
+    let [given, lost] = ["heat", "heat_lost"].map(|key| last(key).unwrap_or(0.0));
+    let largest = [stored, given, lost].into_iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+    let terms = vec![
+        term("given to what lies below", given),
+        term("lost to the air", lost),
+        term("stored since the fluid came", stored),
+    ];
+    Some(balance(format!("Heat of {body}"), "J", terms, [stored + given + lost, largest]))
 }
 
 /// A droplet and its variables.

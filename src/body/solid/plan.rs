@@ -1,7 +1,7 @@
 //! Converts a solid of a scene to its plan: refinements of its mesh, and the mechanics it needs.
 
 use super::rows::Choice;
-use crate::body::{droplet, large_strain};
+use crate::body::{droplet, filament, large_strain};
 use crate::method::fem::{Mechanics, Plan, PlanRequest, Refinement};
 use crate::scene::{
     Coupling, FaceName, Load, MeshFactors, Scene, Solid, lateral_extents, takes_newton,
@@ -13,6 +13,9 @@ pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
     for coupling in scene.couplings_to(name) {
         if let Some(droplet) = scene.droplet(&coupling.from) {
             refinements.extend(droplet::refinements(coupling, droplet, scene.stop_time));
+        }
+        if let Some(own) = scene.filament(&coupling.from) {
+            refinements.push(filament::refinement(scene, (coupling, own)));
         }
         if let Some(body) = scene.large_strain(&coupling.from) {
             refinements.push(large_strain::refinement(coupling, body));

@@ -175,6 +175,7 @@ pub fn explain(registry: &Registry, error: ModelError) -> Refusal {
             | BodyError::Equilibrium { .. }
             | BodyError::Uneven { .. }
             | BodyError::LargeStrain { .. }
+            | BodyError::Filament { .. }
             | BodyError::NoRoom(_)
             | BodyError::Halted { .. } => (Status::Discard, None),
             BodyError::NotFinite(_)

@@ -61,6 +61,8 @@ pub struct ParticleFields {
     pub temperature: Vec<f64>,
     /// Frozen fraction of each particle; empty for a fluid that stays liquid.
     pub solid_fraction: Vec<f64>,
+    /// Width of each segment of a strand; empty for particles [m].
+    pub width: Vec<f64>,
 }
 
 impl DropletSph {
@@ -284,6 +286,7 @@ impl DropletSph {
             pressure: cloud.density.iter().map(|&r| pressure(r) * units.pressure()).collect(),
             temperature: cloud.temperature.iter().map(|t| t + reference).collect(),
             solid_fraction: frozen::solid_fractions(&self.method, &cloud),
+            width: Vec::new(),
         }
     }
 

@@ -57,4 +57,5 @@ pub use droplet::{DropletSph, DropletTotals, ParticleFields, WarmPlace};
 pub use effort::{Effort, RunSettings};
 pub use failure::Failure;
 pub use method::StepShares;
+pub use phases::Phases;
 pub use plan::{Demand, DropletPlan, Extent, Fluid, Freezing, Placement, Release, Viscous, Wall};

@@ -1,5 +1,8 @@
 //! Heat content, temperature and conduction of a fluid that freezes.
 
+use crate::laws::Melting;
+use crate::laws::fluid::Freezing;
+
 /// A fluid with a frozen and a molten phase.
 ///
 /// The heat content of a mass is its enthalpy over the specific heat of the molten phase, in kelvins above the model's
@@ -22,6 +25,22 @@ pub struct Phases {
 }
 
 impl Phases {
+    /// Phases of a fluid with the specific heat [J/(kg K)] and the conductivity [W/(m K)] of its molten phase, above a
+    /// reference temperature [K].
+    pub fn of(
+        freezing: &Freezing,
+        [specific_heat, conductivity]: [f64; 2],
+        reference: f64,
+    ) -> Self {
+        let Melting { solidus, liquidus, latent_heat } = freezing.melting;
+        Self {
+            melting: [solidus, liquidus].map(|point| point - reference),
+            latent: latent_heat / specific_heat,
+            heat: freezing.specific_heat / specific_heat,
+            conduction: freezing.conductivity / conductivity,
+        }
+    }
+
     /// Contents of the frozen phase at the solidus and of the molten one at the liquidus.
     pub fn contents(&self) -> [f64; 2] {
         let [solidus, liquidus] = self.melting;

@@ -9,7 +9,7 @@ use super::method::Method;
 use super::phases::Phases;
 use crate::kernel::Kernel;
 pub use crate::laws::Freezing;
-use crate::laws::{Melting, Viscosity};
+use crate::laws::Viscosity;
 use crate::port::WallCells;
 pub use crate::scene::Placement;
 use crate::scene::Precision;
@@ -147,13 +147,8 @@ impl DropletPlan {
     pub fn phases(&self) -> Option<Phases> {
         let fluid = &self.fluid;
         let frozen = fluid.freezing.filter(|_| fluid.conductivity > 0.0)?;
-        let Melting { solidus, liquidus, latent_heat } = frozen.melting;
-        Some(Phases {
-            melting: [solidus, liquidus].map(|point| point - self.reference_temperature()),
-            latent: latent_heat / fluid.specific_heat,
-            heat: frozen.specific_heat / fluid.specific_heat,
-            conduction: frozen.conductivity / fluid.conductivity,
-        })
+        let molten = [fluid.specific_heat, fluid.conductivity];
+        Some(Phases::of(&frozen, molten, self.reference_temperature()))
     }
 
     /// Volume of a drop of a diameter [m³]; in a plane model [m²].

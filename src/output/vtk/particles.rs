@@ -1,4 +1,4 @@
-//! The particles of a droplet: points (`.vtp`).
+//! The particles of a droplet, or the segments of a strand: points (`.vtp`).
 
 use std::io::{self, Write};
 
@@ -21,6 +21,9 @@ pub fn write_particles(out: impl Write, time: f64, fields: &ParticleFields) -> i
     ];
     if !fields.solid_fraction.is_empty() {
         points.push(Array::scalar("solid_fraction", "1", &fields.solid_fraction));
+    }
+    if !fields.width.is_empty() {
+        points.push(Array::scalar("width", "m", &fields.width));
     }
     let places = [Array::vector("position", "m", &fields.position)];
     // Viewers draw cells, so each point is one.
@@ -52,6 +55,7 @@ mod tests {
             pressure: vec![0.0, 2.6e6],
             temperature: vec![373.15, 300.1],
             solid_fraction: vec![0.0, 0.75],
+            width: vec![1e-3, 2e-3],
         };
         let mut bytes = Vec::new();
         write_particles(&mut bytes, 2e-6, &fields).unwrap();
@@ -67,6 +71,7 @@ mod tests {
             ("pressure", &fields.pressure),
             ("temperature", &fields.temperature),
             ("solid_fraction", &fields.solid_fraction),
+            ("width", &fields.width),
         ] {
             assert_eq!(&read.arrays[name].1, values, "{name}");
         }

@@ -3,6 +3,7 @@
 
 use super::{Checker, fits, number};
 use crate::scene::droplet::{Coupling, Droplet};
+use crate::scene::filament::Filament;
 use crate::scene::grid::lateral_extents;
 use crate::scene::large_strain::LargeStrain;
 use crate::scene::locate::Path;
@@ -27,6 +28,10 @@ fn check_droplet(checker: &mut Checker, path: &Path, i: usize, coupling: &Coupli
     }
     if let Some(solid) = checker.scene.large_strain(&coupling.from) {
         check_large_strain(checker, path, i, (coupling, solid));
+        return;
+    }
+    if let Some(filament) = checker.scene.filament(&coupling.from) {
+        check_filament(checker, path, i, (coupling, filament));
         return;
     }
     let droplet = checker.droplet(&path.at("from"), &coupling.from);
@@ -77,6 +82,36 @@ fn check_large_strain(
     let (x, y) = (number(x), number(y));
     let message = "the body is wider than the face below";
     checker.require(fine, &from, message, format!("extents up to {x} and {y} m"));
+}
+
+/// Checks a filament that is laid on the top of a solid.
+fn check_filament(
+    checker: &mut Checker,
+    path: &Path,
+    i: usize,
+    (coupling, filament): (&Coupling, &Filament),
+) {
+    let face = checker.face(&path.at("to"), &coupling.to, |_| vec![FaceName::Top]);
+    alone(checker, path, i, coupling);
+    let message = "the fluid conducts no heat that the contact could resist";
+    let allowed = "no `conductance`, or a `conductivity` of the fluid above 0";
+    let fine = coupling.conductance.is_none() || filament.fluid.conductivity > 0.0;
+    checker.require(fine, &path.at("conductance"), message, allowed);
+    let Some((_, below)) = face else { return };
+    free_face(checker, &path.at("to"), coupling, below);
+    let is_box = matches!(below.shape, Shape::Box(_));
+    let message = "a disc is modelled axisymmetric, and a strand is not";
+    checker.require(is_box, &path.at("from"), message, "a box below");
+    if let Some(table) = filament.table().filter(|_| checker.is_fine(&path.at("from"))) {
+        let half = lateral_extents(&below.shape).map(|extent| 0.5 * extent);
+        let beyond = (0..2).any(|axis| {
+            let [low, high] = table.ranges()[axis];
+            !fits(high, half[axis]) || !fits(-low, half[axis])
+        });
+        let message = "the path of the nozzle leaves the face";
+        let [x, y] = half.map(number);
+        checker.require(!beyond, &path.at("from"), message, format!("|x| <= {x}, |y| <= {y}"));
+    }
 }
 
 /// Checks a contact of two solids, or of a solid and a reservoir.

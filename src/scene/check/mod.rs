@@ -4,6 +4,7 @@ mod body;
 mod coupling;
 mod droplet;
 mod field;
+mod filament;
 mod fidelity;
 mod flaw;
 mod field_cells;
@@ -52,6 +53,7 @@ pub fn check(scene: &Scene, source: &Source, schema: &Schema) -> Result<(), Scen
     droplet::check(&mut checker);
     reservoir::check(&mut checker);
     large_strain::check(&mut checker);
+    filament::check(&mut checker);
     load::check(&mut checker);
     probe::check(&mut checker);
     field::check(&mut checker);
@@ -164,6 +166,9 @@ impl<'a> Checker<'a> {
             ),
             Some(Body::LargeStrain(_)) => format!(
                 "`{body}` is a solid of large strain, on which no loads act, and whose values are outputs by themselves"
+            ),
+            Some(Body::Filament(_)) => format!(
+                "`{body}` is a filament, on which nothing else acts and whose values are outputs by themselves"
             ),
             Some(Body::Droplet(_)) => format!(
                 "`{body}` is a droplet, on which nothing else acts and whose values are outputs by \

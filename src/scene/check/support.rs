@@ -15,7 +15,7 @@ pub fn check(checker: &mut Checker) {
                 ("a load carries traction", "")
             } else {
                 (
-                    "drops push the body",
+                    "drops or strands push the body",
                     "; or `traction = false` in the `[[coupling]]`, for heat alone",
                 )
             };

@@ -1,10 +1,14 @@
 //! The constants of bodies that units offer as parameters: each kind lists its own and knows where they stand.
 
 mod droplet;
+mod filament;
+mod fluid;
 mod large_strain;
 mod solid;
 
 pub use droplet::DropletConstant;
+pub use filament::FilamentConstant;
+pub use fluid::FluidConstant;
 pub use solid::LayersOf;
 
 use super::types::{Body, FaceName, Scene};
@@ -16,7 +20,7 @@ use crate::quantity::Quantity;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Constant {
     InitialTemperature,
-    /// Of the material of a solid, or of the law of viscosity of a droplet's fluid.
+    /// Of the material of a solid, or of the law of viscosity of a fluid.
     Material(&'static MaterialConstant),
     /// Of the material of some layers.
     LayerMaterial {
@@ -31,6 +35,9 @@ pub enum Constant {
         face: FaceName,
     },
     Droplet(&'static DropletConstant),
+    Filament(&'static FilamentConstant),
+    /// Of the fluid of a droplet or filament.
+    Fluid(&'static FluidConstant),
     /// Depth of the scene's flaw of this number, in one of its bodies.
     FlawDepth {
         flaw: usize,
@@ -54,6 +61,8 @@ impl Constant {
             Self::ContactResistance { .. } => Quantity::ThermalResistance,
             Self::ConvectionCoefficient { .. } => Quantity::HeatTransferCoefficient,
             Self::Droplet(constant) => constant.quantity,
+            Self::Filament(constant) => constant.quantity,
+            Self::Fluid(constant) => constant.quantity,
             Self::FlawDepth { .. } => Quantity::Length,
         }
     }
@@ -73,6 +82,8 @@ impl Constant {
             Self::Material(constant) | Self::LayerMaterial { constant, .. } => constant.start,
             Self::ContactResistance { .. } | Self::ConvectionCoefficient { .. } => AtStart::Never,
             Self::Droplet(constant) => constant.start,
+            Self::Filament(_) => AtStart::Never,
+            Self::Fluid(constant) => constant.start,
         }
     }
 }
@@ -84,6 +95,7 @@ impl Body {
             Body::Solid(solid) => solid::offered(name, solid),
             Body::Droplet(droplet) => droplet::offered(name, droplet),
             Body::LargeStrain(solid) => large_strain::offered(name, solid),
+            Body::Filament(filament) => filament::offered(name, filament),
             Body::Reservoir(_) => vec![OfferedConstant {
                 key: "initial_temperature".to_owned(),
                 description: format!("temperature of {name} at time zero"),
@@ -103,6 +115,18 @@ impl Body {
             (Body::Droplet(droplet), Constant::Droplet(constant)) => {
                 constant.place(droplet).into_iter().collect()
             }
+            (Body::Droplet(droplet), Constant::Fluid(constant)) => {
+                constant.place(&mut droplet.fluid).into_iter().collect()
+            }
+            (Body::Filament(filament), Constant::Fluid(constant)) => {
+                constant.place(&mut filament.fluid).into_iter().collect()
+            }
+            (Body::Filament(filament), Constant::Filament(constant)) => {
+                constant.place(filament).into_iter().collect()
+            }
+            (Body::Filament(filament), Constant::Material(constant)) => {
+                filament.fluid.viscosity.number(constant.key).into_iter().collect()
+            }
             (Body::Droplet(droplet), Constant::Material(constant)) => {
                 droplet.fluid.viscosity.number(constant.key).into_iter().collect()
             }
@@ -118,6 +142,7 @@ impl Body {
             Body::Reservoir(_) => 1,
             Body::Droplet(_) => 2,
             Body::LargeStrain(_) => 3,
+            Body::Filament(_) => 4,
         }
     }
 }

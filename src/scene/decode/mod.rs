@@ -18,6 +18,7 @@ use toml::de::{DeFloat, DeValue};
 
 use super::droplet::Droplet;
 use super::error::{Problem, SceneError};
+use super::filament::Filament;
 use super::large_strain::{KIND, LargeStrain};
 use super::locate::{Path, Source};
 use super::reservoir::Reservoir;
@@ -121,6 +122,7 @@ impl Decoder<'_> {
             self.read_if::<Solid>(&body, "kind", "solid");
             self.read_if::<Droplet>(&body, "kind", "droplet");
             self.read_if::<Reservoir>(&body, "kind", "reservoir");
+            self.read_if::<Filament>(&body, "kind", "filament");
             self.read_if::<LargeStrain>(&body, "kind", KIND);
         }
     }

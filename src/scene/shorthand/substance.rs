@@ -66,11 +66,13 @@ pub fn expand(source: &mut Source) -> Vec<(Path, Problem)> {
             name_material(source, &place);
             expand_table(source, &place, Kind::Solid, free, &mut problems);
         }
-        let start = number(source, &body.key("initial_temperature"));
+        let start = number(source, &body.key("initial_temperature"))
+            .or_else(|| number(source, &body.key("nozzle").key("temperature")));
         let fluid = body.key("fluid");
         let own = source.value(&fluid.key("melting")).is_some();
         expand_table(source, &fluid, Kind::Fluid, start, &mut problems);
-        let is_repeated = text(source, &body.key("method")).is_some_and(|method| method != "sph");
+        let is_repeated = text(source, &body.key("method"))
+            .is_some_and(|method| method != "sph" && method != "line");
         let insulates = number(source, &fluid.key("conductivity")) == Some(0.0);
         if !own {
             stay_liquid(source, &fluid, (start, is_repeated || insulates));

@@ -4,7 +4,7 @@ use impinge::limits::keyword;
 use serde_json::Value;
 
 /// Headings of `docs/scene.md` with a table, and where in the schema the table that they describe stands.
-pub const SECTIONS: [(&str, &str); 45] = [
+pub const SECTIONS: [(&str, &str); 49] = [
     ("The whole", ""),
     ("`fidelity`", "/$defs/Fidelity"),
     ("`solver`", "/$defs/Solver"),
@@ -39,6 +39,10 @@ pub const SECTIONS: [(&str, &str); 45] = [
     ("`arrhenius` of a viscosity", "/$defs/Arrhenius"),
     ("`arrivals` of a droplet", "/$defs/Arrival"),
     ("`record` of a droplet", "/$defs/Recording"),
+    ("`[body.NAME]` of a filament", "/$defs/Body/oneOf/4"),
+    ("`nozzle` of a filament", "/$defs/Nozzle"),
+    ("`path` of a filament", "/$defs/PathTable"),
+    ("`[[target]]`", "/$defs/Target"),
     ("`[body.NAME]` of a reservoir", "/$defs/Body/oneOf/2"),
     ("`[[load]]`", "/$defs/Load"),
     ("`footprint` of a load or wall", "/$defs/Footprint"),

@@ -1,0 +1,103 @@
+//! Cost of filaments, and notes on their model.
+
+use super::{interval, plan};
+use crate::body::droplet::exchange_time;
+use crate::body::link;
+use crate::body::solid::plan as solid_plan;
+use crate::method::fem::Plan;
+use crate::scene::{Filament, Scene};
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct FilamentForecast {
+    pub name: String,
+    /// Number of segments of the largest volume.
+    pub segments: usize,
+    /// Memory [B].
+    pub memory: f64,
+    /// Time of all steps of the default experiment [s].
+    pub run_time: f64,
+    /// Notes on choices and simplifications.
+    pub notes: Vec<String>,
+}
+
+/// Memory of a segment in the state, its copies and its place on the plate [B].
+const SEGMENT: f64 = 1000.0;
+/// Time of a segment in a step [s], measured on wax above a plate of 2500 nodes.
+const STEP: f64 = 4e-6;
+
+impl FilamentForecast {
+    pub fn of(scene: &Scene, name: &str, filament: &Filament) -> Self {
+        let plan = plan::plan_of(filament, None, None);
+        let segments = plan.capacity();
+        let volume = (filament.nozzle.flow * scene.stop_time).min(filament.most);
+        let volume = if volume > 0.0 { volume } else { filament.most };
+        // Half of them in the mean.
+        let laid = 0.5 * volume / plan.segment_volume();
+        let steps = (scene.stop_time / scene.step).ceil();
+        let below = contact(scene, name, filament);
+        let parts = below.as_ref().map_or(1, |(interval, _)| link::parts(*interval, scene.step));
+        let exchanges = steps * parts as f64;
+        let exchange = scene.step / parts as f64;
+        let of_solid = below.map_or(0.0, |(_, plan)| exchanges * exchange_time(&plan, exchange));
+        Self {
+            name: name.to_owned(),
+            segments,
+            memory: SEGMENT * segments as f64,
+            run_time: STEP * exchanges * laid + of_solid,
+            notes: notes(scene, (name, filament)),
+        }
+    }
+}
+
+/// Longest time between two exchanges with the solid below [s] and the plan of that, if there is one.
+fn contact(scene: &Scene, name: &str, filament: &Filament) -> Option<(f64, Plan)> {
+    let coupling = &scene.coupling[scene.coupling_from(name)?];
+    let solid = coupling.solid()?;
+    let plan = solid_plan(scene, solid, scene.solid(solid)?);
+    Some((interval(coupling, filament, &plan), plan))
+}
+
+/// Viscosity [Pa s] and kinetic pressure over that of viscosity or surface tension above which inertia throws strands.
+const INERTIAL: f64 = 1.0;
+
+/// Returns notes on choices and simplifications, with reasons: one sentence each.
+pub fn notes(scene: &Scene, (name, filament): (&str, &Filament)) -> Vec<String> {
+    let spacing = filament.segment_length();
+    let mut notes = vec![
+        format!(
+            "the strand is a line of segments of {spacing:.2e} m where it is as thick as the nozzle, each with one width and one \
+             temperature: mass and heat balance exactly, widths follow from the balance of gravity, surface tension, \
+             viscosity and yield stress (docs/theory/filament.md)"
+        ),
+        "strands side by side do not touch, no strand spans a gap, and heat does not pass along the strand".to_owned(),
+    ];
+    notes.push(match contact(scene, name, filament) {
+        Some((interval, _)) => link::note(interval),
+        None => {
+            "the strand lies on an insulated plane, as no coupling joins it to a solid".to_owned()
+        }
+    });
+    if filament.fluid.melting.is_some() {
+        let held = "a strand whose frozen fraction passes 0.64 neither spreads nor flows";
+        notes.push(held.to_owned());
+    }
+    notes.extend(inertia(scene, filament));
+    notes
+}
+
+/// Notes a fluid that leaves the nozzle so fast that its inertia matters, which the model leaves out.
+fn inertia(scene: &Scene, filament: &Filament) -> Option<String> {
+    let speed = filament.nozzle.flow / filament.outlet();
+    let fluid = &filament.fluid;
+    let diameter = filament.nozzle.diameter;
+    let viscosity = fluid.reference_viscosity(filament.nozzle.temperature, speed / diameter);
+    let reynolds = fluid.density * speed * diameter / viscosity;
+    let weber = fluid.density * speed * speed * diameter / fluid.surface_tension;
+    let is_jet = reynolds > INERTIAL && weber > INERTIAL && speed > 0.0 && scene.stop_time > 0.0;
+    is_jet.then(|| {
+        format!(
+            "the fluid leaves the nozzle as a jet (Re {reynolds:.1}, We {weber:.1}), whose inertia the model leaves out: a \
+             real strand overshoots bends"
+        )
+    })
+}

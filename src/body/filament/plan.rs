@@ -1,0 +1,56 @@
+//! Converts a filament of a scene to the plan of its method.
+
+use crate::method::fem::Refinement;
+use crate::method::filament::{LinePlan, Target};
+use crate::port::WallCells;
+use crate::scene::{Coupling, Filament, Scene, lateral_extents};
+
+/// Returns the plan of a filament, above the cells of a solid or above an insulated plane.
+pub fn plan_of(
+    filament: &Filament,
+    cells: Option<WallCells>,
+    conductance: Option<f64>,
+) -> LinePlan {
+    LinePlan {
+        fluid: filament.fluid.clone(),
+        reference: filament.nozzle.temperature,
+        diameter: filament.nozzle.diameter,
+        spacing: filament.segment_length(),
+        most: filament.most,
+        gravity: filament.gravity,
+        air: filament.convection.map_or(0.0, |convection| convection.coefficient),
+        conductance,
+        cells,
+    }
+}
+
+/// The line that a filament is meant to follow.
+pub fn target_of(scene: &Scene, name: &str) -> Option<Target> {
+    scene.target_of(name).map(|target| Target::new(target.line.clone()))
+}
+
+/// Margin of the fine mesh around a path, in diameters of the nozzle.
+const MARGIN: f64 = 2.0;
+
+/// Refinement where a strand is laid: around the path of the nozzle, around the target if inputs move the nozzle, or
+/// over the whole face.
+pub fn refinement(scene: &Scene, (coupling, filament): (&Coupling, &Filament)) -> Refinement {
+    let margin = MARGIN * filament.nozzle.diameter;
+    let around = |[low, high]: [f64; 2]| [low - margin, high + margin];
+    let target = scene.target_of(&coupling.from);
+    let [x, y] = match (coupling.radius, filament.table(), target) {
+        (Some(radius), ..) => [[-radius, radius]; 2],
+        (None, Some(table), _) => table.ranges().map(around),
+        (None, None, Some(target)) => [0, 1].map(|axis| {
+            let along = || target.line.iter().map(|place| place[axis]);
+            around([along().fold(f64::INFINITY, f64::min), along().fold(f64::MIN, f64::max)])
+        }),
+        (None, None, None) => {
+            let solid = coupling.solid().and_then(|name| scene.solid(name));
+            let extents = solid.map_or([0.0; 2], |solid| lateral_extents(&solid.shape));
+            extents.map(|extent| [-0.5 * extent, 0.5 * extent])
+        }
+    };
+    let feature = 0.5 * filament.nozzle.diameter;
+    Refinement { x, y, top: true, feature, heats: true, edges: [None; 2] }
+}

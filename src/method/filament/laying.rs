@@ -1,0 +1,265 @@
+//! Lays segments along the path of the nozzle.
+//!
+//! Where the outlet is higher above the plate than the strand is thick, the fluid between them trails behind. It leaves
+//! the outlet with the nozzle's velocity and rests on the plate; with a velocity linear in the height in between, the
+//! place of touchdown p follows that of the nozzle, x, by `dp/dt = (x − p)/t_r` with `t_r = (H − h)/(2 u)`, the free
+//! height H − h and the mean speed u in the nozzle. Under a nozzle of steady velocity v the strand touches down at the
+//! distance `v t_r` behind it. Threads that swing, coil or buckle are not modelled.
+
+use super::cooling::{LAYERS, SHARES};
+use super::line::Line;
+use super::{Failure, Segment, Strand};
+
+/// Polynomials in time of the nozzle over a duration: value, first and second derivative at its beginning.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Motion {
+    /// [s]
+    pub duration: f64,
+    /// Place of the outlet [m].
+    pub place: [[f64; 3]; 3],
+    /// Volume flow [m³/s].
+    pub flow: [f64; 3],
+    /// Temperature of the fluid [K].
+    pub temperature: [f64; 3],
+}
+
+/// Number of pieces of a segment, each of which touches down at a place of its own.
+const PIECES: f64 = 4.0;
+/// Speed of the nozzle over that of the fluid in it below which fluid piles up in a heap, which is complete when it is as
+/// long as wide, or when it has the volume of a segment and the nozzle moves on.
+const SLOW: f64 = 0.25;
+/// Least gap above an older segment, over the diameter of the nozzle, with which a strand lies on that.
+const CLEARANCE: f64 = 0.1;
+/// Bisections in the search for the time of a volume.
+const HALVINGS: usize = 60;
+/// Rounding that a comparison of volumes leaves room for.
+const SLACK: f64 = 1e-9;
+
+fn at([value, slope, bend]: [f64; 3], s: f64) -> f64 {
+    value + s * (slope + 0.5 * s * bend)
+}
+
+impl Motion {
+    /// Volume that has come after a time [m³].
+    fn volume(&self, s: f64) -> f64 {
+        let [value, slope, bend] = self.flow;
+        s * (value + s * (0.5 * slope + s * bend / 6.0))
+    }
+
+    fn outlet(&self, s: f64) -> [f64; 3] {
+        [0, 1, 2].map(|axis| at(self.place.map(|derivative| derivative[axis]), s))
+    }
+
+    /// Least flow within the duration [m³/s].
+    fn least_flow(&self) -> f64 {
+        let [_, slope, bend] = self.flow;
+        let turn = if bend > 0.0 { (-slope / bend).clamp(0.0, self.duration) } else { 0.0 };
+        let flows = [0.0, turn, self.duration].map(|s| at(self.flow, s));
+        flows.into_iter().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Flow that is rounding of an input that falls to zero within the duration [m³/s].
+    fn rounding(&self) -> f64 {
+        let [value, slope, bend] = self.flow.map(f64::abs);
+        SLACK * (value + self.duration * (slope + self.duration * bend))
+    }
+
+    /// The time from `from` on at which a volume has come [s].
+    fn time_of(&self, volume: f64, from: f64) -> f64 {
+        let [mut low, mut high] = [from, self.duration];
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            *(if self.volume(middle) < volume { &mut low } else { &mut high }) = middle;
+        }
+        high
+    }
+}
+
+/// An amount of fluid that reached a segment, with the impulse that it brought [N s].
+pub struct Arrival {
+    pub segment: usize,
+    pub impulse: [f64; 3],
+}
+
+/// A piece of a motion: its beginning and end [s], and the volume that comes [m³].
+struct Piece {
+    from: f64,
+    to: f64,
+    volume: f64,
+    /// True if it ends at a whole number of pieces of segments.
+    is_full: bool,
+}
+
+impl Line {
+    /// Lays the fluid of a motion; the strand's time is that of its beginning.
+    pub(super) fn lay(
+        &self,
+        strand: &mut Strand,
+        motion: &Motion,
+    ) -> Result<Vec<Arrival>, Failure> {
+        let flow = motion.least_flow();
+        if flow < -motion.rounding() {
+            return Err(Failure::NegativeFlow { flow });
+        }
+        let begin = motion.outlet(0.0);
+        let (volume, most) = (strand.volume + motion.volume(motion.duration), self.plan.most);
+        if volume > most * (1.0 + SLACK) {
+            return Err(Failure::BeyondMost { volume, most });
+        }
+        let comes = motion.volume(motion.duration) > 0.0;
+        if !comes || strand.flowing == 0.0 {
+            strand.open = 0.0;
+            strand.touch = [begin[0], begin[1]];
+        } else {
+            let jump = [0, 1, 2].map(|axis| begin[axis] - strand.nozzle[axis]);
+            let jump = jump.iter().map(|part| part * part).sum::<f64>().sqrt();
+            strand.jump = strand.jump.max(jump);
+        }
+        strand.flowing = if comes { 1.0 } else { 0.0 };
+        let mut arrivals = Vec::new();
+        if comes {
+            for piece in self.pieces(strand.volume, motion) {
+                arrivals.push(self.lay_piece(strand, motion, &piece)?);
+            }
+        }
+        strand.nozzle = motion.outlet(motion.duration);
+        if !comes {
+            strand.touch = [strand.nozzle[0], strand.nozzle[1]];
+        }
+        strand.time += motion.duration;
+        Ok(arrivals)
+    }
+
+    /// Cuts a motion where whole pieces of segments have come since time zero.
+    fn pieces(&self, before: f64, motion: &Motion) -> Vec<Piece> {
+        let size = self.plan.segment_volume() / PIECES;
+        let all = motion.volume(motion.duration);
+        let (mut pieces, mut from) = (Vec::new(), 0.0);
+        let mut number = ((before / size + SLACK).floor() + 1.0).max(1.0);
+        while number * size - before < all * (1.0 - SLACK) {
+            let to = motion.time_of(number * size - before, from);
+            let volume = motion.volume(to) - motion.volume(from);
+            pieces.push(Piece { from, to, volume, is_full: true });
+            (from, number) = (to, number + 1.0);
+        }
+        let is_full = (number * size - before - all).abs() <= SLACK * all;
+        let volume = all - motion.volume(from);
+        pieces.push(Piece { from, to: motion.duration, volume, is_full });
+        pieces.retain(|piece| piece.volume > 0.0 && piece.to > piece.from);
+        pieces
+    }
+
+    fn lay_piece(
+        &self,
+        strand: &mut Strand,
+        motion: &Motion,
+        piece: &Piece,
+    ) -> Result<Arrival, Failure> {
+        let [begin, end] = [piece.from, piece.to].map(|s| motion.outlet(s));
+        let temperature = at(motion.temperature, 0.5 * (piece.from + piece.to));
+        self.check_piece(strand, begin[2].min(end[2]), temperature)?;
+        let duration = piece.to - piece.from;
+        let speed = piece.volume / (duration * self.plan.outlet());
+        let velocity = [0, 1, 2].map(|axis| (end[axis] - begin[axis]) / duration);
+        let last = (strand.open == 1.0).then(|| strand.segment(strand.len() - 1));
+        let next = || {
+            let start = Segment { start: strand.touch, end: strand.touch, ..Segment::default() };
+            self.settled(strand, start, (strand.len(), begin[2]))
+        };
+        let open = last.unwrap_or_else(next);
+        let swift = velocity[0].hypot(velocity[1]).max(SLOW * speed);
+        let thickness = (piece.volume / (duration * swift)).sqrt();
+        let free = (end[2] - open.base - thickness).max(0.0);
+        let touch = touchdown(strand.touch, [begin, end], (duration, 0.5 * free / speed));
+        let path = (touch[0] - open.end[0]).hypot(touch[1] - open.end[1]);
+        let whole = self.plan.segment_volume() * (1.0 - SLACK);
+        let moves_on = path >= SLOW * speed * duration;
+        let is_new = last.is_none_or(|last| last.is_heap && last.volume >= whole && moves_on);
+        let mut segment = if is_new { next() } else { open };
+        segment.path += path;
+        segment.end = touch;
+        let middle = strand.time + 0.5 * (piece.from + piece.to);
+        let part = piece.volume / (segment.volume + piece.volume);
+        segment.born += part * (middle - segment.born);
+        let heat = self.heat.content_at(temperature) * self.heat.capacity(piece.volume);
+        segment.volume += piece.volume;
+        segment.is_heap = segment.path * self.plan.outlet() < SLOW * segment.volume;
+        (0..LAYERS).for_each(|n| segment.heats[n] += SHARES[n] * heat);
+        strand.supplied += heat;
+        strand.volume += piece.volume;
+        strand.touch = touch;
+        let width = laid_width(&segment, end[2] - segment.base);
+        segment.half_width = segment.half_width.max(0.5 * width);
+        let is_long = !segment.is_heap || segment.path >= segment.width();
+        let is_complete = piece.is_full && is_long && segment.volume >= whole;
+        strand.open = if is_complete { 0.0 } else { 1.0 };
+        strand.count += if is_new { 1.0 } else { 0.0 };
+        let index = strand.len() - 1;
+        if is_complete {
+            segment = self.settled(strand, segment, (index, end[2]));
+        }
+        strand.set(index, &segment);
+        let mass = self.plan.fluid.density * piece.volume;
+        let impulse = [velocity[0], velocity[1], velocity[2] - speed].map(|part| mass * part);
+        Ok(Arrival { segment: index, impulse })
+    }
+
+    fn check_piece(&self, strand: &Strand, height: f64, temperature: f64) -> Result<(), Failure> {
+        if height <= 0.0 {
+            return Err(Failure::NozzleInPlate { height });
+        }
+        if temperature <= 0.0 {
+            return Err(Failure::BelowAbsoluteZero { temperature });
+        }
+        match strand.open == 0.0 && strand.len() == strand.capacity() {
+            true => Err(Failure::Full { segments: strand.len() }),
+            false => Ok(()),
+        }
+    }
+
+    /// Finds on what a segment lies: the highest of the `older` ones under its middle that the outlet clears, or the plate.
+    /// Neighbours along the strand, closer than its width, are not below it.
+    fn settled(&self, strand: &Strand, segment: Segment, (older, outlet): (usize, f64)) -> Segment {
+        let place = segment.middle();
+        let mut settled = Segment { base: 0.0, below: None, ..segment };
+        let (mut next, mut apart) = (segment, 0.0);
+        for n in (0..older).rev() {
+            let older = strand.segment(n);
+            if older.end != next.start {
+                apart = f64::INFINITY;
+            }
+            let clears = outlet - older.top() > CLEARANCE * self.plan.diameter;
+            let is_under = older.distance(place) <= older.half_width;
+            if apart > older.width() && clears && is_under && older.top() > settled.base {
+                (settled.base, settled.below) = (older.top(), Some(n));
+            }
+            apart += older.path;
+            next = older;
+        }
+        settled
+    }
+}
+
+/// Width with which a segment is laid [m]: as wide as high, or pressed to the gap below the outlet.
+fn laid_width(segment: &Segment, gap: f64) -> f64 {
+    let Segment { volume, path, is_heap, .. } = *segment;
+    if is_heap {
+        // As long as wide, until the nozzle has gone further.
+        let free = volume.cbrt().min((volume / path).sqrt());
+        return free.max((volume / gap).sqrt().min(volume / (path * gap)));
+    }
+    (volume / path).sqrt().max(volume / (path * gap))
+}
+
+/// Place of touchdown after a duration in which the outlet moves evenly, with the relaxation time t_r [s].
+fn touchdown(
+    from: [f64; 2],
+    [begin, end]: [[f64; 3]; 2],
+    (duration, relaxation): (f64, f64),
+) -> [f64; 2] {
+    let decay = if relaxation > 0.0 { (-duration / relaxation).exp() } else { 0.0 };
+    [0, 1].map(|axis| {
+        let lag = (end[axis] - begin[axis]) / duration * relaxation;
+        end[axis] - lag + (from[axis] - begin[axis] + lag) * decay
+    })
+}

@@ -1,0 +1,454 @@
+//! Steps of a strand: fluid is laid, then every segment spreads and exchanges heat.
+
+use super::cooling::{Column, Heat, LAYERS, SHARES, Surroundings};
+use super::footprint::Footprint;
+use super::laying::Arrival;
+use super::spreading::Spreading;
+use super::{Failure, LinePlan, Motion, Segment, Strand};
+use crate::port::{Domain, Surface};
+
+/// A filament that is laid as a line of segments.
+pub struct Line {
+    pub(super) plan: LinePlan,
+    pub(super) heat: Heat,
+    areas: Vec<f64>,
+}
+
+/// The surroundings of a strand over a step.
+pub struct Around<'a> {
+    pub surface: &'a Surface,
+    /// Temperature of the air [K].
+    pub air: f64,
+}
+
+/// Sums over a strand.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct LineTotals {
+    /// Path of the strand [m].
+    pub length: f64,
+    /// Mean width over the length, and volume over covered area [m].
+    pub width: f64,
+    pub height: f64,
+    /// Width and height of the last segment [m].
+    pub last_width: f64,
+    pub last_height: f64,
+    /// Distance between the nozzle's outlet, projected on the plate, and the touchdown of the strand [m].
+    pub lag: f64,
+    /// Hottest and coldest segment [K].
+    pub hottest: f64,
+    pub coldest: f64,
+    /// Frozen fraction of the volume.
+    pub frozen: f64,
+    /// Heat gained since it came, negative when cooled [J].
+    pub heat_stored: f64,
+    /// Volume of all segments [m³].
+    pub volume: f64,
+    /// Heat that appeared from nowhere: the rounding of the balance [J].
+    pub missing: f64,
+}
+
+/// Part of its heat that a segment releases in an inner step, at most.
+const COOLING: f64 = 0.05;
+/// Growth of the width in an inner step, at most.
+const GROWTH: f64 = 0.05;
+const MOST_STEPS: f64 = 64.0;
+/// Number of inner steps of the first step of a segment, at least.
+const FIRST_STEPS: f64 = 12.0;
+/// Difference of a segment's temperatures from those around it that is worth an inner step [K].
+const LEAST_APART: f64 = 0.1;
+/// Relative error of the heat balance of a state that runs never reach.
+const BALANCE: f64 = 1e-6;
+
+impl Line {
+    pub fn new(plan: LinePlan) -> Self {
+        let fluid = &plan.fluid;
+        let heat = Heat {
+            reference: plan.reference,
+            capacity: fluid.density * fluid.specific_heat,
+            conductivity: fluid.conductivity,
+            phases: plan.phases(),
+        };
+        let areas = plan.cells.as_ref().map_or(Vec::new(), |cells| cells.areas(Domain::whole(3)));
+        Self { plan, heat, areas }
+    }
+
+    pub fn plan(&self) -> &LinePlan {
+        &self.plan
+    }
+
+    /// The state before time starts, with the place of the nozzle's outlet.
+    pub fn start(&self, nozzle: [f64; 3]) -> Strand {
+        Strand::new(self.plan.capacity(), self.areas.len(), nozzle)
+    }
+
+    /// Temperatures of the layers of a segment [K], from below.
+    fn temperatures(&self, segment: &Segment) -> [f64; LAYERS] {
+        self.contents(segment).map(|content| self.heat.temperature(content))
+    }
+
+    /// Mean temperature of a segment [K].
+    pub fn temperature(&self, segment: &Segment) -> f64 {
+        mean(self.temperatures(segment))
+    }
+
+    /// Frozen fraction of a segment.
+    pub fn frozen(&self, segment: &Segment) -> f64 {
+        mean(self.contents(segment).map(|content| self.heat.frozen(content)))
+    }
+
+    fn contents(&self, segment: &Segment) -> [f64; LAYERS] {
+        self.heat.contents(&segment.heats, segment.volume)
+    }
+
+    /// Advances a strand through motions of the nozzle, one after the other.
+    pub fn advance(
+        &self,
+        strand: &mut Strand,
+        motions: &[Motion],
+        around: &Around,
+    ) -> Result<(), Failure> {
+        let begin = strand.time;
+        let mut arrivals = Vec::new();
+        for motion in motions {
+            arrivals.extend(self.lay(strand, motion)?);
+        }
+        let duration = strand.time - begin;
+        strand.duration = duration;
+        strand.cell_heat.fill(0.0);
+        strand.cell_impulse.fill([0.0; 3]);
+        let cells = self.plan.cells.as_ref();
+        let feet: Vec<Footprint> = strand
+            .segments()
+            .map(|segment| cells.map_or_else(Footprint::default, |c| Footprint::of(&segment, c)))
+            .collect();
+        self.exchange_heat(strand, (begin, duration), around, &feet);
+        self.exchange_impulse(strand, &arrivals, duration, &feet);
+        Ok(())
+    }
+
+    fn exchange_heat(
+        &self,
+        strand: &mut Strand,
+        (begin, duration): (f64, f64),
+        around: &Around,
+        feet: &[Footprint],
+    ) {
+        let free = match self.areas.is_empty() || duration == 0.0 {
+            true => [Vec::new(), Vec::new()],
+            false => [0.0, 1.0].map(|part| around.surface.free(part, duration)),
+        };
+        let (covered, on_top) = self.coverage(strand, feet);
+        for n in 0..strand.len() {
+            let mut segment = strand.segment(n);
+            let from = segment.born.max(begin);
+            let time = strand.time - from;
+            if time <= 0.0 {
+                continue;
+            }
+            let below = match segment.below {
+                Some(lower) => Below::Segment(strand.segment(lower)),
+                None => {
+                    let parts = [(from - begin) / duration, 1.0];
+                    let foot = (&feet[n], segment.area());
+                    self.below_on_plate((around.surface, &free), foot, &covered, parts)
+                }
+            };
+            let step = SegmentStep {
+                line: self,
+                below: &below,
+                ages: [from - segment.born, strand.time - segment.born],
+                covered: on_top[n],
+                air: around.air,
+            };
+            let [given, lost] = step.advance(&mut segment);
+            strand.set(n, &segment);
+            strand.lost += lost;
+            match segment.below {
+                Some(lower) => {
+                    let mut lower_segment = strand.segment(lower);
+                    lower_segment.heats[LAYERS - 1] += given;
+                    strand.set(lower, &lower_segment);
+                }
+                None => {
+                    strand.given += given;
+                    let inside = feet[n].inside();
+                    for &(cell, weight) in &feet[n].cells {
+                        strand.cell_heat[cell] += given * weight / inside;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Covered part of each cell of the plate, and whether a segment lies on each segment.
+    fn coverage(&self, strand: &Strand, feet: &[Footprint]) -> (Vec<f64>, Vec<bool>) {
+        let mut covered = vec![0.0; self.areas.len()];
+        let mut on_top = vec![false; strand.len()];
+        for (segment, foot) in strand.segments().zip(feet) {
+            match segment.below {
+                Some(below) => on_top[below] = true,
+                None => {
+                    for &(cell, weight) in &foot.cells {
+                        covered[cell] += weight * segment.area() / self.areas[cell];
+                    }
+                }
+            }
+        }
+        (covered, on_top)
+    }
+
+    fn below_on_plate<'a>(
+        &self,
+        (surface, free): (&'a Surface, &[Vec<f64>; 2]),
+        (foot, area): (&Footprint, f64),
+        covered: &[f64],
+        parts: [f64; 2],
+    ) -> Below<'a> {
+        let ends = free.each_ref().map(|free| foot.mean(|cell| free[cell]));
+        let [Some(first), Some(last)] = ends else { return Below::Nothing };
+        let at = |part: f64| first + part * (last - first);
+        let cover = foot.mean(|cell| covered[cell]).unwrap_or(0.0);
+        let inside = foot.inside();
+        Below::Plate { surface, ends: parts.map(at), flux: cover / (area * inside), inside }
+    }
+
+    /// Passes the weight of the strand and the momentum of arriving fluid to the plate, through the segments below.
+    fn exchange_impulse(
+        &self,
+        strand: &mut Strand,
+        arrivals: &[Arrival],
+        duration: f64,
+        feet: &[Footprint],
+    ) {
+        let weight = -self.plan.fluid.density * self.plan.gravity * duration;
+        let mut loads: Vec<[f64; 3]> =
+            strand.segments().map(|segment| [0.0, 0.0, weight * segment.volume]).collect();
+        for Arrival { segment, impulse } in arrivals {
+            add(&mut loads[*segment], *impulse, 1.0);
+        }
+        for n in (0..strand.len()).rev() {
+            let load = loads[n];
+            match strand.segment(n).below {
+                Some(lower) => add(&mut loads[lower], load, 1.0),
+                None => {
+                    add(&mut strand.impulse, load, 1.0);
+                    for &(cell, part) in &feet[n].cells {
+                        add(&mut strand.cell_impulse[cell], load, part);
+                    }
+                }
+            }
+        }
+    }
+
+    pub fn totals(&self, strand: &Strand) -> LineTotals {
+        let mut totals =
+            LineTotals { hottest: f64::MIN, coldest: f64::MAX, ..LineTotals::default() };
+        let (mut length, mut area, mut volume, mut frozen, mut heat) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        for segment in strand.segments() {
+            totals.length += segment.path;
+            length += segment.length();
+            area += segment.area();
+            volume += segment.volume;
+            heat += segment.heat();
+            frozen += segment.volume * self.frozen(&segment);
+            for temperature in self.temperatures(&segment) {
+                totals.hottest = totals.hottest.max(temperature);
+                totals.coldest = totals.coldest.min(temperature);
+            }
+            (totals.last_width, totals.last_height) = (segment.width(), segment.height());
+        }
+        if volume > 0.0 {
+            (totals.width, totals.height) = (area / length, volume / area);
+            totals.frozen = frozen / volume;
+        } else {
+            (totals.hottest, totals.coldest) = (self.plan.reference, self.plan.reference);
+        }
+        let [x, y, _] = strand.nozzle;
+        totals.lag = (x - strand.touch[0]).hypot(y - strand.touch[1]);
+        totals.volume = volume;
+        totals.heat_stored = heat - strand.supplied;
+        totals.missing = totals.heat_stored + strand.given + strand.lost;
+        totals
+    }
+
+    /// Returns true if part of the last segment lies beyond the edge of the plate.
+    pub fn reaches_beyond(&self, strand: &Strand) -> bool {
+        let last = strand.segments().next_back();
+        let cells = self.plan.cells.as_ref();
+        last.zip(cells).is_some_and(|(last, cells)| Footprint::of(&last, cells).outside > 1e-6)
+    }
+
+    /// Refuses a state that no run produces, with the reason.
+    pub fn check(&self, strand: &Strand) -> Result<(), String> {
+        strand.check()?;
+        let totals = self.totals(strand);
+        let mut scale = strand.supplied.abs() + strand.given.abs();
+        for (n, segment) in strand.segments().enumerate() {
+            scale +=
+                segment.heat().abs() + self.heat.capacity(segment.volume) * self.plan.reference;
+            if self.temperatures(&segment).iter().any(|&temperature| temperature <= 0.0) {
+                return Err(format!("segment {n} is below absolute zero"));
+            }
+        }
+        let (volume, missing) = (totals.volume, totals.missing);
+        if (volume - strand.volume).abs() > BALANCE * strand.volume {
+            return Err(format!("{} m³ came, and {volume} m³ are in segments", strand.volume));
+        }
+        match missing.abs() <= BALANCE * scale {
+            true => Ok(()),
+            false => Err(format!("{missing:e} J of heat have no cause")),
+        }
+    }
+}
+
+/// What a segment lies on.
+enum Below<'a> {
+    Nothing,
+    Plate {
+        surface: &'a Surface,
+        /// Mean temperature of the cells without the strand's heat when contact begins in this step, and at its end [K].
+        ends: [f64; 2],
+        /// Flux into the cells over the heat flow of the segment, as others share them with it [1/m²].
+        flux: f64,
+        /// Part of the segment above the plate.
+        inside: f64,
+    },
+    Segment(Segment),
+}
+
+/// A step of one segment.
+struct SegmentStep<'a> {
+    line: &'a Line,
+    below: &'a Below<'a>,
+    /// Ages of the segment at its beginning and end [s].
+    ages: [f64; 2],
+    /// True if another segment lies on it.
+    covered: bool,
+    /// [K]
+    air: f64,
+}
+
+impl SegmentStep<'_> {
+    /// Advances the segment; returns the heat that passed down and to the air [J].
+    fn advance(&self, segment: &mut Segment) -> [f64; 2] {
+        let [first, last] = self.ages;
+        let count = self.steps(segment);
+        // Equal steps of the root of the age, as heat passes at first.
+        let [low, high] = [first.sqrt(), last.sqrt()];
+        let age = |n: usize| match n == count {
+            true => last,
+            false => (low + (high - low) * n as f64 / count as f64).powi(2).max(first),
+        };
+        let mut sums = [0.0; 2];
+        for n in 0..count {
+            let ages = [age(n), age(n + 1)];
+            if ages[1] <= ages[0] {
+                continue;
+            }
+            if self.line.heat.conductivity > 0.0 {
+                let column = Column { volume: segment.volume, height: segment.height() };
+                let around = self.surroundings(segment, ages, sums[0]);
+                let heat = &self.line.heat;
+                let passed = heat.advance(&mut segment.heats, column, ages[1] - ages[0], &around);
+                (0..2).for_each(|n| sums[n] += passed[n]);
+            }
+            segment.half_width =
+                self.spreading(segment).advance(segment.half_width, ages[1] - ages[0]);
+        }
+        sums
+    }
+
+    fn spreading(&self, segment: &Segment) -> Spreading<'_> {
+        Spreading {
+            fluid: &self.line.plan.fluid,
+            gravity: self.line.plan.gravity,
+            section: segment.section(),
+            temperature: self.line.temperature(segment),
+            frozen: self.line.frozen(segment),
+        }
+    }
+
+    /// Number of inner steps, by what a step changes.
+    fn steps(&self, segment: &Segment) -> usize {
+        let duration = self.ages[1] - self.ages[0];
+        let heat = &self.line.heat;
+        let cooling = heat.cooling(segment.height(), self.ages);
+        // A segment that is as warm as its surroundings has nothing to resolve.
+        let around = self.surroundings(segment, self.ages, 0.0);
+        let apart = self.line.temperatures(segment).map(|temperature| {
+            let to_air = if self.line.plan.air > 0.0 { temperature - around.air } else { 0.0 };
+            (temperature - around.below).abs().max(to_air.abs())
+        });
+        let apart = apart.into_iter().fold(0.0, f64::max);
+        let cooling = cooling.min(apart / LEAST_APART);
+        let cooling = cooling + self.air_ratio(segment, duration);
+        let growth = self.spreading(segment).speed(segment.half_width) * duration;
+        let growth = (growth / segment.half_width).min(1.0);
+        let least = if self.ages[0] == 0.0 && apart > LEAST_APART { FIRST_STEPS } else { 1.0 };
+        (cooling / COOLING).max(growth / GROWTH).ceil().clamp(least, MOST_STEPS) as usize
+    }
+
+    /// Areas of the upper side and of the others that face the air [m²].
+    fn exposed(&self, segment: &Segment) -> [f64; 2] {
+        let above = if self.covered { 0.0 } else { segment.area() };
+        [above, 2.0 * segment.height() * segment.length()]
+    }
+
+    /// Heat per difference of temperature that passes to the air in a time, over the heat capacity of the molten segment.
+    fn air_ratio(&self, segment: &Segment, duration: f64) -> f64 {
+        let exposed: f64 = self.exposed(segment).iter().sum();
+        duration * self.line.plan.air * exposed / self.line.heat.capacity(segment.volume)
+    }
+
+    /// What the segment exchanges heat with between two ages, after some heat has passed down in this step [J].
+    fn surroundings(&self, segment: &Segment, ages: [f64; 2], before: f64) -> Surroundings {
+        let (below, resistance) = self.below(segment, ages, before);
+        let [above, aside] = self.exposed(segment).map(|area| self.line.plan.air * area);
+        let contact = self.contact(segment);
+        Surroundings { below, resistance, contact, air: self.air, above, aside }
+    }
+
+    /// Area through which the segment touches what lies below it [m²].
+    fn contact(&self, segment: &Segment) -> f64 {
+        match self.below {
+            Below::Nothing => 0.0,
+            Below::Plate { inside, .. } => segment.area() * inside,
+            Below::Segment(_) => segment.area(),
+        }
+    }
+
+    /// Temperature below [K], and the resistance to it, with the rise that the heat of this inner step causes [K/W].
+    fn below(&self, segment: &Segment, ages: [f64; 2], before: f64) -> (f64, f64) {
+        let heat = &self.line.heat;
+        let duration = ages[1] - ages[0];
+        match self.below {
+            Below::Nothing => (self.air, f64::INFINITY),
+            Below::Plate { surface, ends, flux, .. } => {
+                let part = (ages[1] - self.ages[0]) / (self.ages[1] - self.ages[0]);
+                let free = ends[0] + part * (ends[1] - ends[0]);
+                let elapsed = ages[1] - self.ages[0];
+                let rise = flux * surface.response.of_held_flux(elapsed) / elapsed;
+                let area = self.contact(segment);
+                let contact = self.line.plan.conductance.map_or(0.0, |value| 1.0 / (value * area));
+                (free + rise * before, contact + rise * duration)
+            }
+            Below::Segment(lower) => {
+                let top = LAYERS - 1;
+                let content = self.line.contents(lower)[top];
+                let least = heat.phases.map_or(1.0, |phases| phases.heat.min(1.0));
+                let capacity = least * SHARES[top] * heat.capacity(lower.volume);
+                let own = heat.half_resistance(top, lower.height(), content) / segment.area();
+                (heat.temperature(content) + before / capacity, own + duration / capacity)
+            }
+        }
+    }
+}
+
+/// Mean over the volume of a segment.
+fn mean(values: [f64; LAYERS]) -> f64 {
+    values.iter().zip(SHARES).map(|(value, share)| share * value).sum()
+}
+
+fn add(sum: &mut [f64; 3], vector: [f64; 3], weight: f64) {
+    sum.iter_mut().zip(vector).for_each(|(sum, part)| *sum += weight * part);
+}

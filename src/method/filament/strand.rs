@@ -1,0 +1,216 @@
+//! The state of a filament.
+
+use std::slice::from_mut;
+
+use super::Segment;
+use super::cooling::LAYERS;
+use crate::state::{Field, Fields, Per};
+
+/// A strand, with the sums over the run and the exchange of the last step.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Strand {
+    /// [s]
+    pub time: f64,
+    /// Volume that has come [m³].
+    pub volume: f64,
+    /// Heat content of all fluid as it came [J].
+    pub supplied: f64,
+    /// Heat that has passed to the plate and to the air [J].
+    pub given: f64,
+    pub lost: f64,
+    /// Impulse that has passed to the plate [N s].
+    pub impulse: [f64; 3],
+    /// Place of the nozzle's outlet, and that at which the strand touches down [m].
+    pub nozzle: [f64; 3],
+    pub touch: [f64; 2],
+    /// Largest jump of the nozzle while fluid came [m].
+    pub jump: f64,
+    /// 1 while fluid comes, 0 otherwise.
+    pub flowing: f64,
+    /// 1 if the last segment is still growing, 0 otherwise.
+    pub open: f64,
+    /// Number of segments.
+    pub count: f64,
+    /// Exchange with the cells of the plate in the last step: its duration [s], heat [J] and impulse [N s].
+    pub duration: f64,
+    pub cell_heat: Vec<f64>,
+    pub cell_impulse: Vec<[f64; 3]>,
+    start: Vec<[f64; 2]>,
+    end: Vec<[f64; 2]>,
+    base: Vec<f64>,
+    volumes: Vec<f64>,
+    heats: Vec<[f64; LAYERS]>,
+    half_width: Vec<f64>,
+    born: Vec<f64>,
+    path: Vec<f64>,
+    /// 1 for heaps, 0 otherwise.
+    heap: Vec<f64>,
+    /// Place of the segment below, plus one; 0 on the plate.
+    below: Vec<f64>,
+}
+
+impl Strand {
+    /// A strand before time starts, with room for segments, above a number of cells.
+    pub fn new(capacity: usize, cells: usize, nozzle: [f64; 3]) -> Self {
+        let numbers = vec![0.0; capacity];
+        Self {
+            nozzle,
+            touch: [nozzle[0], nozzle[1]],
+            cell_heat: vec![0.0; cells],
+            cell_impulse: vec![[0.0; 3]; cells],
+            start: vec![[0.0; 2]; capacity],
+            end: vec![[0.0; 2]; capacity],
+            base: numbers.clone(),
+            volumes: numbers.clone(),
+            heats: vec![[0.0; LAYERS]; capacity],
+            half_width: numbers.clone(),
+            born: numbers.clone(),
+            path: numbers.clone(),
+            heap: numbers.clone(),
+            below: numbers,
+            ..Self::default()
+        }
+    }
+
+    /// Number of segments that the state holds.
+    pub fn capacity(&self) -> usize {
+        self.volumes.len()
+    }
+
+    /// Number of segments.
+    pub fn len(&self) -> usize {
+        self.count as usize
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    pub fn segment(&self, n: usize) -> Segment {
+        let below = self.below[n];
+        Segment {
+            start: self.start[n],
+            end: self.end[n],
+            base: self.base[n],
+            volume: self.volumes[n],
+            heats: self.heats[n],
+            half_width: self.half_width[n],
+            born: self.born[n],
+            path: self.path[n],
+            is_heap: self.heap[n] != 0.0,
+            below: (below > 0.0).then(|| below as usize - 1),
+        }
+    }
+
+    pub fn set(&mut self, n: usize, segment: &Segment) {
+        self.start[n] = segment.start;
+        self.end[n] = segment.end;
+        self.base[n] = segment.base;
+        self.volumes[n] = segment.volume;
+        self.heats[n] = segment.heats;
+        self.half_width[n] = segment.half_width;
+        self.born[n] = segment.born;
+        self.path[n] = segment.path;
+        self.heap[n] = if segment.is_heap { 1.0 } else { 0.0 };
+        self.below[n] = segment.below.map_or(0.0, |below| (below + 1) as f64);
+    }
+
+    pub fn segments(&self) -> impl DoubleEndedIterator<Item = Segment> + ExactSizeIterator + '_ {
+        (0..self.len()).map(|n| self.segment(n))
+    }
+
+    /// Refuses numbers that no run produces, with the reason.
+    pub fn check(&self) -> Result<(), String> {
+        let is_flag = |value: f64| value == 0.0 || value == 1.0;
+        let count = self.count;
+        if count < 0.0 || count.fract() != 0.0 || count > self.capacity() as f64 {
+            return Err(format!("{count} segments, of at most {}", self.capacity()));
+        }
+        if !is_flag(self.flowing) || !is_flag(self.open) || (self.open == 1.0 && count == 0.0) {
+            return Err("a flag of the strand is neither 0 nor 1".to_owned());
+        }
+        let sums = [self.time, self.volume, self.duration, self.jump];
+        if sums.iter().any(|&sum| sum < 0.0 || !sum.is_finite()) {
+            return Err("time, volume, duration and jump are not negative".to_owned());
+        }
+        for n in 0..self.len() {
+            self.check_segment(n)?;
+        }
+        let unused = self.len()..self.capacity();
+        let is_used = |n: usize| {
+            let below = self.below[n];
+            self.segment(n) != Segment::default() || below != 0.0
+        };
+        match unused.into_iter().find(|&n| is_used(n)) {
+            Some(n) => Err(format!("segment {n} is beyond the last, but not empty")),
+            None => Ok(()),
+        }
+    }
+
+    fn check_segment(&self, n: usize) -> Result<(), String> {
+        let segment = self.segment(n);
+        let below = self.below[n];
+        if below < 0.0 || below.fract() != 0.0 || below as usize > n {
+            return Err(format!("segment {n} lies on segment {}", below - 1.0));
+        }
+        if !(segment.volume > 0.0 && segment.half_width > 0.0) {
+            return Err(format!("segment {n} has no volume or no width"));
+        }
+        if segment.path == 0.0 && !segment.is_heap
+            || self.heap[n] > 1.0
+            || self.heap[n].fract() != 0.0
+        {
+            return Err(format!("segment {n} has no length"));
+        }
+        let born = 0.0 <= segment.born && segment.born <= self.time;
+        if !(born && segment.path >= 0.0 && segment.base >= 0.0) {
+            return Err(format!("segment {n} has a time, a length or a height out of bounds"));
+        }
+        Ok(())
+    }
+}
+
+impl Fields for Strand {
+    fn fields(&mut self) -> Vec<(Field, &mut [f64])> {
+        let of = |name, words, per, width| Field { name, words, per, width };
+        let body = |name, words| of(name, words, Per::Body, 1);
+        let cell = |name, words, width| of(name, words, Per::Cell, width);
+        let segment = |name, words, width| of(name, words, Per::Segment, width);
+        vec![
+            (body("time", "time since the start [s]"), from_mut(&mut self.time)),
+            (body("volume", "volume that has come [m³]"), from_mut(&mut self.volume)),
+            (
+                body("supplied", "heat content of the fluid as it came [J]"),
+                from_mut(&mut self.supplied),
+            ),
+            (body("given", "heat passed to the plate [J]"), from_mut(&mut self.given)),
+            (body("lost", "heat passed to the air [J]"), from_mut(&mut self.lost)),
+            (of("impulse", "impulse passed to the plate [N s]", Per::Body, 3), &mut self.impulse),
+            (of("nozzle", "place of the outlet [m]", Per::Body, 3), &mut self.nozzle),
+            (of("touch", "place of touchdown [m]", Per::Body, 2), &mut self.touch),
+            (body("jump", "largest jump of the nozzle [m]"), from_mut(&mut self.jump)),
+            (body("flowing", "1 while fluid comes"), from_mut(&mut self.flowing)),
+            (body("open", "1 if the last segment grows"), from_mut(&mut self.open)),
+            (body("count", "number of segments"), from_mut(&mut self.count)),
+            (body("duration", "duration of the last exchange [s]"), from_mut(&mut self.duration)),
+            (cell("cell_heat", "heat to cells of the plate [J]", 1), &mut self.cell_heat),
+            (
+                cell("cell_impulse", "impulse to cells of the plate [N s]", 3),
+                self.cell_impulse.as_flattened_mut(),
+            ),
+            (segment("start", "start of the centre line [m]", 2), self.start.as_flattened_mut()),
+            (segment("end", "end of the centre line [m]", 2), self.end.as_flattened_mut()),
+            (segment("base", "height of the plane below [m]", 1), &mut self.base),
+            (segment("segment_volume", "volume [m³]", 1), &mut self.volumes),
+            (
+                segment("heat", "heat contents of the layers [J]", LAYERS),
+                self.heats.as_flattened_mut(),
+            ),
+            (segment("half_width", "half of the width [m]", 1), &mut self.half_width),
+            (segment("born", "mean time at which its fluid came [s]", 1), &mut self.born),
+            (segment("path", "length of the path [m]", 1), &mut self.path),
+            (segment("heap", "1 for heaps", 1), &mut self.heap),
+            (segment("below", "number of the segment below, from 1; 0: plate", 1), &mut self.below),
+        ]
+    }
+}

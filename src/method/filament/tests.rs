@@ -1,0 +1,297 @@
+//! Strands against mass balance, closed forms and independent integrations.
+
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
+
+use super::{Around, Line, LinePlan, Motion, Strand, Target};
+use crate::laws::Fluid;
+use crate::port::{Surface, SurfaceResponse, WallCells};
+
+const WAX: &str = "density = 780.0\nviscosity = 4e-3\nspecific_heat = 2.2e3\nconductivity = 0.15\nmelting = { solidus = \
+                   309.0, liquidus = 309.7, latent_heat = 2.47e5 }\nfrozen = { specific_heat = 1.9e3, conductivity = \
+                   0.3 }";
+const CONCRETE: &str = "density = 2300.0\nviscosity = { law = \"bingham\", yield_stress = 800.0, plastic_viscosity = \
+                        20.0 }\nspecific_heat = 1e3\nconductivity = 1.5";
+
+fn plan(fluid: &str, diameter: f64) -> LinePlan {
+    let fluid: Fluid = toml::from_str(fluid).unwrap();
+    LinePlan {
+        fluid,
+        reference: 340.0,
+        diameter,
+        spacing: 0.5 * diameter,
+        most: 400.0 * diameter.powi(3),
+        gravity: 9.81,
+        air: 0.0,
+        conductance: None,
+        cells: None,
+    }
+}
+
+fn tiles(extent: f64) -> Option<WallCells> {
+    Some(WallCells::Tiles { count: [24, 24], size: [extent; 2] })
+}
+
+/// A straight motion along x.
+fn along(duration: f64, (from, height): (f64, f64), speed: f64, flow: f64) -> Motion {
+    Motion {
+        duration,
+        place: [[from, 0.0, height], [speed, 0.0, 0.0], [0.0; 3]],
+        flow: [flow, 0.0, 0.0],
+        temperature: [340.0, 0.0, 0.0],
+    }
+}
+
+fn still(temperature: f64, cells: usize) -> Surface {
+    Surface::held(&vec![temperature; cells])
+}
+
+/// Lays a straight line in a number of steps.
+fn straight(line: &Line, steps: usize, (height, speed, flow): (f64, f64, f64)) -> Strand {
+    let duration = 0.75 * line.plan().most / flow;
+    let mut strand = line.start([0.0, 0.0, height]);
+    let surface = still(300.0, 24 * 24);
+    let step = duration / steps as f64;
+    for n in 0..steps {
+        let motion = along(step, (speed * step * n as f64, height), speed, flow);
+        let around = Around { surface: &surface, air: 300.0 };
+        line.advance(&mut strand, &[motion], &around).unwrap();
+    }
+    strand
+}
+
+/// `w h = (π/4) D² U_out/U_nozzle` per length, pressed by the nozzle or free, in any number of steps.
+#[test]
+fn sections_follow_from_the_mass_balance() {
+    let line = Line::new(plan(CONCRETE, 0.02));
+    let outlet = line.plan().outlet();
+    for (ratio, height) in [(1.0, 0.01), (0.8, 0.012), (2.0, 0.02), (0.5, 0.02)] {
+        let speed = 0.1;
+        let flow = ratio * speed * outlet;
+        for steps in [1, 37] {
+            let strand = straight(&line, steps, (height, speed, flow));
+            let segments: Vec<_> = strand.segments().collect();
+            assert!(segments.len() > 100);
+            for segment in &segments[12..segments.len() - 3] {
+                let section = segment.width() * segment.height();
+                assert!(
+                    (section / (ratio * outlet) - 1.0).abs() < 1e-6,
+                    "{ratio} {height} {segment:?}"
+                );
+            }
+            let volume: f64 = segments.iter().map(|segment| segment.volume).sum();
+            assert!((volume / strand.volume - 1.0).abs() < 1e-12);
+            assert!((strand.volume / (0.75 * line.plan().most) - 1.0).abs() < 1e-9);
+            line.check(&strand).unwrap();
+        }
+    }
+}
+
+/// A pressed strand is as high as the gap; one laid from far above is as wide as high before it spreads.
+#[test]
+fn the_gap_below_the_nozzle_presses_strands() {
+    let stiff = CONCRETE.replace("800.0", "1e5");
+    let line = Line::new(plan(&stiff, 0.02));
+    let flow = 0.1 * line.plan().outlet();
+    let pressed = straight(&line, 5, (0.008, 0.1, flow)).segment(40);
+    assert!((pressed.height() / 0.008 - 1.0).abs() < 1e-6, "{pressed:?}");
+    let free = straight(&line, 5, (0.03, 0.1, flow)).segment(80);
+    assert!((free.height() / free.width() - 1.0).abs() < 1e-6, "{free:?}");
+}
+
+/// A nozzle that stands still piles fluid up in one heap, from which a strand goes on.
+#[test]
+fn a_nozzle_at_rest_makes_one_heap() {
+    let line = Line::new(plan(CONCRETE, 0.02));
+    let flow = 0.1 * line.plan().outlet();
+    let mut strand = line.start([0.0, 0.0, 0.02]);
+    let around = Around { surface: &Surface::default(), air: 300.0 };
+    let rest = along(2.0, (0.0, 0.02), 0.0, flow);
+    line.advance(&mut strand, &[rest, along(1.0, (0.0, 0.02), 0.1, flow)], &around).unwrap();
+    let heap = strand.segment(0);
+    assert!(heap.volume > 1.99 * flow && strand.len() > 5, "{heap:?}");
+    assert!((heap.length() - heap.width()).abs() < 1e-12);
+    let volume: f64 = strand.segments().map(|segment| segment.volume).sum();
+    assert!((volume / (3.0 * flow) - 1.0).abs() < 1e-12);
+}
+
+/// A nozzle whose inputs jump from step to step lays the same volume along its path, in as many segments.
+#[test]
+fn inputs_without_derivatives_lay_a_strand() {
+    let line = Line::new(plan(CONCRETE, 0.02));
+    let flow = 0.1 * line.plan().outlet();
+    let around = Around { surface: &Surface::default(), air: 300.0 };
+    let lengths = [0.04, 0.07, 0.3].map(|step| {
+        let mut strand = line.start([0.0, 0.0, 0.015]);
+        let steps = (4.0_f64 / step).round() as usize;
+        for n in 0..steps {
+            let held = along(step, (0.1 * step * n as f64, 0.015), 0.0, flow);
+            line.advance(&mut strand, &[held], &around).unwrap();
+        }
+        line.check(&strand).unwrap();
+        assert!(strand.len() < 45, "{step}: {} segments", strand.len());
+        assert!((strand.jump / (0.1 * step) - 1.0).abs() < 1e-9);
+        strand.segment(strand.len() - 1).end[0] / (0.1 * step * (steps - 1) as f64)
+    });
+    assert!(lengths.iter().all(|part| (part - 1.0).abs() < 1e-9), "{lengths:?}");
+}
+
+/// The strand trails by half the time of the fall from a steadily moving nozzle.
+#[test]
+fn a_strand_trails_behind_a_high_nozzle() {
+    let line = Line::new(plan(CONCRETE, 0.02));
+    let (speed, height) = (0.1, 0.06);
+    let flow = 0.5 * speed * line.plan().outlet();
+    let strand = straight(&line, 13, (height, speed, flow));
+    let thickness = strand.segment(strand.len() - 1).height();
+    let expected = 0.5 * speed * (height - thickness) / (0.5 * speed);
+    let lag = line.totals(&strand).lag;
+    assert!((lag / expected - 1.0).abs() < 0.05, "{lag} {expected}");
+    let low = straight(&line, 13, (0.01, speed, flow));
+    assert!(line.totals(&low).lag < 1e-12);
+}
+
+/// Heat that leaves the segments reaches the plate or the air, and the plate's cells get all of it.
+#[test]
+fn heat_and_volume_balance() {
+    for (conductance, air) in [(None, 30.0), (Some(400.0), 0.0)] {
+        let own = plan(WAX, 1e-3);
+        let line = Line::new(LinePlan { conductance, air, cells: tiles(0.2), ..own });
+        let response = SurfaceResponse::of_half_space(1.2e3, [1e-4, 10.0]);
+        let mut strand = line.start([-0.05, 0.0, 0.8e-3]);
+        let mut to_cells = 0.0;
+        for n in 0..40 {
+            let surface = Surface {
+                amplitudes: vec![0.0; 576 * response.len()],
+                response: response.clone(),
+                ..still(295.0, 576)
+            };
+            let place = -0.05 + 0.02 * 0.1 * f64::from(n);
+            let motion = along(0.1, (place, 0.8e-3), 0.02, 0.8e-6 * 0.02);
+            let around = Around { surface: &surface, air: 293.0 };
+            line.advance(&mut strand, &[motion], &around).unwrap();
+            to_cells += strand.cell_heat.iter().sum::<f64>();
+        }
+        let totals = line.totals(&strand);
+        assert!(strand.given > 0.0 && (strand.lost > 0.0) == (air > 0.0));
+        assert!(totals.missing.abs() < 1e-10 * strand.given, "{totals:?}");
+        assert!((to_cells / strand.given - 1.0).abs() < 1e-12);
+        assert!(totals.frozen > 0.0 && totals.coldest > 293.0, "{totals:?}");
+        line.check(&strand).unwrap();
+    }
+}
+
+/// Weight and momentum of the fluid reach the plate.
+#[test]
+fn impulse_balances() {
+    let own = plan(CONCRETE, 0.02);
+    let line = Line::new(LinePlan { cells: tiles(20.0), ..own });
+    let strand = straight(&line, 20, (0.01, 0.1, 0.1 * line.plan().outlet()));
+    let duration = strand.time;
+    let mass = 2300.0 * strand.volume;
+    // The mass on the plate grows evenly; a step counts all that has come by its end.
+    let weight = mass * 9.81 * duration * 0.5 * (1.0 + 1.0 / 20.0);
+    let [x, y, z] = strand.impulse;
+    assert!((x / (mass * 0.1) - 1.0).abs() < 1e-9 && y == 0.0);
+    assert!((-z / (weight + mass * 0.1) - 1.0).abs() < 1e-9, "{z} {weight}");
+}
+
+/// A strand that crosses an older one lies on that, and heats it.
+#[test]
+fn strands_lie_on_strands() {
+    let line = Line::new(plan(CONCRETE, 0.02));
+    let flow = 0.1 * line.plan().outlet();
+    let around = Around { surface: &Surface::default(), air: 300.0 };
+    let mut strand = line.start([0.0, 0.0, 0.02]);
+    let first = along(4.0, (0.0, 0.02), 0.1, flow);
+    line.advance(&mut strand, &[first], &around).unwrap();
+    let count = strand.len();
+    let older = strand.segment(20);
+    let mut second = along(2.0, (0.2, 0.04), 0.0, flow);
+    (second.place[0][1], second.place[1][1]) = (-0.1, 0.1);
+    let travel = Motion { flow: [0.0; 3], ..second };
+    let lifted = Motion { duration: 0.1, ..travel };
+    line.advance(&mut strand, &[lifted, second], &around).unwrap();
+    let on_top: Vec<_> =
+        (count..strand.len()).filter(|&n| strand.segment(n).below.is_some()).collect();
+    assert!(!on_top.is_empty() && on_top.len() < 6, "{on_top:?}");
+    for &n in &on_top {
+        let below = strand.segment(strand.segment(n).below.unwrap());
+        assert!((strand.segment(n).base / below.top() - 1.0).abs() < 1e-9);
+        assert!(below.distance(older.middle()) < 0.3);
+    }
+    assert!(strand.segment(count).below.is_none());
+}
+
+/// Refused steps name their reason.
+#[test]
+fn impossible_motions_are_refused() {
+    let line = Line::new(plan(WAX, 1e-3));
+    let around = Around { surface: &Surface::default(), air: 300.0 };
+    let refusal = |motion: Motion| {
+        let mut strand = line.start([0.0; 3]);
+        line.advance(&mut strand, &[motion], &around).unwrap_err().to_string()
+    };
+    let fine = along(1.0, (0.0, 1e-3), 0.01, 1e-8);
+    assert!(refusal(along(1.0, (0.0, 0.0), 0.01, 1e-8)).contains("outlet"));
+    assert!(refusal(Motion { flow: [1e-6, 0.0, 0.0], ..fine }).contains("most"));
+    assert!(refusal(Motion { flow: [1e-8, -2e-8, 0.0], ..fine }).contains("flow"));
+    assert!(refusal(Motion { flow: [1e3, 0.0, 0.0], ..fine }).contains("most"));
+    assert!(refusal(Motion { temperature: [-1.0, 0.0, 0.0], ..fine }).contains("absolute zero"));
+}
+
+/// Around a corner that the nozzle cuts as a circle of radius R: the largest deviation is `(1 − √½) R`, and the mean over
+/// the arc `(1 − (4/π) √½) R`.
+#[test]
+fn deviations_converge_with_the_length_of_segments() {
+    let (radius, straight, arc) = (4e-3, 0.01, 0.5 * PI * 4e-3);
+    let mean = arc / (arc + straight) * (1.0 - 4.0 / PI * FRAC_1_SQRT_2) * radius;
+    let largest = (1.0 - FRAC_1_SQRT_2) * radius;
+    let errors = |spacing: f64| {
+        let own = plan(CONCRETE, 1e-3);
+        let line = Line::new(LinePlan { spacing, most: 1e-7, ..own });
+        let target = Target::new(vec![[-0.02, -radius], [radius, -radius], [radius, 0.02]]);
+        let mut strand = line.start([-straight, -radius, 0.8e-3]);
+        let around = Around { surface: &Surface::default(), air: 300.0 };
+        let (speed, flow) = (0.02, 1.5e-8);
+        let mut motions = vec![along(straight / speed, (-straight, 0.8e-3), speed, flow)];
+        motions[0].place[0][1] = -radius;
+        // A circle of short parabolas.
+        let (parts, rate) = (64, speed / radius);
+        for n in 0..parts {
+            let (sine, cosine) = (0.5 * PI * f64::from(n) / f64::from(parts)).sin_cos();
+            motions.push(Motion {
+                duration: 0.5 * PI / rate / f64::from(parts),
+                place: [
+                    [radius * sine, -radius * cosine, 0.8e-3],
+                    [speed * cosine, speed * sine, 0.0],
+                    [-speed * rate * sine, speed * rate * cosine, 0.0],
+                ],
+                ..along(0.0, (0.0, 0.0), 0.0, flow)
+            });
+        }
+        line.advance(&mut strand, &motions, &around).unwrap();
+        let found = target.deviation(&strand);
+        [(found.mean / mean - 1.0).abs(), (found.largest / largest - 1.0).abs()]
+    };
+    let [coarse, middle, fine] = [2e-3, 1e-3, 0.25e-3].map(errors);
+    assert!(middle[0] < 0.5 * coarse[0] && fine[0] < 0.1 * middle[0]);
+    // The largest one is met at the nearest of the places compared.
+    assert!(fine[1] < 0.04, "{coarse:?} {middle:?} {fine:?}");
+}
+
+/// A target is bare where the strand ends early.
+#[test]
+fn gaps_are_lengths_that_nothing_covers() {
+    let line = Line::new(plan(CONCRETE, 0.02));
+    let strand = straight(&line, 3, (0.01, 0.1, 0.1 * line.plan().outlet()));
+    let end = strand.touch[0];
+    let target = Target::new(vec![[0.0, 0.0], [end + 0.5, 0.0]]);
+    let found = target.deviation(&strand);
+    let half_width = strand.segment(strand.len() - 1).half_width;
+    assert!((found.gap - (0.5 - half_width)).abs() < 1e-9, "{found:?}");
+    assert!(found.largest < 1e-12);
+    // Across the strand, half of its width on each side is covered.
+    let middle = strand.segment(40);
+    let across = Target::new(vec![[middle.middle()[0], -0.1], [middle.middle()[0], 0.3]]);
+    assert!((across.deviation(&strand).gap - (0.4 - middle.width())).abs() < 1e-9);
+}

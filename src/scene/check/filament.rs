@@ -1,0 +1,121 @@
+//! Checks fluid, nozzle, path and target of each filament.
+
+use super::{Checker, fits, material, number};
+use crate::laws::Viscosity;
+use crate::scene::filament::{Filament, PathTable};
+use crate::scene::locate::Path;
+
+/// Largest number of segments.
+const MOST_SEGMENTS: f64 = 1e6;
+/// Longest segment over the diameter of the nozzle.
+const LONGEST: f64 = 10.0;
+
+pub fn check(checker: &mut Checker) {
+    for (name, filament) in checker.scene.filaments() {
+        let path = Path::default().key("body").key(name);
+        fluid(checker, &path, filament);
+        if let Some(table) = filament.table() {
+            places(checker, &path.key("path"), table);
+        }
+        if checker.is_fine(&path) {
+            segments(checker, &path, filament);
+            volume(checker, &path, filament);
+        }
+    }
+    targets(checker);
+}
+
+fn fluid(checker: &mut Checker, path: &Path, filament: &Filament) {
+    let fluid = &filament.fluid;
+    if let Viscosity::Table(table) = &fluid.viscosity {
+        material::table(checker, &path.at("fluid.viscosity"), table);
+    }
+    if let Some(convection) = filament.convection {
+        let message = "the fluid conducts no heat that could pass to the air";
+        let allowed = "no `convection`, or a `conductivity` of the fluid above 0";
+        let fine = fluid.conductivity > 0.0 || convection.coefficient == 0.0;
+        checker.require(fine, &path.at("convection"), message, allowed);
+    }
+    let Some(melting) = fluid.melting else {
+        let message = "a fluid without `melting` does not freeze";
+        let allowed = "no `frozen`, or a table `melting` of the fluid";
+        checker.require(fluid.frozen.is_none(), &path.at("fluid.frozen"), message, allowed);
+        return;
+    };
+    let at = path.at("fluid.melting");
+    material::melting(checker, &at, melting);
+    let message = "a fluid that conducts no heat does not freeze";
+    let allowed = "no `melting`, or a `conductivity` of the fluid above 0";
+    checker.require(fluid.conductivity > 0.0, &at, message, allowed);
+    if checker.is_fine(&at) {
+        let shown = number(melting.liquidus);
+        let message = format!("the fluid comes molten, and its liquidus is {shown} K");
+        let is_molten = filament.nozzle.temperature > melting.liquidus;
+        let path = path.at("nozzle.temperature");
+        checker.require(is_molten, &path, message, format!("> {shown}"));
+    }
+}
+
+fn places(checker: &mut Checker, path: &Path, table: &PathTable) {
+    let count = table.len();
+    let message = format!("{count} times are no motion");
+    checker.require(count >= 2, &path.key("time"), message, "two or more times");
+    let heights = table.z.as_ref().map(|z| ("z", z.len()));
+    for (key, own) in [("x", table.x.len()), ("y", table.y.len())].into_iter().chain(heights) {
+        let message = format!("{own} places at {count} times");
+        checker.require(own == count, &path.key(key), message, format!("{count} numbers"));
+    }
+    let ascends = table.time.windows(2).all(|times| times[0] < times[1]);
+    let message = "the times do not ascend";
+    checker.require(ascends, &path.key("time"), message, "each time later than the one before");
+}
+
+fn segments(checker: &mut Checker, path: &Path, filament: &Filament) {
+    let spacing = filament.segment_length();
+    let longest = LONGEST * filament.nozzle.diameter;
+    let message = "the segments are far longer than the nozzle is wide";
+    let allowed = format!("up to {}", number(longest));
+    checker.require(fits(spacing, longest), &path.key("spacing"), message, allowed);
+    let count = filament.most / (filament.outlet() * spacing);
+    if count > MOST_SEGMENTS {
+        let message = format!("{} segments would hold this volume", number(count.ceil()));
+        let least = number(filament.most / (filament.outlet() * MOST_SEGMENTS));
+        let most = number(MOST_SEGMENTS * filament.outlet() * spacing);
+        let allowed = format!("at most {most}, or a `spacing` of {least} or more");
+        checker.refuse(&path.key("most"), message, allowed);
+    }
+}
+
+/// Refuses a flow that would exceed the largest volume in the default experiment.
+fn volume(checker: &mut Checker, path: &Path, filament: &Filament) {
+    let volume = filament.nozzle.flow * checker.scene.stop_time;
+    let message =
+        format!("{} m³ come until the stop time at the flow of the nozzle", number(volume));
+    let allowed = format!(">= {}, or less `nozzle.flow`", number(volume));
+    checker.require(fits(volume, filament.most), &path.key("most"), message, allowed);
+}
+
+fn targets(checker: &mut Checker) {
+    let scene = checker.scene;
+    for (i, target) in scene.target.iter().enumerate() {
+        let path = Path::default().key("target").index(i);
+        let of = path.key("of");
+        if scene.filament(&target.of).is_none() {
+            let known: Vec<_> = scene.filaments().map(|(name, _)| name).collect();
+            let message = format!("there is no filament `{}`", target.of);
+            let allowed = super::list_or(known.join(", "), "a body of kind `filament`");
+            checker.refuse(&of, message, allowed);
+        }
+        let is_first = scene.target[..i].iter().all(|other| other.of != target.of);
+        let message = format!("`{}` has a target already", target.of);
+        checker.require(is_first, &of, message, "one target a filament");
+        let places = target.line.len();
+        let message = format!("{places} places are no line");
+        checker.require(places >= 2, &path.key("line"), message, "two or more places");
+        let repeated = target.line.windows(2).position(|ends| ends[0] == ends[1]);
+        if let Some(n) = repeated {
+            let message = "the place is that before it";
+            checker.refuse(&path.key("line").index(n + 1), message, "another place");
+        }
+    }
+}

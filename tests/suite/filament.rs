@@ -1,0 +1,239 @@
+//! Filaments that a moving nozzle lays on solids.
+
+use impinge::model::State;
+
+use crate::common::Trial;
+
+const WAX: &str = "{ substance = \"n-eicosane\", at = \"60 °C\", contact_angle = \"20°\" }";
+const SOLDER: &str = "{ substance = \"sac305\", contact_angle = \"40°\" }";
+const GLYCEROL: &str = "{ substance = \"glycerol\", at = \"40 °C\" }";
+const CONCRETE: &str = "{ density = 2200.0, viscosity = { law = \"bingham\", yield_stress = 600.0, plastic_viscosity = 15.0 }, \
+                        specific_heat = 900.0, conductivity = 1.5 }";
+const SILICONE: &str = "{ density = 1050.0, viscosity = { law = \"herschel_bulkley\", yield_stress = 40.0, consistency = 30.0, \
+                        exponent = 0.5 }, specific_heat = 1500.0, conductivity = 0.25, surface_tension = 0.021 }";
+
+/// A straight strand of a fluid on a plate of a material, with further keys of the filament.
+fn line(fluid: &str, temperature: f64, material: &str, keys: &str) -> String {
+    format!(
+        r#"
+name = "Line"
+stop_time = 1.0
+step = 0.1
+[body.ink]
+kind = "filament"
+fluid = {fluid}
+nozzle = {{ diameter = 0.8e-3, height = 0.7e-3, temperature = {temperature}, flow = 8e-9 }}
+path = {{ time = [0.0, 0.5, 1.0], x = [-5e-3, 5e-3, 5e-3], y = [-2e-3, -2e-3, 3e-3] }}
+most = 1e-8
+{keys}
+[body.plate]
+kind = "solid"
+shape = {{ box = [14e-3, 10e-3, 1e-3] }}
+material = "{material}"
+initial_temperature = 293.15
+mesh = {{ spacing = 1e-3, order = 1 }}
+faces = {{ bottom = {{ clamped = true }} }}
+[[coupling]]
+from = "ink"
+to = "plate.top"
+traction = false
+"#
+    )
+}
+
+fn run(text: &str, steps: usize) -> Trial {
+    let mut trial = Trial::new(text);
+    (0..steps).for_each(|_| trial.step(1.0 / steps as f64));
+    trial
+}
+
+/// Volume, heat and momentum balance, and nothing leaves the range of the temperatures, in long steps and short ones.
+#[test]
+fn balances_close_for_all_fluids() {
+    let air = "convection = { coefficient = 30.0, ambient = 300.0 }";
+    for (fluid, temperature, material) in [
+        (WAX, 343.0, "soda-lime-glass"),
+        (WAX, 343.0, "copper"),
+        (SOLDER, 520.0, "fr4"),
+        (SOLDER, 520.0, "copper"),
+        (GLYCEROL, 330.0, "pmma"),
+        (CONCRETE, 310.0, "steel-304"),
+        (SILICONE, 360.0, "aluminium"),
+    ] {
+        let text = line(fluid, temperature, material, air);
+        let mut heats = Vec::new();
+        for steps in [4, 20] {
+            let mut trial = run(&text, steps);
+            let said = format!("{fluid} on {material} in {steps} steps");
+            let [volume, drift] =
+                ["volume", "volume_drift"].map(|key| trial.get(&format!("ink.{key}")));
+            assert!((volume / 8e-9 - 1.0).abs() < 1e-12 && drift.abs() < 1e-12 * volume, "{said}");
+            let [heat, missing] =
+                ["heat", "heat_drift"].map(|key| trial.get(&format!("ink.{key}")));
+            assert!(heat > 0.0 && missing.abs() < 1e-10 * heat, "{said}: {missing} of {heat}");
+            let received = trial.get("plate.heat_in");
+            assert!((received / heat - 1.0).abs() < 1e-12, "{said}: {received} of {heat}");
+            let coldest = trial.get("ink.min_temperature");
+            let hottest = trial.get("plate.max_temperature");
+            assert!(coldest > 293.0 && hottest < temperature, "{said}: {coldest} {hottest}");
+            assert!(trial.get("ink.max_temperature") < temperature + 1e-9, "{said}");
+            heats.push(heat);
+        }
+        assert!((heats[0] / heats[1] - 1.0).abs() < 0.06, "{fluid} on {material}: {heats:?}");
+    }
+}
+
+/// Weight and momentum reach the plate as a force; after the nozzle has stopped it is the weight.
+#[test]
+fn the_plate_carries_the_strand() {
+    let text = line(CONCRETE, 310.0, "steel-304", "").replace("flow = 8e-9", "flow = 0.0");
+    let mut trial = Trial::new(&text.replace("traction = false", ""));
+    trial.set("ink.flow", 8e-9);
+    (0..5).for_each(|_| trial.step(0.1));
+    trial.set("ink.flow", 0.0);
+    trial.step(0.1);
+    let weight = 9.81 * trial.get("ink.mass");
+    assert!((trial.get("ink.force") / weight - 1.0).abs() < 1e-9);
+    let mut trial = Trial::new(&text);
+    trial.set("ink.flow", 8e-9);
+    trial.step(0.1);
+    assert_eq!(trial.get("ink.force"), 0.0);
+}
+
+/// On an insulated plane in air a strand cools as a lump, at its Biot number of 0.01: `T = T_a + (T_0 − T_a) exp(−h A
+/// t/(ρ c V))`.
+#[test]
+fn strands_in_air_cool_as_lumps() {
+    let keys = "convection = { coefficient = 15.0, ambient = 290.0 }";
+    let text = line(&CONCRETE.replace("600.0", "1e6"), 350.0, "steel-304", keys);
+    let text = &text[..text.find("[body.plate]").unwrap()];
+    let mut trial = Trial::new(text);
+    trial.set("ink.flow", 8e-6);
+    trial.step(1e-3);
+    trial.set("ink.flow", 0.0);
+    let [width, height] = ["width", "height"].map(|key| trial.get(&format!("ink.{key}")));
+    let start = trial.get("ink.max_temperature");
+    for (duration, from) in [(20.0, 0.0), (0.5, 20.0), (60.0, 20.5)] {
+        trial.step(duration);
+        let exposed = (width + 2.0 * height) / (width * height);
+        let decay = (-15.0 * exposed * (duration + from) / (2200.0 * 900.0)).exp();
+        let expected = 290.0 + (start - 290.0) * decay;
+        let found = trial.get("ink.max_temperature");
+        assert!((found - expected).abs() < 0.01 * (start - 290.0), "{found} {expected}");
+    }
+}
+
+/// Inputs with derivatives move the nozzle as the table of the same path does, in steps of any length.
+#[test]
+fn inputs_follow_polynomials() {
+    let table = line(WAX, 343.0, "soda-lime-glass", "");
+    let path = "{ time = [0.0, 0.5, 1.0], x = [-5e-3, 5e-3, 5e-3], y = [-2e-3, -2e-3, 3e-3] }";
+    assert!(table.contains(path));
+    let by_inputs = table.replace(path, "\"input\"");
+    let mut expected = run(&table, 2);
+    let mut trial = Trial::new(&by_inputs);
+    for (place, speed) in [([-5e-3, -2e-3], [20e-3, 0.0]), ([5e-3, -2e-3], [0.0, 10e-3])] {
+        for (axis, name) in ["ink.nozzle_x", "ink.nozzle_y"].into_iter().enumerate() {
+            trial.set(name, place[axis]);
+            trial.set_derivative(name, 1, speed[axis]);
+        }
+        trial.step(0.5);
+    }
+    for key in ["length", "width", "heat", "min_temperature", "solid_fraction"] {
+        let [found, wanted] = [&mut trial, &mut expected].map(|one| one.get(&format!("ink.{key}")));
+        assert!((found / wanted - 1.0).abs() < 1e-9, "{key}: {found} {wanted}");
+    }
+    // From rest, at 0.04 m/s², while the flow grows from nothing.
+    let mut trial = Trial::new(&by_inputs.replace("flow = 8e-9", "flow = 0.0"));
+    trial.set("ink.nozzle_x", -5e-3);
+    trial.set("ink.nozzle_z", 0.6e-3);
+    trial.set_derivative("ink.nozzle_x", 2, 0.04);
+    trial.set_derivative("ink.flow", 1, 1.6e-8);
+    trial.step(0.5);
+    assert!((trial.get("ink.volume") / 2e-9 - 1.0).abs() < 1e-12);
+    assert!((trial.get("ink.length") / 5e-3 - 1.0).abs() < 1e-9);
+}
+
+/// A strand in a bend has the length of the path; where the nozzle stands still it piles up.
+#[test]
+fn outputs_describe_the_strand_and_its_target() {
+    let target = "[[target]]\nof = \"ink\"\nline = [[-5e-3, -2e-3], [5e-3, -2e-3], [5e-3, 6e-3]]\n";
+    let text = line(SILICONE, 300.0, "steel-304", "") + target;
+    let mut trial = run(&text, 10);
+    assert!((trial.get("ink.length") / 15e-3 - 1.0).abs() < 0.01);
+    assert!(trial.get("ink.largest_deviation") < 2e-4 && trial.get("ink.deviation") < 1e-5);
+    let bare = 3e-3 - 0.5 * trial.get("ink.last_width");
+    assert!((trial.get("ink.gap") - bare).abs() < 1e-6, "{}", trial.get("ink.gap"));
+    let width = trial.get("ink.width");
+    trial.set("ink.flow", 2e-9);
+    // The nozzle rests since the end of its table.
+    trial.step(1.0);
+    assert!(trial.get("ink.last_width") > width);
+    assert!((trial.get("ink.volume") / 1e-8 - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn refused_steps_change_nothing() {
+    let text = line(WAX, 343.0, "soda-lime-glass", "").replace("flow = 8e-9", "flow = 6e-9");
+    let path = "{ time = [0.0, 0.5, 1.0], x = [-5e-3, 5e-3, 5e-3], y = [-2e-3, -2e-3, 3e-3] }";
+    for (name, value, words) in [
+        ("flow", 2e-8, "more than `most`"),
+        ("flow", -1e-9, "goes back into the nozzle"),
+        ("nozzle_z", 0.0, "above the plate"),
+        ("nozzle_temperature", -1.0, "not above absolute zero"),
+    ] {
+        let mut trial = Trial::new(&text.replace(path, "\"input\""));
+        trial.step(0.2);
+        let before = trial.state.clone();
+        trial.set(&format!("ink.{name}"), value);
+        let refusal = trial.try_step(0.8).unwrap_err().to_string();
+        assert!(refusal.contains(words), "{refusal}");
+        assert_eq!(trial.state.bodies, before.bodies, "{name}");
+    }
+}
+
+#[test]
+fn saved_states_continue_to_the_bit() {
+    let text = line(WAX, 343.0, "soda-lime-glass", "");
+    let mut trial = Trial::new(&text);
+    (0..3).for_each(|_| trial.step(0.1));
+    let saved: State = trial.state.clone();
+    let go_on = |trial: &mut Trial| {
+        (0..4).for_each(|n| trial.step(0.05 + 0.01 * f64::from(n)));
+        trial.state.bodies.clone()
+    };
+    let first = go_on(&mut trial);
+    trial.restart(&saved);
+    assert_eq!(go_on(&mut trial), first);
+    let mut other = Trial::on_threads(&text, 2);
+    other.restart(&saved);
+    assert_eq!(go_on(&mut other), first);
+}
+
+/// Any number of a state that a run cannot produce is refused, or leads to finite outputs or a refusal.
+#[test]
+fn damaged_states_do_no_harm() {
+    let text = line(WAX, 343.0, "soda-lime-glass", "").replace("spacing = 1e-3", "spacing = 4e-3");
+    let mut trial = run(&text, 3);
+    let saved = trial.state.clone();
+    let (mut refused, count) = (0, saved.bodies[0].len());
+    for place in 0..count {
+        for value in [f64::NAN, -1.0, 3.5, 1e300] {
+            let mut damaged = saved.clone();
+            if damaged.bodies[0][place] == value {
+                continue;
+            }
+            damaged.bodies[0][place] = value;
+            match trial.model.check_state(&damaged) {
+                Err(_) => refused += 1,
+                Ok(()) => {
+                    trial.restart(&damaged);
+                    if trial.try_step(1e-3).is_ok() {
+                        assert!(trial.get("ink.heat_stored").is_finite(), "{value} at {place}");
+                    }
+                }
+            }
+        }
+    }
+    assert!(refused >= 2 * count, "{refused} of {count}");
+}
