@@ -12,13 +12,15 @@ const TILES: &str = include_str!("../scenes/tiles.toml");
 const DROP: &str = include_str!("../scenes/drop.toml");
 const IMPACT: &str = include_str!("../scenes/impact.toml");
 const GEL: &str = include_str!("../scenes/gel.toml");
-const SCENES: [(&str, &str); 6] = [
+const CRACK: &str = include_str!("../scenes/crack.toml");
+const SCENES: [(&str, &str); 7] = [
     ("plate", PLATE),
     ("disc", DISC),
     ("tiles", TILES),
     ("drop", DROP),
     ("impact", IMPACT),
     ("gel", GEL),
+    ("crack", CRACK),
 ];
 
 #[derive(Deserialize)]

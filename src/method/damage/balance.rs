@@ -54,11 +54,6 @@ impl Unknowns {
             .collect();
         Self { grid, held, number, order, count }
     }
-
-    /// Number of unknowns.
-    pub fn count(&self) -> usize {
-        self.count
-    }
 }
 
 /// Solver of the displacements of a step: its stiffness and the factor of an earlier one.
@@ -69,6 +64,9 @@ pub struct Balance<'a> {
     pub allowance: &'a Allowance,
     stiffness: NinePoint<2>,
     factor: Option<SparseCholesky>,
+    /// Size of loads and of prevented thermal expansion [N], once known, and that of reactions.
+    acting: Option<f64>,
+    reactions: f64,
     pub factorings: usize,
     pub iterations: usize,
 }
@@ -81,7 +79,7 @@ impl<'a> Balance<'a> {
         allowance: &'a Allowance,
     ) -> Self {
         let stiffness = NinePoint::zeros(unknowns.grid);
-        Self { elements, unknowns, team, allowance, stiffness, factor: None, factorings: 0, iterations: 0 }
+        Self { elements, unknowns, team, allowance, stiffness, factor: None, acting: None, reactions: 0.0, factorings: 0, iterations: 0 }
     }
 
     /// Moves displacements to the equilibrium with a load [N], until its residual is below a part of the forces;
@@ -94,12 +92,14 @@ impl<'a> Balance<'a> {
         tolerance: f64,
     ) -> Result<Released, DamageError> {
         let mut residual = vec![0.0; displacement.len()];
-        let mut released = self.evaluate(displacement, (damage, rise), load, &mut residual);
-        let scale = self.scale(displacement, (damage, rise), load);
-        for _ in 0..MOST_STEPS {
+        let mut released = self.evaluate(displacement, (damage, rise), load, &mut residual, true);
+        for step in 0..MOST_STEPS {
             let size = dot(&residual, &residual).sqrt();
-            if size <= tolerance * scale {
+            if size <= tolerance * self.scale(rise, load) {
                 return Ok(released);
+            }
+            if step > 0 {
+                self.evaluate(displacement, (damage, rise), load, &mut residual, true);
             }
             let change = self.change(&residual)?;
             let slope = dot(&residual, &change);
@@ -109,7 +109,8 @@ impl<'a> Balance<'a> {
                 for ((u, before), change) in displacement.iter_mut().zip(&before).zip(&change) {
                     *u = before + part * change;
                 }
-                released = self.evaluate(displacement, (damage, rise), load, &mut residual);
+                released =
+                    self.evaluate(displacement, (damage, rise), load, &mut residual, false);
                 // The energy is convex: a step is too long where it has passed the minimum by far.
                 if dot(&residual, &change) >= -0.5 * slope {
                     break;
@@ -117,47 +118,52 @@ impl<'a> Balance<'a> {
                 part *= 0.5;
             }
         }
-        let left = dot(&residual, &residual).sqrt() / scale;
+        let left = dot(&residual, &residual).sqrt() / self.scale(rise, load);
         match left <= 1e3 * tolerance {
             true => Ok(released),
             false => Err(DamageError::NoEquilibrium { residual: left, tolerance }),
         }
     }
 
-    /// Computes residual forces [N] and assembles the stiffness.
+    /// Computes residual forces [N], and assembles the stiffness on request.
     fn evaluate(
         &mut self,
         displacement: &[f64],
         (damage, rise): (&[f64], &[f64]),
         load: &[f64],
         residual: &mut [f64],
+        with_stiffness: bool,
     ) -> Released {
         let nodal = Nodal { displacement, damage, rise };
-        let (forces, released) =
-            self.elements.forces(&nodal, Some(&mut self.stiffness), self.team);
+        let stiffness = with_stiffness.then_some(&mut self.stiffness);
+        let (forces, released) = self.elements.forces(&nodal, stiffness, self.team);
+        let mut reactions = 0.0;
         for (n, residual) in residual.iter_mut().enumerate() {
-            *residual = if self.unknowns.held[n] { 0.0 } else { load[n] - forces[n] };
+            *residual = match self.unknowns.held[n] {
+                true => {
+                    reactions += forces[n] * forces[n];
+                    0.0
+                }
+                false => load[n] - forces[n],
+            };
+        }
+        // Before a solution, prescribed displacements strain the next elements alone.
+        if self.iterations > 0 {
+            self.reactions = self.reactions.max(reactions.sqrt());
         }
         released
     }
 
-    /// Size of the forces that balance [N]: of loads, prescribed displacements and prevented thermal expansion.
-    fn scale(&self, displacement: &[f64], (_, rise): (&[f64], &[f64]), load: &[f64]) -> f64 {
-        let held = displacement.iter().zip(&self.unknowns.held).map(|(u, held)| match held {
-            true => *u,
-            false => 0.0,
+    /// Size of the forces that balance [N]: of loads, prevented thermal expansion, and the largest reactions since the
+    /// first solution.
+    fn scale(&mut self, rise: &[f64], load: &[f64]) -> f64 {
+        let own = *self.acting.get_or_insert_with(|| {
+            let (zero, intact) = (vec![0.0; load.len()], vec![0.0; rise.len()]);
+            let nodal = Nodal { displacement: &zero, damage: &intact, rise };
+            let (thermal, _) = self.elements.forces(&nodal, None, self.team);
+            (dot(load, load) + dot(&thermal, &thermal)).sqrt()
         });
-        let mut only = Padded::zeros(self.unknowns.grid);
-        only.inner_mut().iter_mut().zip(held).for_each(|(to, from)| *to = from);
-        let free = vec![false; displacement.len()];
-        let mut driven = vec![0.0; displacement.len()];
-        self.stiffness.product(&only, &free, &mut driven, self.team);
-        let zero = vec![0.0; displacement.len()];
-        let intact = vec![0.0; rise.len()];
-        let nodal = Nodal { displacement: &zero, damage: &intact, rise };
-        let (thermal, _) = self.elements.forces(&nodal, None, self.team);
-        let squares = |list: &[f64]| dot(list, list);
-        (squares(load) + squares(&driven) + squares(&thermal)).sqrt().max(f64::MIN_POSITIVE)
+        (own * own + self.reactions * self.reactions).sqrt().max(f64::MIN_POSITIVE)
     }
 
     /// Change of displacements under a change of force.

@@ -1,7 +1,7 @@
 //! Loops over the elements of a section: forces, stiffness, the energy that drives damage, and sums.
 
-use super::law::{DamageLaw, Response, degradation};
-use super::section::{Components, POINTS, Point, Section};
+use super::section::{POINTS, Point, Section};
+use crate::laws::fracture::{Components, GradientDamage, PointResponse, degradation};
 use crate::math::nine_point::{Grid, NinePoint};
 use crate::runtime::parallel::Team;
 
@@ -12,7 +12,7 @@ const ROWS: usize = 16;
 #[derive(Debug, Clone)]
 pub struct Elements {
     pub section: Section,
-    pub law: DamageLaw,
+    pub law: GradientDamage,
     pub grid: Grid,
 }
 
@@ -44,7 +44,7 @@ struct ElementForces {
 }
 
 impl Elements {
-    pub fn new(section: Section, law: DamageLaw) -> Self {
+    pub fn new(section: Section, law: GradientDamage) -> Self {
         Self { grid: section.grid(), section, law }
     }
 
@@ -65,7 +65,7 @@ impl Elements {
         &self,
         element: [usize; 2],
         nodal: &Nodal,
-        mut visit: impl FnMut(usize, &Point, &Response),
+        mut visit: impl FnMut(usize, &Point, &PointResponse),
     ) {
         let u: [f64; 8] = self.gather(element, nodal.displacement);
         let damage: [f64; 4] = self.gather(element, nodal.damage);
@@ -143,7 +143,7 @@ impl Elements {
     ///
     /// The energy `(1 − d)²ψ + G_c/c_w (w/ℓ + ℓ|∇d|²)` is quadratic in d.
     pub fn damage_system(&self, released: &Released, matrix: &mut NinePoint<1>, team: &Team) -> Vec<f64> {
-        use super::law::Dissipation::{At1, At2};
+        use crate::laws::fracture::Dissipation::{At1, At2};
         let [columns, rows] = self.grid.elements();
         matrix.clear();
         let mut load = vec![0.0; self.grid.nodes()];
@@ -151,7 +151,7 @@ impl Elements {
             let found = team.map((rows - first).min(ROWS), |row| {
                 let of_element = |i: usize| {
                     let place = [i, first + row];
-                    let [local, spread] = self.law.weights(self.size(place));
+                    let [local, spread] = self.law.weights(self.size(place), place);
                     let (mut own, mut b) = ([0.0; 16], [0.0; 4]);
                     for (point, psi) in
                         self.section.points(place).iter().zip(released[place[0] + columns * place[1]])
@@ -193,13 +193,13 @@ impl Elements {
     pub fn energies(&self, nodal: &Nodal, team: &Team) -> Energies {
         let sums = self.by_rows(team, |place, sum: &mut Energies| {
             let damage: [f64; 4] = self.gather(place, nodal.damage);
-            let size = self.size(place);
+            let weights = self.law.weights(self.size(place), place);
             self.each_point(place, nodal, |_, point, response| {
                 let own = point.interpolate(&damage);
                 let elastic = degradation(own) * response.released + response.remaining;
                 sum.elastic += point.volume * elastic;
                 let gradient = point.gradient(&damage);
-                sum.dissipated += point.volume * self.law.dissipated(size, own, gradient);
+                sum.dissipated += point.volume * self.law.dissipated(weights, own, gradient);
             });
         });
         sums.iter().fold(Energies::default(), |all, row| Energies {
@@ -208,13 +208,13 @@ impl Elements {
         })
     }
 
-    /// Work of the stresses on a change of the thermal strain, by the stress of a moment [J].
+    /// Work of the stress of a moment on a change of temperatures, `−∫ σ : α ΔT dV` [J].
     pub fn thermal_work(&self, nodal: &Nodal, change: &[f64], team: &Team) -> f64 {
         let sums = self.by_rows(team, |place, sum: &mut f64| {
             let change: [f64; 4] = self.gather(place, change);
             self.each_point(place, nodal, |_, point, response| {
                 let strain = self.law.expansion * point.interpolate(&change);
-                *sum += point.volume * strain * response.stress[..3].iter().sum::<f64>();
+                *sum -= point.volume * strain * response.stress[..3].iter().sum::<f64>();
             });
         });
         sums.iter().sum()

@@ -3,14 +3,14 @@
 mod balance;
 mod bounded;
 mod elements;
-mod law;
 mod problem;
 mod section;
+#[cfg(test)]
+mod tests;
 
 pub use elements::{Elements, Energies};
-pub use law::{DamageLaw, Dissipation};
-pub use problem::{DamageProblem, DamageState, Effort, Moment};
-pub use section::{Components, Form, Section};
+pub use problem::{DamageProblem, DamageState, Effort};
+pub use section::{Form, Section};
 
 use crate::math::cholesky::SolverError;
 use crate::runtime::allowance::Halt;

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use crate::laws::fracture::Components;
 use crate::math::nine_point::Grid;
 
 /// Number of quadrature points of an element.
@@ -37,9 +38,6 @@ pub struct Point {
     /// `1/r` of a meridian section, otherwise 0 [1/m].
     pub curvature: f64,
 }
-
-/// Strain or stress along the first axis, along z, along the normal of the section (the hoop), and shear.
-pub type Components = [f64; 4];
 
 impl Point {
     /// Value of a nodal field.

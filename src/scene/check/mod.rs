@@ -5,6 +5,7 @@ mod coupling;
 mod droplet;
 mod field;
 mod fidelity;
+mod fracture;
 mod flaw;
 mod field_cells;
 mod freezing;
@@ -49,6 +50,7 @@ pub fn check(scene: &Scene, source: &Source, schema: &Schema) -> Result<(), Scen
     limits::check(&mut checker, schema);
     header::check(&mut checker);
     body::check(&mut checker);
+    fracture::check(&mut checker);
     droplet::check(&mut checker);
     reservoir::check(&mut checker);
     large_strain::check(&mut checker);
