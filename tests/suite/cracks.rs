@@ -26,13 +26,12 @@ fn scene(shape: &str, material: &str, faces: &str, more: &str) -> String {
 const STRIP: &str = "shape = { box = [1e-3, 1e-3, 0.4e-3] }\nsection = \"plane_stress\"";
 const HELD: &str = "left = { roller = true }\nright = { roller = true }\n\
                     bottom = { temperature = 600.0, roller = true }\ntop = { temperature = 600.0 }";
-const AT1: &str = ", fracture = { model = \"at1\", strength = 300e6, energy = 45.0, scatter = 0.04 }";
+const AT1: &str =
+    ", fracture = { model = \"at1\", strength = 300e6, energy = 45.0, scatter = 0.04 }";
 
 /// A strip between rollers, and the drop of temperature that stresses it to a part of its strength [K].
 fn held_strip() -> (Trial, impl Fn(f64) -> f64) {
-    (Trial::new(&scene(STRIP, &alumina(AT1), HELD, "")), |part| {
-        part * 300e6 / (YOUNG * EXPANSION)
-    })
+    (Trial::new(&scene(STRIP, &alumina(AT1), HELD, "")), |part| part * 300e6 / (YOUNG * EXPANSION))
 }
 
 fn cool(trial: &mut Trial, drop: f64) {
@@ -87,7 +86,8 @@ fn difference(one: &mut Trial, other: &mut Trial, names: [&[&str]; 3]) -> f64 {
 
 #[test]
 fn intact_section_is_the_box_between_rollers() {
-    let faces = "top = { temperature = 600.0 }\nbottom = { roller = true }\nleft = { roller = true }";
+    let faces =
+        "top = { temperature = 600.0 }\nbottom = { roller = true }\nleft = { roller = true }";
     let shape = "shape = { box = [1e-3, 0.5e-3, 0.4e-3] }";
     let section = format!("{shape}\nsection = \"plane_strain\"");
     let walls = format!("{faces}\nfront = {{ roller = true }}\nback = {{ roller = true }}");

@@ -157,6 +157,11 @@ fn edge_crack_starts_when_its_stress_intensity_is_the_toughness() {
     });
     println!("edge crack: it starts at {starts:?} of the depth of heat");
     let starts = starts.expect("it starts");
+    let energies = plane.problem.energies(&plane.state);
+    let gained = energies.elastic + energies.dissipated - first.unwrap();
+    let balance = gained / plane.state.work;
+    println!("edge crack: {balance:.5} of the work is elastic energy and that of cracks");
+    assert!((balance - 1.0).abs() < 2e-3, "{balance}");
     // Time goes with the square of that depth.
     assert!((starts * starts - 1.0).abs() < 0.05, "{starts}");
 }

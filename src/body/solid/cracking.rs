@@ -129,7 +129,7 @@ impl Cracking {
         if let Some(value) = wrong {
             return Err(format!("damage of {value:e}, which is between 0 and 1"));
         }
-        let wrong = flat[rise].iter().find(|value| !(value.abs() < HOTTEST));
+        let wrong = flat[rise].iter().find(|value| !(-HOTTEST..HOTTEST).contains(*value));
         wrong.map_or(Ok(()), |value| Err(format!("equilibrium at {value:e} K")))
     }
 

@@ -78,7 +78,9 @@ impl Cracking {
         };
         match (self.length, self.strength) {
             (Some(_), _) => Some(law),
-            (None, Some(strength)) => Some(GradientDamage { length: law.length_of(strength), ..law }),
+            (None, Some(strength)) => {
+                Some(GradientDamage { length: law.length_of(strength), ..law })
+            }
             (None, None) => None,
         }
     }

@@ -167,11 +167,8 @@ impl GradientDamage {
         let (centre, spread) = (0.5 * (p[0] + p[1]), 0.5 * (p[0] - p[1]));
         let stress = [centre + spread * cosine, centre - spread * cosine, p[2], spread * sine];
         let (high, low) = (0.5 * (1.0 + cosine), 0.5 * (1.0 - cosine));
-        let axes: [Components; 3] = [
-            [high, low, 0.0, 0.5 * sine],
-            [low, high, 0.0, -0.5 * sine],
-            [0.0, 0.0, 1.0, 0.0],
-        ];
+        let axes: [Components; 3] =
+            [[high, low, 0.0, 0.5 * sine], [low, high, 0.0, -0.5 * sine], [0.0, 0.0, 1.0, 0.0]];
         let turn = [-sine, sine, 0.0, cosine];
         let tangent = std::array::from_fn(|a| {
             let rows: [f64; 3] =
@@ -225,8 +222,7 @@ mod tests {
                         moved[axis] += h;
                         law.respond(moved, 0.6)
                     };
-                    let energy =
-                        |of: PointResponse| degradation(0.6) * of.released + of.remaining;
+                    let energy = |of: PointResponse| degradation(0.6) * of.released + of.remaining;
                     let slope = (energy(at(H)) - energy(at(-H))) / (2.0 * H);
                     assert!((slope - own.stress[axis]).abs() < 1e-6, "{split:?} {strain:?} {axis}");
                     for row in 0..4 {
@@ -265,6 +261,9 @@ mod tests {
         let mean = all.iter().sum::<f64>() / count as f64;
         let square = all.iter().map(|own| (own - mean).powi(2)).sum::<f64>() / count as f64;
         assert!(all.iter().all(|own| (0.7..=1.3).contains(own)));
-        assert!((mean - 1.0).abs() < 0.01 && (square.sqrt() / (0.3 / 3.0_f64.sqrt()) - 1.0).abs() < 0.02);
+        assert!(
+            (mean - 1.0).abs() < 0.01
+                && (square.sqrt() / (0.3 / 3.0_f64.sqrt()) - 1.0).abs() < 0.02
+        );
     }
 }

@@ -167,8 +167,7 @@ fn spectral(elastic: &Principal, strain: [f64; 3]) -> Remaining {
 mod tests {
     use super::*;
 
-    const SPLITS: [Split; 4] =
-        [Split::None, Split::NoTension, Split::Spectral, Split::Volumetric];
+    const SPLITS: [Split; 4] = [Split::None, Split::NoTension, Split::Spectral, Split::Volumetric];
 
     fn states() -> Vec<[f64; 3]> {
         let values = [-1.3, -0.4, -0.05, 0.02, 0.7];
@@ -238,7 +237,8 @@ mod tests {
         for split in SPLITS {
             for strain in states() {
                 let elastic = elastic(false);
-                let released = elastic.intact(strain).energy - split.remaining(&elastic, strain).energy;
+                let released =
+                    elastic.intact(strain).energy - split.remaining(&elastic, strain).energy;
                 assert!(released >= -1e-12, "{split:?} {strain:?} {released}");
             }
         }

@@ -79,7 +79,18 @@ impl<'a> Balance<'a> {
         allowance: &'a Allowance,
     ) -> Self {
         let stiffness = NinePoint::zeros(unknowns.grid);
-        Self { elements, unknowns, team, allowance, stiffness, factor: None, acting: None, reactions: 0.0, factorings: 0, iterations: 0 }
+        Self {
+            elements,
+            unknowns,
+            team,
+            allowance,
+            stiffness,
+            factor: None,
+            acting: None,
+            reactions: 0.0,
+            factorings: 0,
+            iterations: 0,
+        }
     }
 
     /// Moves displacements to the equilibrium with a load [N], until its residual is below a part of the forces;
@@ -109,8 +120,7 @@ impl<'a> Balance<'a> {
                 for ((u, before), change) in displacement.iter_mut().zip(&before).zip(&change) {
                     *u = before + part * change;
                 }
-                released =
-                    self.evaluate(displacement, (damage, rise), load, &mut residual, false);
+                released = self.evaluate(displacement, (damage, rise), load, &mut residual, false);
                 // The energy is convex: a step is too long where it has passed the minimum by far.
                 if dot(&residual, &change) >= -0.5 * slope {
                     break;

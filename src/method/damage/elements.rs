@@ -142,7 +142,12 @@ impl Elements {
     /// Assembles the conditions on damage under given energies: `A d = b` where nothing bounds it.
     ///
     /// The energy `(1 − d)²ψ + G_c/c_w (w/ℓ + ℓ|∇d|²)` is quadratic in d.
-    pub fn damage_system(&self, released: &Released, matrix: &mut NinePoint<1>, team: &Team) -> Vec<f64> {
+    pub fn damage_system(
+        &self,
+        released: &Released,
+        matrix: &mut NinePoint<1>,
+        team: &Team,
+    ) -> Vec<f64> {
         use crate::laws::fracture::Dissipation::{At1, At2};
         let [columns, rows] = self.grid.elements();
         matrix.clear();
@@ -153,8 +158,11 @@ impl Elements {
                     let place = [i, first + row];
                     let [local, spread] = self.law.weights(self.size(place), place);
                     let (mut own, mut b) = ([0.0; 16], [0.0; 4]);
-                    for (point, psi) in
-                        self.section.points(place).iter().zip(released[place[0] + columns * place[1]])
+                    for (point, psi) in self
+                        .section
+                        .points(place)
+                        .iter()
+                        .zip(released[place[0] + columns * place[1]])
                     {
                         let (mass, pull) = match self.law.dissipation {
                             At1 => (2.0 * psi, 2.0 * psi - local),

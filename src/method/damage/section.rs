@@ -54,7 +54,8 @@ impl Point {
     pub fn strain(&self, u: &[f64; 8]) -> Components {
         let mut strain = [0.0; 4];
         for a in 0..4 {
-            let ([dx, dz], [ux, uz]) = ([self.slopes[0][a], self.slopes[1][a]], [u[2 * a], u[2 * a + 1]]);
+            let ([dx, dz], [ux, uz]) =
+                ([self.slopes[0][a], self.slopes[1][a]], [u[2 * a], u[2 * a + 1]]);
             strain[0] += dx * ux;
             strain[1] += dz * uz;
             strain[2] += self.curvature * self.shape[a] * ux;
@@ -92,12 +93,18 @@ impl Section {
             let at = [q % 2, q / 2].map(|high| if high == 0 { 0.5 - offset } else { 0.5 + offset });
             let along = |axis: usize, a: usize| {
                 let high = [a % 2, a / 2][axis] == 1;
-                if high { (at[axis], 1.0 / size[axis]) } else { (1.0 - at[axis], -1.0 / size[axis]) }
+                if high {
+                    (at[axis], 1.0 / size[axis])
+                } else {
+                    (1.0 - at[axis], -1.0 / size[axis])
+                }
             };
             let both: [[(f64, f64); 2]; 4] = std::array::from_fn(|a| [along(0, a), along(1, a)]);
             let radius = start + at[0] * size[0];
             let (depth, curvature) = match self.form {
-                Form::PlaneStrain { thickness } | Form::PlaneStress { thickness } => (thickness, 0.0),
+                Form::PlaneStrain { thickness } | Form::PlaneStress { thickness } => {
+                    (thickness, 0.0)
+                }
                 Form::Axisymmetric => (TAU * radius, 1.0 / radius),
             };
             Point {

@@ -90,7 +90,11 @@ fn bars_break_at_the_strength_of_their_model() {
             let steps = 40;
             let stress = (1..=steps).map(|i| bar.draw(strain * last * i as f64 / steps as f64));
             let peak = stress.fold(0.0, f64::max);
-            assert!((peak / strength - 1.0).abs() < 0.02, "{dissipation:?} {split:?} {}", peak / strength);
+            assert!(
+                (peak / strength - 1.0).abs() < 0.02,
+                "{dissipation:?} {split:?} {}",
+                peak / strength
+            );
         }
     }
 }

@@ -134,7 +134,8 @@ impl Plan {
         let damage = solid.damage().filter(|_| wanted);
         let law = laws.filter(|_| wanted && !is_inelastic && damage.is_none());
         let mut notes = Vec::new();
-        let mirrored = mirrored(solid, newton.is_some() || is_inelastic || damage.is_some(), &mut notes);
+        let mirrored =
+            mirrored(solid, newton.is_some() || is_inelastic || damage.is_some(), &mut notes);
         let is_column = refinements.is_empty() && is_column(solid, wanted);
         let resolution = Resolution { refinements, shortest, factors, is_column };
         let mut notes_on_mesh = Vec::new();

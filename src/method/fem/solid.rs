@@ -123,7 +123,12 @@ impl NodalFields {
     /// All values at the nodes.
     pub fn values(&self) -> impl Iterator<Item = f64> {
         let vectors = self.displacement.iter().flatten().chain(self.stress.iter().flatten());
-        self.temperature.iter().chain(vectors).chain(&self.plastic_strain).chain(&self.damage).copied()
+        self.temperature
+            .iter()
+            .chain(vectors)
+            .chain(&self.plastic_strain)
+            .chain(&self.damage)
+            .copied()
     }
 }
 

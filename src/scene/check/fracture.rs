@@ -54,7 +54,12 @@ fn constants(checker: &mut Checker, path: &Path, material: &Material, solid: &So
     let is_linear = law.is_linear();
     let message = "a body that cracks is thermoelastic with constants: nothing yields, relaxes or depends on the \
                    temperature";
-    checker.require(is_linear, &own, message, "model = \"thermoelastic\" without tables, or no `fracture`");
+    checker.require(
+        is_linear,
+        &own,
+        message,
+        "model = \"thermoelastic\" without tables, or no `fracture`",
+    );
     if law.needs().is_empty() {
         super::material::needs(checker, path, material, Elasticity::needs("the body cracks"));
     }
@@ -102,7 +107,9 @@ fn form(checker: &mut Checker, path: &Path, solid: &Solid) {
 fn neighbours(checker: &mut Checker, name: &str, solid: &Solid) {
     let list = |key: &str, i: usize| Path::default().key(key).index(i);
     for (i, flaw) in checker.scene.flaw.iter().enumerate() {
-        let message = format!("`{name}` cracks, and the stress around a flaw is that of a body without cracks");
+        let message = format!(
+            "`{name}` cracks, and the stress around a flaw is that of a body without cracks"
+        );
         let allowed = "a flaw in a body without `fracture`";
         checker.require(flaw.body != name, &list("flaw", i).at("in"), message, allowed);
     }
@@ -112,7 +119,8 @@ fn neighbours(checker: &mut Checker, name: &str, solid: &Solid) {
     for (i, coupling) in checker.scene.coupling.iter().enumerate() {
         let touches = |place: &str| split_place(place).is_some_and(|(body, _)| body == name);
         let fine = !touches(&coupling.from) && !touches(&coupling.to);
-        let message = format!("nothing varies along y in the section `{name}`, which no other body touches");
+        let message =
+            format!("nothing varies along y in the section `{name}`, which no other body touches");
         let allowed = "loads and conditions on its faces, or a disc";
         checker.require(fine, &list("coupling", i), message, allowed);
     }
@@ -123,7 +131,8 @@ fn conditions_of_section(checker: &mut Checker, path: &Path, solid: &Solid) {
     for &face in solid.faces.keys() {
         let is_across = matches!(face, FaceName::Front | FaceName::Back | FaceName::Sides);
         let path = path.at("faces").key(face.as_str());
-        let message = "nothing varies along y in a plane section, whose front and back are its planes";
+        let message =
+            "nothing varies along y in a plane section, whose front and back are its planes";
         checker.require(!is_across, &path, message, "left, right, top, bottom");
     }
 }
@@ -151,7 +160,8 @@ fn loads_on_section(checker: &mut Checker, name: &str, solid: &Solid) {
         checker.require(fine, &path.at("range"), message, "`range` along x");
         let place = load.carries.iter().position(|carried| *carried == Carries::Shear);
         if let Some(place) = place {
-            let message = "shear has a component along y, to which a plane section does not respond";
+            let message =
+                "shear has a component along y, to which a plane section does not respond";
             checker.refuse(&path.at("carries").index(place), message, "heat_flux, power, pressure");
         }
     }
@@ -196,7 +206,9 @@ fn mesh(checker: &mut Checker, path: &Path, solid: &Solid) {
         Dissipation::At1 => "AT1",
         Dissipation::At2 => "AT2",
     };
-    let message = format!("{} nodes resolve cracks of length {}", number(nodes.round()), number(law.length));
-    let allowed = format!("at most {MOST_NODES:.0e}: a smaller body, or a larger `length` of {model}");
+    let message =
+        format!("{} nodes resolve cracks of length {}", number(nodes.round()), number(law.length));
+    let allowed =
+        format!("at most {MOST_NODES:.0e}: a smaller body, or a larger `length` of {model}");
     checker.require(fine, path, message, allowed);
 }
