@@ -65,7 +65,7 @@ const fn scaled(name: &'static str, factor: f64) -> Option<DisplayUnit> {
 }
 
 impl Quantity {
-    pub const ALL: [Quantity; 37] = [
+    pub const ALL: [Quantity; 38] = [
         Quantity::Time,
         Quantity::Temperature,
         Quantity::TemperatureDifference,

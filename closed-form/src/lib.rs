@@ -46,6 +46,7 @@
 //! | [`cantilever`] | beam under an end load, with shear |
 //! | [`brittle_failure`] | risk of failure by flaws: bending, thermal shock |
 //! | [`edge_crack`] | stress intensity of edge and penny-shaped cracks: uniform stress, thermal shock |
+//! | [`gradient_damage`] | bars with gradient damage, the field around the tip of a crack |
 //!
 //! [`medium`] holds the constants they share, [`fitted_range`] the ranges that fitted laws state, [`special`] the
 //! special functions, [`quadrature`] the integrals that no closed form is known for, and [`tridiagonal`] the
@@ -74,6 +75,7 @@ pub mod freezing_column;
 pub mod freezing_contact;
 pub mod freezing_impact;
 pub mod gaussian_flux;
+pub mod gradient_damage;
 pub mod gravity_current;
 pub mod half_space_flux;
 pub mod half_space_surface;

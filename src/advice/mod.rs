@@ -3,6 +3,7 @@
 
 mod arrangement;
 mod cold;
+mod cracks;
 mod films;
 mod flaws;
 mod freezing;
@@ -57,6 +58,7 @@ fn found(scene: &Scene, (source, names_lines): (&Source, bool), schema: &Schema)
     particles::review(&mut reviewer);
     films::review(&mut reviewer);
     flaws::review(&mut reviewer);
+    cracks::review(&mut reviewer);
     freezing::review(&mut reviewer);
     reviewer.found.sort_by_key(|(line, _)| *line);
     reviewer.found.into_iter().map(|(_, warning)| warning).collect()

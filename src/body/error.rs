@@ -1,6 +1,7 @@
 //! Errors of bodies.
 
 use crate::math::cholesky::SolverError;
+use crate::method::damage::DamageError;
 use crate::method::fem::NonlinearFailure;
 use crate::method::filament;
 use crate::method::inelastic::InelasticError;
@@ -46,6 +47,9 @@ pub enum BodyError {
     /// A body that yields found no equilibrium.
     #[error("{body}: {error}")]
     Equilibrium { body: String, error: InelasticError },
+    /// A body that cracks found no equilibrium.
+    #[error("{body}: {error}")]
+    Cracking { body: String, error: DamageError },
     /// Loads on a body modelled by one part are not symmetric about its planes of symmetry.
     #[error(
         "{body}: forces are not even about the planes of symmetry, which a body that yields or relaxes needs (allowed: \

@@ -96,6 +96,27 @@ pub static TOUGHNESS: Range<'static> = Range {
     highest: 1e9, // tough steels 3e8
     mistakes: Cow::Borrowed(&[scaled("MPa √m", 1e6)]),
 };
+pub static CRACK_STRENGTH: Range<'static> = Range {
+    what: "the strength",
+    unit: "Pa",
+    lowest: 1e5,   // porous ceramics, ice 1 MPa
+    highest: 2e10, // fibres of silica without flaws 14 GPa
+    mistakes: Cow::Borrowed(&[scaled("MPa", 1e6), scaled("GPa", 1e9)]),
+};
+pub static DAMAGE_LENGTH: Range<'static> = Range {
+    what: "the length of damage",
+    unit: "m",
+    lowest: 1e-9, // strengths near that of atomic bonds
+    highest: 0.5, // concrete
+    mistakes: LENGTHS,
+};
+pub static CRACK_ENERGY: Range<'static> = Range {
+    what: "the energy of cracks",
+    unit: "J/m²",
+    lowest: 0.01, // ice 1, aerogels less
+    highest: 1e6, // tough steels
+    mistakes: Cow::Borrowed(&[scaled("kJ/m²", 1e3)]),
+};
 pub static FLAW: Range<'static> = Range {
     what: "the depth of a flaw",
     unit: "m",

@@ -15,6 +15,7 @@ pub mod lagrange;
 pub mod lanes;
 pub mod matrix3;
 pub mod nested_dissection;
+pub mod nine_point;
 pub mod product;
 pub mod separable;
 pub mod singular_values;

@@ -16,6 +16,8 @@ pub mod fem;
 
 pub mod inelastic;
 
+pub mod damage;
+
 pub mod large_strain;
 
 pub mod sph;

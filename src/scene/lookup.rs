@@ -203,11 +203,11 @@ impl Scene {
         self.load.iter().filter(move |load| split_place(&load.on).is_some_and(|(on, _)| on == body))
     }
 
-    /// Returns true if a probe, a field, a flaw, a running maximum or a probability of failure needs stresses or
+    /// Returns true if a probe, a field, a flaw, a running maximum, a probability of failure or cracks need stresses or
     /// displacements of a body.
     pub fn gives_mechanics(&self, body: &str) -> bool {
         let own = self.solid(body);
-        own.is_some_and(|solid| solid.has_stress_peaks() || solid.has_flaws())
+        own.is_some_and(|solid| solid.has_stress_peaks() || solid.has_flaws() || solid.cracks())
             || self.flaws_in(body).next().is_some()
             || self.gives_mechanics_at_places(body)
     }

@@ -6,6 +6,7 @@ mod cells;
 pub(crate) mod check;
 mod contact;
 mod constants;
+mod cracks;
 mod decode;
 mod droplet;
 mod droplet_symmetry;

@@ -84,6 +84,10 @@ impl Scene {
             let message = "a reduced model is elastic: nothing yields, relaxes or creeps";
             return obstacle(Place::Level, message, "full, auto");
         }
+        if solid.cracks() {
+            let message = "a reduced model is elastic: nothing cracks";
+            return obstacle(Place::Level, message, "full, auto, or no `fracture`");
+        }
         if solid.has_flaws() {
             let message = "a reduced model computes only its probes and fields, not the probability of failure, which \
                            needs the stress of the whole body";

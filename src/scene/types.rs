@@ -201,6 +201,9 @@ pub struct Solid {
     #[serde(default)]
     #[schemars(extend("otherwise" = "automatic"))]
     pub mesh: Mesh,
+    /// Plane section x–z that represents a box: nothing varies along y.
+    #[schemars(extend("condition" = "of boxes that crack (`fracture`)"))]
+    pub section: Option<PlaneSection>,
     /// Conditions on faces.
     #[serde(default)]
     #[schemars(
@@ -212,6 +215,16 @@ pub struct Solid {
     #[serde(default)]
     #[schemars(extend("uniqueItems" = true))]
     pub peaks: Vec<PeakOf>,
+}
+
+/// State of a plane section along its normal.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PlaneSection {
+    /// No strain along y: long bodies.
+    PlaneStrain,
+    /// No stress along y: thin plates.
+    PlaneStress,
 }
 
 /// Quantity of a running maximum over a body and over time.
@@ -541,6 +554,8 @@ pub enum Gives {
     Displacement,
     /// Accumulated plastic strain, for bodies that yield.
     PlasticStrain,
+    /// Damage, 0 to 1, for bodies that crack.
+    Damage,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -104,6 +104,10 @@ rules! {
     "the body yields, and the stress intensity of its flaws is that of linear elasticity, with the stress of the \
      yielding body"; "do not rely on it where the stress has reached the yield stress"
 
+    Check damage_wider_than_body(length, extent)
+    "damage spreads over {length} m, more than a third of the body's extent of {extent} m: it fails as a whole, before a \
+     crack has formed"; "did you mean a higher `strength` or a lower `toughness`?"
+
     Check load_unresolved(apart, spacing)
     "the mesh does not resolve a load this small: nodes are {apart} m apart";
     "did you mean a `mesh.spacing` of {spacing} m or less?"

@@ -20,6 +20,7 @@ mod thick_flows;
 mod adversarial;
 mod architecture;
 mod contact;
+mod cracks;
 mod creep;
 mod demand;
 mod derivatives;

@@ -21,7 +21,7 @@ const FILAMENT: &str = include_str!("../scenes/filament.toml");
 /// stands there with a key that there is not, and keys that choose the section's type.
 type Section = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
-const SECTIONS: [Section; 47] = [
+const SECTIONS: [Section; 48] = [
     ("The whole", PLATE, "stop_time =", "zz = 1\nstop_time =", &[]),
     ("`fidelity`", PLATE, "level =", "zz = 1\nlevel =", &[]),
     ("`solver`", PLATE, "stop_time =", "solver = { zz = 1 }\nstop_time =", &[]),
@@ -95,6 +95,13 @@ const SECTIONS: [Section; 47] = [
         PLATE,
         "density = 3950.0",
         "density = 3950.0, weibull = { zz = 1 }",
+        &[],
+    ),
+    (
+        "`fracture` of a material",
+        PLATE,
+        "density = 3950.0",
+        "density = 3950.0, fracture = { zz = 1 }",
         &[],
     ),
     ("`layers` of a solid", PLATE, "material = {", "layers = [{ zz = 1 }] # {", &[]),

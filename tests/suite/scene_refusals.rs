@@ -13,7 +13,8 @@ const DROP: &str = include_str!("../scenes/drop.toml");
 const IMPACT: &str = include_str!("../scenes/impact.toml");
 const GEL: &str = include_str!("../scenes/gel.toml");
 const FILAMENT: &str = include_str!("../scenes/filament.toml");
-const SCENES: [(&str, &str); 7] = [
+const CRACK: &str = include_str!("../scenes/crack.toml");
+const SCENES: [(&str, &str); 8] = [
     ("plate", PLATE),
     ("disc", DISC),
     ("tiles", TILES),
@@ -21,6 +22,7 @@ const SCENES: [(&str, &str); 7] = [
     ("impact", IMPACT),
     ("gel", GEL),
     ("filament", FILAMENT),
+    ("crack", CRACK),
 ];
 
 #[derive(Deserialize)]

@@ -13,6 +13,7 @@ mod classical_flows;
 mod common;
 mod conduction;
 mod contact;
+mod cracks;
 mod elasticity;
 #[path = "../common/falling_drop.rs"]
 #[allow(dead_code)]

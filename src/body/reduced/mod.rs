@@ -174,6 +174,7 @@ impl ReducedBody {
             Measure::Stress(slot) => Measured::Plain(value(rows.stress.expect(known) + slot)),
             Measure::OfStress(measure, rate) => Measured::Stress(measure, rate, stress()),
             Measure::PlasticStrain => panic!("nothing yields in a reduced model"),
+            Measure::Damage => panic!("nothing cracks in a reduced model"),
         }
     }
 

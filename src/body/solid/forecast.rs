@@ -75,6 +75,10 @@ const YIELDING: f64 = 1.1e-5;
 const YIELDING_SECTION: f64 = 2e-5;
 const WITH_TABLES: f64 = 2.5;
 const WITH_CREEP: f64 = 11.0;
+/// Time per node for the equilibrium of a body in which cracks grow in a step [s], the middle of quenches, and memory per
+/// node [B].
+const CRACKING: f64 = 1e-4;
+const CRACKING_MEMORY: f64 = 2e3;
 /// Time of a body with moduli that relax, over that of one that stays elastic: a step is compared with its halves.
 const WITH_RELAXATION: f64 = 4.0;
 /// Memory per node of a body with yielding parts [B].
@@ -139,6 +143,11 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
             further_memory += (kept + 1) as f64 * factor_memory(geometry, unknowns[1]);
         }
         nonlinear_time += yielding_time(solid, geometry) * nodes / threads;
+    }
+    if plan.damage.is_some() {
+        further_memory +=
+            CRACKING_MEMORY * nodes + 2.0 * factor_memory(Geometry::Axisymmetric, unknowns[1]);
+        nonlinear_time += CRACKING * nodes;
     }
     if scene.meets_rings(name) {
         further_memory += FaceRings::expected_bytes(&plan.mesh);

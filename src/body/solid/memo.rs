@@ -7,6 +7,7 @@ use super::SolidBody;
 use super::failure::Risk;
 use super::rows::ByClass;
 use crate::body::{BodyError, Extreme, Memo};
+use crate::method::damage::Energies;
 use crate::method::fem::{
     Deformation, Flaws, ImageStress, NodalFields, SolidFem, SolidLoads, Temperatures,
 };
@@ -23,6 +24,8 @@ pub struct SolidMemo {
     thermal: Option<Temperatures>,
     is_change: bool,
     deformation: Option<Deformation>,
+    /// Energies of a body that cracks.
+    energies: Option<Energies>,
     hottest: Option<Extreme>,
     most_stressed: Option<[Extreme; 2]>,
     /// Stress at the nodes, kept for bodies with flaws.
@@ -205,6 +208,11 @@ impl SolidMemo {
 
     pub fn has_max_stress(&self) -> bool {
         self.most_stressed.is_some()
+    }
+
+    /// Energies of cracks, computed when first needed.
+    pub fn energies(&mut self, compute: impl FnOnce() -> Energies) -> Energies {
+        *self.energies.get_or_insert_with(compute)
     }
 
     /// Highest temperature.

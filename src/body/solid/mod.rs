@@ -3,6 +3,7 @@
 mod acceptance;
 mod advance;
 mod crack;
+mod cracking;
 mod failure;
 mod flaw_reading;
 mod forecast;
@@ -47,6 +48,7 @@ use crate::scene::{FaceName, PeakOf, Scene, Shape, Solid};
 use crate::state::Layout;
 use crate::warning::Warning;
 use crack::Crack;
+use cracking::Cracking;
 use memo::SolidMemo;
 use port::Port;
 use reader::SolidReader;
@@ -64,6 +66,8 @@ pub struct SolidBody {
     heat_len: usize,
     /// History-dependent mechanics.
     yielding: Option<Yielding>,
+    /// Mechanics with cracks.
+    cracking: Option<Cracking>,
     loads: BodyLoads,
     ports: Vec<Port>,
     /// Means of fields, by their places among the scene's.
@@ -106,6 +110,7 @@ impl SolidBody {
         let port = |&face: &FaceName| Port::new(face, &plan, &fem, rings(face));
         let ports = linked.iter().map(port).collect();
         let yielding = Yielding::of(&plan, scene.fidelity.tolerance, threads)?;
+        let cracking = Cracking::of(&plan, threads);
         let heat_mesh = heat_mesh(&plan);
         let means = means_of(scene, (name, solid), [&heat_mesh, fem.mesh()]);
         let cracks = Crack::of_scene(scene, (name, solid), &plan);
@@ -120,6 +125,7 @@ impl SolidBody {
             plan,
             solid: fem,
             yielding,
+            cracking,
             loads,
             ports,
             shape: solid.shape,
@@ -155,7 +161,8 @@ impl SolidBody {
     }
 
     fn own_layout(&self) -> Layout {
-        let mechanics = self.yielding.as_ref().map(Yielding::layout);
+        let yielding = self.yielding.as_ref().map(Yielding::layout);
+        let mechanics = yielding.or(self.cracking.as_ref().map(Cracking::layout));
         let layout = self.solid.layout().then(mechanics.unwrap_or_default());
         layout.then(self.layout_of_flaws())
     }
@@ -192,8 +199,11 @@ impl Body for SolidBody {
     fn initial_state(&self) -> Vec<f64> {
         let (nodes, start) = (self.solid.mesh().nodes(), self.solid.initial_temperature());
         let mechanics = self.yielding.as_ref().map(|yielding| yielding.initial_state(nodes, start));
+        let rise = -self.plan.stress_free_rise;
+        let cracks = self.cracking.as_ref().map(|cracking| cracking.initial_state(rise));
+        let mechanics = mechanics.or(cracks).into_iter().flatten();
         let heat = self.solid.initial_state().into_iter();
-        heat.chain(mechanics.into_iter().flatten()).chain(self.nothing_noted()).collect()
+        heat.chain(mechanics).chain(self.nothing_noted()).collect()
     }
 
     fn layout(&self, state: &[f64]) -> Option<Layout> {
@@ -204,6 +214,8 @@ impl Body for SolidBody {
         match self.own_layout().len() {
             wanted if wanted == state.len() => {
                 self.check_heat(state, inputs)?;
+                let cracks = self.cracking.as_ref();
+                cracks.map_or(Ok(()), |cracks| cracks.check(self.mechanics_of(state)))?;
                 self.check_flaws(state)
             }
             wanted => {
@@ -242,13 +254,13 @@ impl Body for SolidBody {
     ) -> Result<Option<Given>, BodyError> {
         let memo = SolidMemo::of(memo);
         let before = self.heat_balance(state);
-        match &self.yielding {
-            None => self.advance_here(&mut state[..self.heat_len], memo, acts, allowance)?,
-            Some(yielding) => {
-                self.advance_yielding(yielding, state, acts, allowance, |heat, acts| {
-                    self.advance_here(heat, memo, acts, allowance)
-                })?
+        let heat = |heat: &mut [f64], acts: &Acts| self.advance_here(heat, memo, acts, allowance);
+        match (&self.yielding, &self.cracking) {
+            (Some(yielding), _) => self.advance_yielding(yielding, state, acts, allowance, heat)?,
+            (None, Some(cracking)) => {
+                self.advance_cracking(cracking, state, acts, allowance, heat)?;
             }
+            (None, None) => heat(&mut state[..self.heat_len], acts)?,
         }
         let (start, end) = (acts.path.start(), acts.path.at(0, acts.duration));
         self.check_end(state, start, &end)?;
@@ -294,7 +306,8 @@ impl Body for SolidBody {
     }
 
     fn linear(&self) -> Option<&dyn Linear> {
-        if !self.solid.conducts_linearly() || self.yielding.is_some() {
+        let has_history = self.yielding.is_some() || self.cracking.is_some();
+        if !self.solid.conducts_linearly() || has_history {
             return None;
         }
         Some(self)
@@ -414,6 +427,7 @@ impl Resources for SolidBody {
 
     fn steps_are_deep(&self) -> bool {
         let notes_stress = self.peaks.iter().any(PeakOf::is_mechanical) || self.keeps_field();
-        self.yielding.is_some() || !self.solid.conducts_linearly() || notes_stress
+        let has_history = self.yielding.is_some() || self.cracking.is_some();
+        has_history || !self.solid.conducts_linearly() || notes_stress
     }
 }

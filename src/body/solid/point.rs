@@ -25,6 +25,7 @@ pub enum Measure {
     /// A measure of stress and its rate.
     OfStress(fn([f64; 6]) -> f64, fn([f64; 6], [f64; 6]) -> f64),
     PlasticStrain,
+    Damage,
 }
 
 /// All quantities, in the order in which a probe lists them.
@@ -32,7 +33,7 @@ pub fn point_quantities() -> &'static [PointQuantity] {
     &QUANTITIES
 }
 
-const QUANTITIES: [PointQuantity; 13] = [
+const QUANTITIES: [PointQuantity; 14] = [
     PointQuantity {
         descriptor: Descriptor {
             key: "temperature",
@@ -72,6 +73,16 @@ const QUANTITIES: [PointQuantity; 13] = [
         given_by: &[Gives::PlasticStrain],
         measure: Measure::PlasticStrain,
     },
+    PointQuantity {
+        descriptor: Descriptor {
+            key: "damage",
+            words: "damage, 0 intact to 1 broken",
+            quantity: Quantity::Ratio,
+            direct: Direct::Nothing,
+        },
+        given_by: &[Gives::Damage],
+        measure: Measure::Damage,
+    },
 ];
 
 const fn stress(key: &'static str, words: &'static str) -> Descriptor {
@@ -108,7 +119,7 @@ impl PointQuantity {
 
     /// Returns true if it depends on the body's history.
     pub(super) fn is_of_history(&self) -> bool {
-        matches!(self.measure, Measure::PlasticStrain)
+        matches!(self.measure, Measure::PlasticStrain | Measure::Damage)
     }
 
     /// Returns its place among the components that rows can read, if it is such a component.
@@ -132,6 +143,7 @@ impl PointQuantity {
             Measure::Stress(place) => reader.stress_component(place, point)?,
             Measure::OfStress(measure, _) => measure(reader.stress_at(point)?),
             Measure::PlasticStrain => reader.plastic_strain_at(point)?,
+            Measure::Damage => reader.damage_at(point)?,
         })
     }
 
@@ -146,7 +158,7 @@ impl PointQuantity {
             Measure::Displacement(axis) => change.displacement_along(axis, point)?,
             Measure::Stress(place) => change.stress_component(place, point)?,
             Measure::OfStress(_, rate) => rate(now.stress_at(point)?, change.stress_at(point)?),
-            Measure::PlasticStrain => return Err(BodyError::NoRate),
+            Measure::PlasticStrain | Measure::Damage => return Err(BodyError::NoRate),
         })
     }
 }

@@ -5,6 +5,7 @@ use super::memo::SolidMemo;
 use super::rows::{self, Acting};
 use crate::body::{BodyError, Extreme};
 use crate::coupling::FaceMeans;
+use crate::method::damage::Energies;
 use crate::method::fem::HeatTotals;
 
 /// A solid in a state, or a change of one; linear readings are the same for both.
@@ -155,6 +156,39 @@ impl SolidReader<'_> {
     /// Elastic energy, and that of hardening [J].
     pub fn stored_energy(&mut self) -> Result<f64, BodyError> {
         self.body.stored_energy(self.state, self.memo.heat(self.body, self.state))
+    }
+
+    /// Damage [1].
+    pub fn damage_at(&mut self, point: [f64; 3]) -> Result<f64, BodyError> {
+        let (_, deformation) = self.memo.solve(self.body, self.state)?;
+        Ok(self.body.solid.damage_at(deformation, point))
+    }
+
+    /// Largest damage [1].
+    pub fn max_damage(&self) -> f64 {
+        self.body.max_damage(self.state)
+    }
+
+    /// Energies of a body that cracks [J].
+    pub fn energies(&mut self) -> Energies {
+        self.body.energies(self.state, self.memo)
+    }
+
+    /// Work that loads and thermal strain have done [J].
+    pub fn work_of_cracks(&self) -> f64 {
+        self.body.work_of_cracks(self.state)
+    }
+
+    /// Area of cracks: their energy over that per area [m²].
+    pub fn crack_area(&mut self) -> f64 {
+        let dissipated = self.energies().dissipated;
+        self.body.measures_of_cracks().map_or(0.0, |(energy, _)| dissipated / energy)
+    }
+
+    /// Length of cracks in a plane section [m].
+    pub fn crack_length(&mut self) -> f64 {
+        let width = self.body.measures_of_cracks().and_then(|(_, width)| width);
+        width.map_or(0.0, |width| self.crack_area() / width)
     }
 
     pub fn fallback_particles(&self) -> f64 {

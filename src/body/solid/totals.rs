@@ -26,13 +26,16 @@ enum Offered {
     Yielding,
     /// Those whose moduli relax.
     Relaxing,
+    /// Those that crack, and their plane sections.
+    Cracking,
+    CrackingSections,
     /// Those whose mechanics is modelled.
     Mechanical,
     /// Those with a distribution of flaws.
     Breaking,
 }
 
-const TOTALS: [Total; 19] = [
+const TOTALS: [Total; 25] = [
     Total {
         descriptor: Descriptor {
             key: "max_temperature",
@@ -125,6 +128,40 @@ const TOTALS: [Total; 19] = [
         read: |reader| reader.stored_energy(),
         rate: |_| Err(BodyError::NoRate),
     },
+    of_cracks("max_damage", "largest damage, 0 intact to 1 broken", Quantity::Ratio, |reader| {
+        Ok(reader.max_damage())
+    }),
+    of_cracks(
+        "crack_area",
+        "area of cracks: the energy that damage has dissipated over that of cracks per area",
+        Quantity::Area,
+        |reader| Ok(reader.crack_area()),
+    ),
+    Total {
+        of: Offered::CrackingSections,
+        ..of_cracks(
+            "crack_length",
+            "length of cracks in the section: their area over the width of the body",
+            Quantity::Length,
+            |reader| Ok(reader.crack_length()),
+        )
+    },
+    of_cracks(
+        "dissipated_energy",
+        "energy that damage has dissipated",
+        Quantity::Energy,
+        |reader| Ok(reader.energies().dissipated),
+    ),
+    of_cracks("elastic_energy", "elastic energy of the body", Quantity::Energy, |reader| {
+        Ok(reader.energies().elastic)
+    }),
+    of_cracks(
+        "mechanical_work",
+        "work that loads and thermal strain have done on the body: elastic and dissipated energy, and what jumps of \
+         cracks have freed",
+        Quantity::Energy,
+        |reader| Ok(reader.work_of_cracks()),
+    ),
     Total {
         descriptor: stress("max_von_mises", "highest von Mises stress of the body"),
         of: Offered::Mechanical,
@@ -196,6 +233,16 @@ const fn place_of_risk(key: &'static str, words: &'static str, read: Read) -> To
     Total { descriptor, of: Offered::Breaking, read, rate: |_| Err(BodyError::NoRate) }
 }
 
+const fn of_cracks(
+    key: &'static str,
+    words: &'static str,
+    quantity: Quantity,
+    read: Read,
+) -> Total {
+    let descriptor = Descriptor { key, words, quantity, direct: Direct::Nothing };
+    Total { descriptor, of: Offered::Cracking, read, rate: |_| Err(BodyError::NoRate) }
+}
+
 const fn heat(key: &'static str, words: &'static str) -> Descriptor {
     Descriptor { key, words, quantity: Quantity::Energy, direct: Direct::Nothing }
 }
@@ -214,6 +261,8 @@ pub fn offered_totals(scene: &Scene, (name, solid): (&str, &Solid)) -> Vec<(usiz
         Offered::Yielding => solid.yields() && scene.asks_mechanics(name),
         Offered::Relaxing => solid.relaxes() && scene.asks_mechanics(name),
         Offered::Mechanical => scene.asks_mechanics(name),
+        Offered::Cracking => solid.cracks(),
+        Offered::CrackingSections => solid.cracks() && solid.section.is_some(),
         Offered::Breaking => solid.has_flaws(),
     };
     let totals = TOTALS.iter().enumerate().filter(|(_, total)| is_offered(total));

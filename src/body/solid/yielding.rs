@@ -1,6 +1,7 @@
 //! Solids with history-dependent stress: their mechanics advances with their heat.
 
 use super::SolidBody;
+use super::cracking::Cracking;
 use crate::body::{Acts, BodyError};
 use crate::math::cholesky::SolverError;
 use crate::method::fem::{Deformation, Plan, Remembered, SolidLoads, Temperatures};
@@ -109,8 +110,10 @@ impl SolidBody {
     }
 
     /// Returns the mechanical part of a state; empty without a history.
-    fn mechanics_of<'s>(&self, state: &'s [f64]) -> &'s [f64] {
-        let length = self.yielding.as_ref().map_or(0, |yielding| yielding.layout().len());
+    pub(super) fn mechanics_of<'s>(&self, state: &'s [f64]) -> &'s [f64] {
+        let yielding = self.yielding.as_ref().map(Yielding::layout);
+        let layout = yielding.or(self.cracking.as_ref().map(Cracking::layout));
+        let length = layout.map_or(0, |layout| layout.len());
         &state[self.heat_len..self.heat_len + length]
     }
 
@@ -266,7 +269,7 @@ impl SolidBody {
     }
 
     /// Forces on all nodes, with the components of a node together [N].
-    fn nodal_forces(&self, loads: &SolidLoads) -> Result<Vec<f64>, BodyError> {
+    pub(super) fn nodal_forces(&self, loads: &SolidLoads) -> Result<Vec<f64>, BodyError> {
         let mesh = self.solid.mesh();
         let (degrees, nodes) = (mesh.geometry.degrees(), mesh.nodes());
         let plane = mesh.axes[0].len() * mesh.axes[1].len();
@@ -291,6 +294,9 @@ impl SolidBody {
         state: &[f64],
         temperatures: Option<&Temperatures>,
     ) -> Result<Option<Deformation>, BodyError> {
+        if let Some(cracking) = &self.cracking {
+            return Ok(Some(self.cracked(cracking, state)));
+        }
         let (Some(yielding), Some(temperatures)) = (&self.yielding, temperatures) else {
             return Ok(None);
         };

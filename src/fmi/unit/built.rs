@@ -173,6 +173,7 @@ pub fn explain(registry: &Registry, error: ModelError) -> Refusal {
             | BodyError::Reduction { .. }
             | BodyError::Heat { .. }
             | BodyError::Equilibrium { .. }
+            | BodyError::Cracking { .. }
             | BodyError::Uneven { .. }
             | BodyError::LargeStrain { .. }
             | BodyError::Filament { .. }

@@ -1,8 +1,14 @@
-//! Brittle fracture: statistics of flaws, which lead to a probability of failure, and toughness.
+//! Brittle fracture: statistics of flaws, which lead to a probability of failure, toughness, and cracks that run.
 
+mod cracking;
+mod damage;
 mod normal_average;
+mod split;
 mod weibull;
 
+pub use cracking::Cracking;
+pub use damage::{Components, Dissipation, GradientDamage, PointResponse, degradation};
+pub use split::{Principal, Split};
 pub use weibull::{Directions, Extent, FlawStatistics, Weibull};
 
 use schemars::JsonSchema;
@@ -20,12 +26,19 @@ pub struct Brittleness {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("otherwise" = "no probability of failure"))]
     pub weibull: Option<Weibull>,
-    /// Toughness K_Ic [Pa √m], for the safety of flaws.
+    /// Toughness K_Ic [Pa √m], for the safety of flaws, and for the energy of cracks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = positive("Pa √m", "the toughness")
         .plausible(&plausible::TOUGHNESS)
         .otherwise("none"))]
     pub toughness: Option<f64>,
+    /// Cracks that run ([keys](#fracture-of-a-material)).
+    #[serde(default, rename = "fracture", skip_serializing_if = "Option::is_none")]
+    #[schemars(extend(
+        "condition" = "of bodies of one thermoelastic material: discs, and boxes with `section`",
+        "otherwise" = "nothing cracks"
+    ))]
+    pub cracking: Option<Cracking>,
 }
 
 impl Part for Brittleness {
@@ -53,6 +66,27 @@ impl Part for Brittleness {
                     bounds: MaterialConstant::ABOVE_ZERO,
                     start: AtStart::PoleAtZero,
                 },
+                MaterialConstant {
+                    key: "fracture_strength",
+                    description: "tensile strength",
+                    quantity: Quantity::Stress,
+                    bounds: MaterialConstant::ABOVE_ZERO,
+                    start: AtStart::PoleAtZero,
+                },
+                MaterialConstant {
+                    key: "fracture_length",
+                    description: "length of damage",
+                    quantity: Quantity::Length,
+                    bounds: MaterialConstant::ABOVE_ZERO,
+                    start: AtStart::PoleAtZero,
+                },
+                MaterialConstant {
+                    key: "fracture_energy",
+                    description: "energy of cracks per area",
+                    quantity: Quantity::EnergyPerArea,
+                    bounds: MaterialConstant::ABOVE_ZERO,
+                    start: AtStart::PoleAtZero,
+                },
             ]
         }
     }
@@ -62,6 +96,9 @@ impl Part for Brittleness {
             "weibull_modulus" => self.weibull.as_mut().map(|own| &mut own.modulus),
             "weibull_strength" => self.weibull.as_mut().map(|own| &mut own.strength),
             "toughness" => self.toughness.as_mut(),
+            "fracture_strength" => self.cracking.as_mut().and_then(|own| own.strength.as_mut()),
+            "fracture_length" => self.cracking.as_mut().and_then(|own| own.length.as_mut()),
+            "fracture_energy" => self.cracking.as_mut().and_then(|own| own.energy.as_mut()),
             _ => None,
         }
     }

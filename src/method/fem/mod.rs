@@ -9,6 +9,7 @@ mod brick_solver;
 pub mod brick_stiffness;
 mod columns;
 mod conduction;
+mod crack_mesh;
 mod dilatation;
 pub mod elastic;
 mod end_response;

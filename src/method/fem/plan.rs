@@ -2,10 +2,12 @@
 
 use std::sync::Arc;
 
+use super::crack_mesh::crack_mesh;
 use super::elastic::Support;
 use super::fineness::{Fineness, Resolution};
 use super::heat::ThermalFace;
 use super::solver_choice::note_on_solver;
+use crate::laws::fracture::GradientDamage;
 use crate::laws::{Conduction, Constants, FlawStatistics, FlowLaw, Thermoelastic};
 use crate::method::mesh::{Axis, Weight};
 use crate::method::mesh::{Geometry, Mesh, MeshFace};
@@ -39,6 +41,8 @@ pub struct Plan {
     pub linear_heat: bool,
     /// Flow law of each layer of elements along z, from the lowest on; `None` if deformation is linear.
     pub inelastic: Option<Vec<Arc<dyn FlowLaw>>>,
+    /// Law of cracks; `None` if nothing cracks.
+    pub damage: Option<GradientDamage>,
     /// Flaws in each layer, from the lowest on.
     pub flaws: Vec<Option<FlawStatistics>>,
     /// Stress-free temperature above the initial one [K].
@@ -127,13 +131,22 @@ impl Plan {
         let laws: Option<Vec<_>> = strata.iter().map(|layer| layer.constants.law()).collect();
         let wanted = mechanics != Mechanics::Absent;
         let is_inelastic = wanted && !solid.deforms_linearly();
-        let law = laws.filter(|_| wanted && !is_inelastic);
+        let damage = solid.damage().filter(|_| wanted);
+        let law = laws.filter(|_| wanted && !is_inelastic && damage.is_none());
         let mut notes = Vec::new();
-        let mirrored = mirrored(solid, newton.is_some() || is_inelastic, &mut notes);
+        let mirrored =
+            mirrored(solid, newton.is_some() || is_inelastic || damage.is_some(), &mut notes);
         let is_column = refinements.is_empty() && is_column(solid, wanted);
         let resolution = Resolution { refinements, shortest, factors, is_column };
-        let fineness = Fineness::choose(solid, &strata, resolution, &mut notes);
-        let mesh = build_mesh(&solid.shape, mirrored, &fineness);
+        let mut notes_on_mesh = Vec::new();
+        let fineness = Fineness::choose(solid, &strata, resolution, &mut notes_on_mesh);
+        let mesh = match &damage {
+            Some(damage) => crack_mesh(&solid.shape, mirrored, &solid.mesh, damage.length),
+            None => {
+                notes.append(&mut notes_on_mesh);
+                build_mesh(&solid.shape, mirrored, &fineness)
+            }
+        };
         let resolved_from = fineness.resolved_from(&mesh);
         notes.extend((strata.len() > 1).then(|| note_on_layers(&mesh, newton.is_none())));
         notes.extend(mechanics.note().map(str::to_owned));
@@ -147,6 +160,7 @@ impl Plan {
         notes.extend(newton.as_ref().map(note_on_newton));
         let inelastic = is_inelastic.then(|| inelastic_laws(solid, &mesh));
         notes.extend(inelastic.as_ref().map(|laws| note_on_history(solid, laws)));
+        notes.extend(damage.as_ref().map(|damage| note_on_cracks(damage, &mesh)));
         let stress_free_rise = solid.temperature_without_stress() - solid.initial_temperature;
         let initial_temperature = solid.initial_temperature;
         Self {
@@ -162,6 +176,7 @@ impl Plan {
             linear_heat: linear_heat || newton.is_some(),
             newton,
             inelastic,
+            damage,
             flaws: flaws(solid),
             stress_free_rise,
             supports,
@@ -187,7 +202,10 @@ impl Plan {
         let degrees = self.mesh.geometry.degrees();
         [
             self.mesh.sided_nodes(),
-            if self.law.is_some() || self.inelastic.is_some() {
+            if self.damage.is_some() {
+                let [columns, _, layers] = self.mesh.node_counts();
+                2 * columns * layers
+            } else if self.law.is_some() || self.inelastic.is_some() {
                 nodes.saturating_mul(degrees)
             } else {
                 0
@@ -358,6 +376,20 @@ fn newton_plan(solid: &Solid, mesh: &Mesh, tolerance: f64) -> NewtonPlan {
         (!image).then_some((place, radiation))
     });
     NewtonPlan { materials, radiation: radiating.collect(), tolerance }
+}
+
+/// Note on cracks.
+fn note_on_cracks(law: &GradientDamage, mesh: &Mesh) -> String {
+    let spacing = [0, 2].map(|axis| mesh.axes[axis].end_distance(true));
+    format!(
+        "cracks are damage over a length of {:.3e} m, with {:.3e} J/m² and a strength of {:.3e} Pa; nodes are {:.3e} m \
+         apart along the surface and {:.3e} m through the thickness; heat passes cracks as if they were closed",
+        law.length,
+        law.energy,
+        law.strength(),
+        spacing[0],
+        spacing[1]
+    )
 }
 
 /// Note on history-dependent stress.

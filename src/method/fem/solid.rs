@@ -78,6 +78,8 @@ pub struct Deformation {
     tractions: Vec<FaceStresses>,
     /// Set for a body whose stress depends on its history.
     remembered: Option<Remembered>,
+    /// Damage at the nodes [1]; empty if nothing cracks.
+    damage: Vec<f64>,
 }
 
 impl Deformation {
@@ -85,6 +87,11 @@ impl Deformation {
     pub fn of_nodes(displacement: Vec<f64>, remembered: Remembered) -> Self {
         let (displacement, remembered) = (vec![displacement], Some(remembered));
         Self { displacement, remembered, ..Self::default() }
+    }
+
+    /// The same with damage at the nodes [1].
+    pub fn with_damage(self, damage: Vec<f64>) -> Self {
+        Self { damage, ..self }
     }
 
     /// Accumulated plastic strain at the nodes [1]; empty without yielding.
@@ -108,13 +115,20 @@ pub struct NodalFields {
     pub stress: Vec<[f64; 6]>,
     /// Accumulated plastic strain [1]; empty without yielding.
     pub plastic_strain: Vec<f64>,
+    /// Damage [1]; empty if nothing cracks.
+    pub damage: Vec<f64>,
 }
 
 impl NodalFields {
     /// All values at the nodes.
     pub fn values(&self) -> impl Iterator<Item = f64> {
         let vectors = self.displacement.iter().flatten().chain(self.stress.iter().flatten());
-        self.temperature.iter().chain(vectors).chain(&self.plastic_strain).copied()
+        self.temperature
+            .iter()
+            .chain(vectors)
+            .chain(&self.plastic_strain)
+            .chain(&self.damage)
+            .copied()
     }
 }
 
@@ -385,6 +399,12 @@ impl SolidFem {
         flow.map_or(0.0, |flow| self.flowed_at(flow, self.mesh.locate(point).0))
     }
 
+    /// Damage at a point [1]; zero if nothing cracks.
+    pub fn damage_at(&self, deformation: &Deformation, point: [f64; 3]) -> f64 {
+        let weights = self.sided_weights(self.mesh.locate(point).0);
+        weighted(&deformation.damage, weights.each_ref(), self.mesh.sided_counts(), (0, 1))
+    }
+
     /// Values at all nodes of the whole body, from temperatures above the initial one, those above the stress-free one,
     /// and the deformation under these.
     pub fn fields(
@@ -429,6 +449,7 @@ impl SolidFem {
                         fields.stress.push(part.stress[node]);
                     }
                     fields.plastic_strain.extend(deformation.plastic_strain().get(node));
+                    fields.damage.extend(deformation.damage.get(node));
                 }
             }
         }

@@ -45,6 +45,7 @@ pub fn point_arrays<'a>(
         ("von_mises", "Pa", &[""], von_mises),
         ("max_principal", "Pa", &[""], max_principal),
         ("plastic_strain", "1", &[""], &fields.plastic_strain),
+        ("damage", "1", &[""], &fields.damage),
     ];
     all.into_iter()
         .filter(|(.., values)| !values.is_empty())
@@ -76,6 +77,7 @@ mod tests {
             displacement: (0..count).map(|i| [0, 1, 2].map(|c| 1e-9 * value(i, c))).collect(),
             stress: (0..count).map(|i| [0, 1, 2, 3, 4, 5].map(|c| 1e6 * value(i, c))).collect(),
             plastic_strain: (0..count).map(|i| 1e-3 * value(i, 0)).collect(),
+            damage: (0..count).map(|i| 1e-2 * value(i, 0)).collect(),
         }
     }
 
@@ -104,6 +106,7 @@ mod tests {
         assert_eq!(read.arrays["max_principal"].1, largest.collect::<Vec<_>>());
         assert_eq!(read.arrays["von_mises"].1.len(), fields.temperature.len());
         assert_eq!(read.arrays["plastic_strain"].1, fields.plastic_strain);
+        assert_eq!(read.arrays["damage"].1, fields.damage);
         assert!(bytes.ends_with(b"</AppendedData>\n</VTKFile>"));
     }
 
@@ -113,6 +116,7 @@ mod tests {
         fields.displacement.clear();
         fields.stress.clear();
         fields.plastic_strain.clear();
+        fields.damage.clear();
         let read = read(&written(&fields));
         let names: Vec<_> = read.arrays.keys().map(String::as_str).collect();
         assert_eq!(names, ["TimeValue", "temperature", "x", "y", "z"]);

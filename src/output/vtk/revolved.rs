@@ -71,6 +71,7 @@ fn revolved(fields: &NodalFields) -> Revolved {
                 }
                 all.stress.extend(fields.stress.get(node).map(|stress| turned(*stress, cos, sin)));
                 all.plastic_strain.extend(fields.plastic_strain.get(node));
+                all.damage.extend(fields.damage.get(node));
             }
         }
     }
@@ -102,6 +103,7 @@ mod tests {
             displacement: (0..6).map(|i| [f64::from(i), 0.0, -1.0]).collect(),
             stress: vec![[5.0, 3.0, 1.0, 0.0, 0.0, 2.0]; 6],
             plastic_strain: Vec::new(),
+            damage: Vec::new(),
         };
         let mut bytes = Vec::new();
         write_revolved(&mut bytes, 2.5e-6, &fields).unwrap();

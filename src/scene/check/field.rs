@@ -16,6 +16,7 @@ pub fn check(checker: &mut Checker) {
             if let Some(solid) = field.body().and_then(|body| checker.scene.solid(body)) {
                 let body = field.body().unwrap_or_default();
                 probe::yields(checker, &path.at("gives"), &field.gives, (body, solid));
+                probe::cracks(checker, &path.at("gives"), &field.gives, (body, solid));
             }
             continue;
         }

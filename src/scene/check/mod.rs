@@ -6,6 +6,7 @@ mod droplet;
 mod field;
 mod filament;
 mod fidelity;
+mod fracture;
 mod flaw;
 mod field_cells;
 mod freezing;
@@ -50,6 +51,7 @@ pub fn check(scene: &Scene, source: &Source, schema: &Schema) -> Result<(), Scen
     limits::check(&mut checker, schema);
     header::check(&mut checker);
     body::check(&mut checker);
+    fracture::check(&mut checker);
     droplet::check(&mut checker);
     reservoir::check(&mut checker);
     large_strain::check(&mut checker);

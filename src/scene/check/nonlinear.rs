@@ -47,7 +47,9 @@ pub fn check(checker: &mut Checker, path: &Path, solid: &Solid) {
         checker.refuse(&path.key("heat"), message, "fem");
     }
     let is_part = solid.symmetry == Symmetry::Quarter;
-    if is_part && (takes_newton(checker.scene, solid) || !solid.deforms_linearly()) {
+    if is_part
+        && (takes_newton(checker.scene, solid) || !solid.deforms_linearly() || solid.cracks())
+    {
         even_loads(checker, path);
     }
     let resists = |layer: &Layer| layer.contact_resistance.is_some_and(|r| r > 0.0);

@@ -13,6 +13,7 @@ pub fn check(checker: &mut Checker) {
             place(checker, &path.at("at"), probe, &solid.shape);
             side(checker, &path.at("side"), probe, solid);
             yields(checker, &path.at("gives"), &probe.gives, (&probe.body, solid));
+            cracks(checker, &path.at("gives"), &probe.gives, (&probe.body, solid));
         }
     }
 }
@@ -23,6 +24,15 @@ pub fn yields(checker: &mut Checker, path: &Path, gives: &[Gives], (name, solid)
     if let Some(place) = place.filter(|_| !solid.yields()) {
         let message = format!("no part of `{name}` yields");
         checker.refuse(&path.index(place), message, "what a body without a yield stress gives");
+    }
+}
+
+/// Refuses damage as an output of bodies that do not crack.
+pub fn cracks(checker: &mut Checker, path: &Path, gives: &[Gives], (name, solid): (&str, &Solid)) {
+    let place = gives.iter().position(|gives| *gives == Gives::Damage);
+    if let Some(place) = place.filter(|_| !solid.cracks()) {
+        let message = format!("nothing cracks in `{name}`");
+        checker.refuse(&path.index(place), message, "what a body without `fracture` gives");
     }
 }
 

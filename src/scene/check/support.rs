@@ -34,10 +34,16 @@ fn free_motions(solid: &Solid) -> Vec<&'static str> {
     }
     let rollers: Vec<_> = faces.filter(|(_, face)| face.roller).map(|(name, _)| name).collect();
     match solid.shape {
-        Shape::Box(_) => free_motions_of_box(&rollers),
+        Shape::Box(_) => {
+            let all = free_motions_of_box(&rollers).into_iter();
+            all.filter(|motion| solid.section.is_none() || IN_SECTION.contains(motion)).collect()
+        }
         Shape::Disc(_) => free_motions_of_disc(&rollers),
     }
 }
+
+/// Motions in a plane section.
+const IN_SECTION: [&str; 3] = ["translation along x", "translation along z", "rotation about y"];
 
 /// Rigid motions that rollers leave free. A roller blocks the translation along its normal and the rotations about the
 /// axes in its face.
@@ -61,6 +67,9 @@ fn free_motions_of_disc(rollers: &[FaceName]) -> Vec<&'static str> {
 
 fn remedy(solid: &Solid) -> &'static str {
     match solid.shape {
+        Shape::Box(_) if solid.section.is_some() => {
+            "a face with `clamped = true`, or `roller = true` on `left` or `right` and on `top` or `bottom`"
+        }
         Shape::Box(_) => {
             "a face with `clamped = true`, or faces of all three normals with `roller = true`"
         }

@@ -19,7 +19,11 @@ pub fn check(checker: &mut Checker) {
     });
     let fields = scene.field.iter().enumerate().map(|(i, field)| {
         let given = field.gives.iter().map(|gives| match gives {
-            Gives::Temperature | Gives::VonMises | Gives::MaxPrincipal | Gives::PlasticStrain => 1,
+            Gives::Temperature
+            | Gives::VonMises
+            | Gives::MaxPrincipal
+            | Gives::PlasticStrain
+            | Gives::Damage => 1,
             Gives::Displacement => 3,
             Gives::Stress => 7,
         });

@@ -1,0 +1,95 @@
+"""A plate of alumina falls into water: where do its cracks run?"""
+
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+import shared  # noqa: E402
+from impinge import Unit  # noqa: E402
+
+NAME = "quench_cracks"
+STOP, STEPS = 0.12, 60  # s
+WATER = 293.15  # K
+DROPS = [150.0, 250.0, 400.0]  # K above the water
+WIDTH, DEPTH = 12.0, 4.0  # mm, of the quarter that is computed
+CRACKED = 0.9  # damage of what is drawn as a crack
+BELOW = 0.5  # mm, the depth at which cracks are counted
+
+
+@dataclass
+class Run:
+    times: np.ndarray  # s
+    lengths: np.ndarray  # m, of cracks in the quarter
+    energies: np.ndarray  # J: work, elastic, dissipated
+    damage: np.ndarray  # at the end, along x and z
+
+
+def simulate(fmu: Path, drop: float, steps: int) -> Run:
+    names = ["plate.crack_length", "plate.mechanical_work"]
+    names += ["plate.elastic_energy", "plate.dissipated_energy"]
+    # Steps grow with the depth that heat has reached.
+    times = STOP * (np.arange(1, steps + 1) / steps) ** 2
+    rows = []
+    with Unit(fmu, parameters={"plate.initial_temperature": WATER + drop}) as unit:
+        for time in times:
+            unit.step_to(time)
+            rows.append(unit.get(names))
+        rows = np.array(rows)
+        return Run(times, rows[:, 0], rows[:, 1:], unit["section.damage"])
+
+
+def count(damage: np.ndarray) -> int:
+    """Cracks that pass below the surface, in the quarter."""
+    row = damage[:, round(damage.shape[1] * (1 - BELOW / DEPTH))] > CRACKED
+    return int(np.sum(row[1:] & ~row[:-1])) + int(row[0])
+
+
+def report(runs: list[Run]):
+    rows = [
+        [
+            f"{drop:.0f}",
+            f"{run.lengths[-1] * 1e3:.1f}",
+            str(count(run.damage)),
+            f"{run.energies[-1, 2] * 1e3:.2f}",
+            f"{run.energies[-1, 1] * 1e3:.2f}",
+        ]
+        for drop, run in zip(DROPS, runs, strict=True)
+    ]
+    head = ["drop [K]", "cracks [mm]", f"{BELOW} mm deep", "dissipated [mJ]", "elastic [mJ]"]
+    shared.print_table(head, rows)
+
+
+def draw(runs: list[Run], picture: Path):
+    figure, axes = shared.new_figure(2, 2, height=6.6)
+    extent = (-WIDTH, WIDTH, -DEPTH, DEPTH)
+    for axis, drop, run in zip(axes.flat, DROPS, runs, strict=False):
+        # The quarter and its images: z = 0 is the top, x = 0 the middle.
+        quarter = run.damage
+        half = np.concatenate([quarter[::-1], quarter])
+        plate = np.concatenate([half[:, ::-1], half], axis=1)
+        axis.imshow(plate.T, origin="lower", extent=extent, cmap="bone_r", vmin=0, vmax=1)
+        axis.set_title(f"{drop:.0f} K: {4e3 * run.lengths[-1]:.0f} mm of cracks")
+        axis.set_xlabel("x [mm]")
+        axis.set_ylabel("z [mm]")
+    for colour, drop, run in zip(shared.COLOURS, DROPS, runs, strict=False):
+        axes[1, 1].plot(run.times * 1e3, 4e3 * run.lengths, color=colour, label=f"{drop:.0f} K")
+    axes[1, 1].set_title("Length of all cracks")
+    axes[1, 1].set_xlabel("time [ms]")
+    axes[1, 1].set_ylabel("length [mm]")
+    axes[1, 1].legend()
+    figure.savefig(picture, dpi=120)
+
+
+def main():
+    more = {"steps": {"type": int, "default": STEPS, "help": "steps of a run"}}
+    options = shared.arguments(NAME, __doc__, None, **more)
+    runs = [simulate(options.fmu, drop, options.steps) for drop in DROPS]
+    report(runs)
+    draw(runs, options.out / f"{NAME}.png")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,321 @@
+//! Solids that crack: their damage advances with their heat.
+
+use std::ops::Range;
+
+use super::SolidBody;
+use super::memo::SolidMemo;
+use crate::body::{Acts, BodyError};
+use crate::laws::fracture::Components;
+use crate::method::damage::{
+    DamageError, DamageProblem, DamageState, Elements, Energies, Form, Section,
+};
+use crate::method::fem::elastic::Support;
+use crate::method::fem::{Deformation, Geometry, Mesh, Plan, Remembered, SolidLoads};
+use crate::runtime::allowance::Allowance;
+use crate::state::{Field, Layout, Per};
+
+/// Largest number of halvings of a step in which temperatures change much.
+const MOST_HALVES: u32 = 4;
+/// Change of temperature in a part of a step over that which breaks a held bar.
+const PART_OF_BREAKING: f64 = 0.25;
+/// Largest temperature above the stress-free one in a state [K].
+const HOTTEST: f64 = 1e100;
+
+/// The mechanics of a solid that cracks, in a section of its mesh.
+pub struct Cracking {
+    problem: DamageProblem,
+    /// Numbers of nodes of the body's mesh.
+    counts: [usize; 3],
+    /// Number of copies of the mesh that make up the body.
+    copies: f64,
+    /// Width of the body along the normal of a plane section [m].
+    width: Option<f64>,
+    /// Largest change of temperature in a part of a step [K].
+    most_change: f64,
+}
+
+/// Advances the thermal part of a state.
+type Heating<'a> = dyn Fn(&mut [f64], &Acts) -> Result<(), BodyError> + 'a;
+
+/// Data for advancing a part of a step.
+struct Advance<'a> {
+    cracking: &'a Cracking,
+    allowance: &'a Allowance,
+    heat: &'a Heating<'a>,
+}
+
+impl Cracking {
+    /// Returns `None` if nothing cracks.
+    pub fn of(plan: &Plan, threads: usize) -> Option<Self> {
+        let law = plan.damage?;
+        let mesh = &plan.mesh;
+        let thickness = mesh.axes[1].end() - mesh.axes[1].start();
+        let form = match (mesh.geometry, law.elastic.is_plane_stress) {
+            (Geometry::Axisymmetric, _) => Form::Axisymmetric,
+            (Geometry::Box, true) => Form::PlaneStress { thickness },
+            (Geometry::Box, false) => Form::PlaneStrain { thickness },
+        };
+        let along_y = if mesh.mirrored[1] { 2.0 } else { 1.0 };
+        let axes = [mesh.axes[0].nodes.clone(), mesh.axes[2].nodes.clone()];
+        let breaking = law.strength() / (law.elastic.young * law.expansion.abs());
+        Some(Self {
+            problem: DamageProblem::new(
+                Elements::new(Section { axes, form }, law),
+                held(plan),
+                threads,
+            ),
+            counts: mesh.node_counts(),
+            copies: mesh.copies(),
+            width: (mesh.geometry == Geometry::Box).then_some(along_y * thickness),
+            most_change: PART_OF_BREAKING * breaking,
+        })
+    }
+
+    /// Number of nodes of the section.
+    fn nodes(&self) -> usize {
+        self.counts[0] * self.counts[2]
+    }
+
+    /// Returns the state at time zero: in equilibrium at a temperature above the stress-free one [K], without forces.
+    pub fn initial_state(&self, rise: f64) -> Vec<f64> {
+        let mut state = self.problem.initial_state();
+        if rise != 0.0 {
+            let rises = vec![rise; self.nodes()];
+            let none = vec![0.0; 2 * self.nodes()];
+            let before = state.clone();
+            // The first step reports what keeps a body from its equilibrium.
+            if self.problem.advance(&mut state, (&rises, &none), &Allowance::default()).is_err() {
+                state = before;
+            }
+        }
+        let mut flat = vec![0.0; self.layout().len()];
+        self.store(&state, &mut flat);
+        flat
+    }
+
+    pub fn layout(&self) -> Layout {
+        let field = |name, words, per, width| Field { name, words, per, width };
+        let nodes = self.nodes();
+        Layout::default()
+            .with(field("displacement", "displacement in the section [m]", Per::Node, 2), nodes)
+            .with(field("damage", "damage [1]", Per::Node, 1), nodes)
+            .with(field("rise", "temperature of the equilibrium [K]", Per::Node, 1), nodes)
+            .with(field("work", "work of loads and thermal strain [J]", Per::Body, 1), 1)
+    }
+
+    /// Places of displacement, damage and temperature in the mechanical part of a state; work is last.
+    fn places(&self) -> [Range<usize>; 3] {
+        let nodes = self.nodes();
+        [0..2 * nodes, 2 * nodes..3 * nodes, 3 * nodes..4 * nodes]
+    }
+
+    fn load(&self, flat: &[f64]) -> DamageState {
+        let [displacement, damage, rise] = self.places().map(|place| flat[place].to_vec());
+        DamageState { displacement, damage, rise, work: flat[4 * self.nodes()] }
+    }
+
+    fn store(&self, state: &DamageState, flat: &mut [f64]) {
+        let lists = [&state.displacement, &state.damage, &state.rise];
+        for (place, list) in self.places().into_iter().zip(lists) {
+            flat[place].copy_from_slice(list);
+        }
+        flat[4 * self.nodes()] = state.work;
+    }
+
+    /// Refuses damage outside of its range and impossible temperatures.
+    pub fn check(&self, flat: &[f64]) -> Result<(), String> {
+        let [_, damage, rise] = self.places();
+        let wrong = flat[damage].iter().find(|&&value| !(0.0..=1.0).contains(&value));
+        if let Some(value) = wrong {
+            return Err(format!("damage of {value:e}, which is between 0 and 1"));
+        }
+        let wrong = flat[rise].iter().find(|value| !(-HOTTEST..HOTTEST).contains(*value));
+        wrong.map_or(Ok(()), |value| Err(format!("equilibrium at {value:e} K")))
+    }
+
+    /// Values of the section's nodes at the nodes of the body's mesh.
+    fn spread<T: Copy>(&self, section: &[T]) -> Vec<T> {
+        let [columns, rows, _] = self.counts;
+        let layers = section.chunks(columns);
+        layers.flat_map(|layer| std::iter::repeat_n(layer, rows).flatten().copied()).collect()
+    }
+
+    /// Nodal values of the body's mesh at the section's nodes: those of the first row along y.
+    fn first_row(&self, nodal: &[f64]) -> Vec<f64> {
+        let [columns, rows, _] = self.counts;
+        nodal.chunks(columns * rows).flat_map(|layer| &layer[..columns]).copied().collect()
+    }
+
+    /// Forces on the section's nodes from those on the nodes of the body's mesh [N].
+    fn section_forces(&self, forces: &[f64]) -> Vec<f64> {
+        let [columns, rows, layers] = self.counts;
+        let degrees = forces.len() / (columns * rows * layers);
+        let mut found = vec![0.0; 2 * self.nodes()];
+        for (node, own) in forces.chunks(degrees).enumerate() {
+            let place = node % columns + columns * (node / (columns * rows));
+            found[2 * place] += own[0];
+            found[2 * place + 1] += own[degrees - 1];
+        }
+        found
+    }
+
+    /// Displacement of the nodes of the body's mesh: along z and, in boxes, along y, where it is zero.
+    fn displacement(&self, state: &DamageState) -> Vec<f64> {
+        let in_section: Vec<[f64; 2]> =
+            state.displacement.chunks(2).map(|own| [own[0], own[1]]).collect();
+        let nodal = self.spread(&in_section);
+        match self.width {
+            Some(_) => nodal.into_iter().flat_map(|[x, z]| [x, 0.0, z]).collect(),
+            None => nodal.into_flattened(),
+        }
+    }
+}
+
+/// Displacements of the section's nodes that supports, planes of symmetry and the axis hold.
+fn held(plan: &Plan) -> Vec<bool> {
+    let mesh: &Mesh = &plan.mesh;
+    let [columns, _, layers] = mesh.node_counts();
+    let mut held = vec![false; 2 * columns * layers];
+    let mut hold = |axis: usize, high: bool, components: &[usize]| {
+        for node in 0..columns * layers {
+            let (place, count) =
+                if axis == 0 { (node % columns, columns) } else { (node / columns, layers) };
+            if place == if high { count - 1 } else { 0 } {
+                components.iter().for_each(|component| held[2 * node + component] = true);
+            }
+        }
+    };
+    for (face, support) in plan.supports.iter().filter(|(face, _)| face.axis != 1) {
+        let normal = [usize::from(face.axis == 2)];
+        match support {
+            Support::Clamped => hold(face.axis, face.high, &[0, 1]),
+            Support::Roller => hold(face.axis, face.high, &normal),
+        }
+    }
+    if mesh.mirrored[0] || mesh.geometry == Geometry::Axisymmetric {
+        hold(0, false, &[0]);
+    }
+    held
+}
+
+impl SolidBody {
+    /// Advances heat, displacement and damage to the equilibrium at the end, in parts in which temperatures change by
+    /// at most a quarter of what breaks a held bar, unless they jump.
+    ///
+    /// Received heat changes linearly over the whole step, so such a step is not cut.
+    pub(super) fn advance_cracking(
+        &self,
+        cracking: &Cracking,
+        state: &mut [f64],
+        acts: &Acts,
+        allowance: &Allowance,
+        heat: impl Fn(&mut [f64], &Acts) -> Result<(), BodyError>,
+    ) -> Result<(), BodyError> {
+        let advance = Advance { cracking, allowance, heat: &heat };
+        let halves = if acts.received.is_empty() { MOST_HALVES } else { 0 };
+        self.crack_in_part(&advance, state, acts, halves)
+    }
+
+    /// Advances over one part of a step, with at most this many further halvings.
+    fn crack_in_part(
+        &self,
+        advance: &Advance,
+        state: &mut [f64],
+        acts: &Acts,
+        halves: u32,
+    ) -> Result<(), BodyError> {
+        let Advance { cracking, allowance, heat } = *advance;
+        let start = state.to_vec();
+        heat(&mut state[..self.heat_len], acts)?;
+        let mut mechanics = cracking.load(self.mechanics_of(state));
+        let (rise, forces) = self.section_loads(cracking, state, acts)?;
+        let changes = rise.iter().zip(&mechanics.rise).map(|(new, old)| (new - old).abs());
+        if halves == 0 || changes.fold(0.0, f64::max) <= cracking.most_change {
+            let advanced = cracking.problem.advance(&mut mechanics, (&rise, &forces), allowance);
+            advanced.map_err(|error| self.damage_error(error))?;
+            let length = cracking.layout().len();
+            cracking.store(&mechanics, &mut state[self.heat_len..][..length]);
+            return Ok(());
+        }
+        state.copy_from_slice(&start);
+        let length = 0.5 * acts.duration;
+        for part in 0..2 {
+            let path = acts.path.from(f64::from(part) * length);
+            let acts = Acts { path: &path, duration: length, ..*acts };
+            self.crack_in_part(advance, state, &acts, halves - 1)?;
+        }
+        Ok(())
+    }
+
+    /// Temperatures above the stress-free one [K] and forces [N] at the section's nodes at the end of a step.
+    fn section_loads(
+        &self,
+        cracking: &Cracking,
+        state: &[f64],
+        acts: &Acts,
+    ) -> Result<(Vec<f64>, Vec<f64>), BodyError> {
+        let inputs = acts.path.at(0, acts.duration);
+        let mut loads: SolidLoads = self.loads.assemble(&inputs, self.meshes());
+        for received in acts.received {
+            self.port(received.face).add(&mut loads, received.given);
+        }
+        let temperatures = self.solid.temperatures(self.heat_of(state), &loads);
+        let thermal = self.solid.above_stress_free(temperatures);
+        let rise = match thermal[0].is_empty() {
+            true => vec![0.0; cracking.nodes()],
+            false => cracking.first_row(&thermal[0]),
+        };
+        Ok((rise, cracking.section_forces(&self.nodal_forces(&loads)?)))
+    }
+
+    fn damage_error(&self, error: DamageError) -> BodyError {
+        match error {
+            DamageError::Solver(error) => error.into(),
+            DamageError::Halted(halt) => BodyError::Halted { body: self.name.clone(), halt },
+            error => BodyError::Cracking { body: self.name.clone(), error },
+        }
+    }
+
+    /// Displacement, stress and damage of a body that cracks.
+    pub(super) fn cracked(&self, cracking: &Cracking, state: &[f64]) -> Deformation {
+        let state = cracking.load(self.mechanics_of(state));
+        // The normal of a plane section is y, that of a meridian section the hoop.
+        let of_section =
+            |[first, second, third, shear]: Components| [first, third, second, 0.0, 0.0, shear];
+        let stress: Vec<[f64; 6]> =
+            cracking.problem.stress(&state).into_iter().map(of_section).collect();
+        let remembered = Remembered::elastic(cracking.spread(&stress));
+        let damage = cracking.spread(&state.damage);
+        Deformation::of_nodes(cracking.displacement(&state), remembered).with_damage(damage)
+    }
+
+    /// Largest damage of all nodes [1]; zero without cracks.
+    pub(super) fn max_damage(&self, state: &[f64]) -> f64 {
+        let Some(cracking) = &self.cracking else { return 0.0 };
+        let [_, damage, _] = cracking.places();
+        self.mechanics_of(state)[damage].iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Energies of a body that cracks [J].
+    pub(super) fn energies(&self, state: &[f64], memo: &mut SolidMemo) -> Energies {
+        let Some(cracking) = &self.cracking else { return Energies::default() };
+        memo.energies(|| {
+            let own = cracking.problem.energies(&cracking.load(self.mechanics_of(state)));
+            let Energies { elastic, dissipated } = own;
+            let copies = cracking.copies;
+            Energies { elastic: copies * elastic, dissipated: copies * dissipated }
+        })
+    }
+
+    /// Work that loads and thermal strain have done [J].
+    pub(super) fn work_of_cracks(&self, state: &[f64]) -> f64 {
+        let Some(cracking) = &self.cracking else { return 0.0 };
+        cracking.copies * self.mechanics_of(state)[4 * cracking.nodes()]
+    }
+
+    /// Energy of cracks per area [J/m²], and the width of a plane section [m].
+    pub(super) fn measures_of_cracks(&self) -> Option<(f64, Option<f64>)> {
+        let cracking = self.cracking.as_ref()?;
+        Some((cracking.problem.elements.law.energy, cracking.width))
+    }
+}

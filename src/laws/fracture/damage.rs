@@ -1,0 +1,269 @@
+//! Gradient damage (B. Bourdin, G. A. Francfort & J.-J. Marigo 2008, doi 10.1007/s10659-007-9107-3): the energy of
+//! cracks, and the response of a damaged point.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::split::{Principal, Split};
+
+/// Strain or stress along both axes of a section, along its normal (the hoop), and the shear between the axes.
+pub type Components = [f64; 4];
+
+/// Local part w of the energy of cracks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Dissipation {
+    /// `w = d`: elastic up to the strength, and cracks of finite width.
+    At1,
+    /// `w = d²`: damage from the first load on.
+    At2,
+}
+
+impl Dissipation {
+    /// `c_w = 4 ∫₀¹ √w ds`.
+    pub fn normalisation(self) -> f64 {
+        match self {
+            Dissipation::At1 => 8.0 / 3.0,
+            Dissipation::At2 => 2.0,
+        }
+    }
+
+    /// Square of the strength over `EG_c/ℓ`: 3/8 of AT1, 27/256 of AT2.
+    fn strength_factor(self) -> f64 {
+        match self {
+            Dissipation::At1 => 3.0 / 8.0,
+            Dissipation::At2 => 27.0 / 256.0,
+        }
+    }
+}
+
+/// Part of the stiffness that a broken point keeps, so that equilibrium has one solution.
+const RESIDUAL: f64 = 1e-6;
+
+/// Constants of a material that cracks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GradientDamage {
+    pub elastic: Principal,
+    /// Coefficient of thermal expansion [1/K].
+    pub expansion: f64,
+    pub split: Split,
+    pub dissipation: Dissipation,
+    /// Energy of cracks per area G_c [J/m²].
+    pub energy: f64,
+    /// Regularisation length ℓ [m].
+    pub length: f64,
+    /// Half the range of the energy of elements over its middle [1], and the number of the sample.
+    pub scatter: f64,
+    pub seed: u32,
+}
+
+/// Response of a point.
+#[derive(Debug, Clone, Copy)]
+pub struct PointResponse {
+    /// [Pa]
+    pub stress: Components,
+    /// Derivatives of the stress by the strain [Pa].
+    pub tangent: [Components; 4],
+    /// Energy that cracks release, and that which they leave [J/m³].
+    pub released: f64,
+    pub remaining: f64,
+}
+
+/// `g(d) = (1 − d)²`, plus the residual part.
+pub fn degradation(damage: f64) -> f64 {
+    (1.0 - damage) * (1.0 - damage) + RESIDUAL
+}
+
+impl GradientDamage {
+    /// Energy of damage and of its gradient per volume, `G_c/c_w (w/ℓ + ℓ|∇d|²)` [J/m³]; `weights` are those of
+    /// the element.
+    pub fn dissipated(&self, weights: [f64; 2], damage: f64, gradient: [f64; 2]) -> f64 {
+        let [local, spread] = weights;
+        let own = match self.dissipation {
+            Dissipation::At1 => damage,
+            Dissipation::At2 => damage * damage,
+        };
+        local * own + spread * gradient.map(|g| g * g).iter().sum::<f64>()
+    }
+
+    /// Factors of w [J/m³] and of |∇d|² [J/m] in an element of a size h [m].
+    ///
+    /// A crack breaks a row of elements, whose local energy `G_c h/(c_w ℓ)` comes on top of that of the profile on both
+    /// sides: cracks would dissipate `G_c (1 + h/(c_w ℓ))` (B. Bourdin, G. A. Francfort & J.-J. Marigo 2008, doi
+    /// 10.1007/s10659-007-9107-3, §8.1). With G_c and ℓ multiplied by `1 − h/(c_w ℓ)` they dissipate G_c, and the
+    /// strength, which follows from G_c/ℓ, is the same.
+    pub fn weights(&self, size: f64, element: [usize; 2]) -> [f64; 2] {
+        let normalisation = self.dissipation.normalisation();
+        let own = self.scattered(element) * self.energy / normalisation;
+        let part = 1.0 - size / (normalisation * self.length);
+        [own / self.length, own * self.length * part * part]
+    }
+
+    /// Factor of the energy in an element, from a hash of its place (G. L. Steele, D. Lea & C. H. Flood 2014, doi
+    /// 10.1145/2660193.2660195).
+    fn scattered(&self, [column, row]: [usize; 2]) -> f64 {
+        if self.scatter == 0.0 {
+            return 1.0;
+        }
+        let mut bits = u64::from(self.seed);
+        for part in [column as u64, row as u64] {
+            bits = bits.wrapping_add(part).wrapping_add(0x9e37_79b9_7f4a_7c15);
+            bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            bits ^= bits >> 31;
+        }
+        let even = (bits >> 11) as f64 / (1_u64 << 53) as f64;
+        1.0 + self.scatter * (2.0 * even - 1.0)
+    }
+
+    /// Largest uniaxial stress of a material without gradients of damage [Pa]: the elastic limit `√(3EG_c/(8ℓ))` of AT1,
+    /// the peak `9/16 √(EG_c/(3ℓ))` of AT2 (K. Pham, H. Amor, J.-J. Marigo & C. Maurini 2011, doi
+    /// 10.1177/1056789510386852), over the root of the part of the elastic energy that a crack releases.
+    pub fn strength(&self) -> f64 {
+        (self.elastic.young * self.energy * self.dissipation.strength_factor()
+            / (self.released_part() * self.length))
+            .sqrt()
+    }
+
+    /// Length with which the material has a strength [Pa], see [`Self::strength`] [m].
+    pub fn length_of(&self, strength: f64) -> f64 {
+        self.elastic.young * self.energy * self.dissipation.strength_factor()
+            / (self.released_part() * strength * strength)
+    }
+
+    /// Part of the elastic energy of uniaxial tension that a crack releases. Lateral contraction is compression for
+    /// splits by strain, whose energy stays.
+    fn released_part(&self) -> f64 {
+        let lateral = -self.elastic.poisson;
+        let third = if self.elastic.is_plane_stress { 0.0 } else { lateral };
+        let strain = [1.0, lateral, third];
+        let intact = self.elastic.intact(strain).energy;
+        1.0 - self.split.remaining(&self.elastic, strain).energy / intact
+    }
+
+    /// Response to the elastic strain of a point.
+    pub fn respond(&self, strain: Components, damage: f64) -> PointResponse {
+        let [along, across, third, shear] = strain;
+        let (mean, half) = (0.5 * (along + across), 0.5 * (along - across));
+        let radius = (half * half + 0.25 * shear * shear).sqrt();
+        // Cosine and sine of twice the angle of the first principal axis.
+        let [cosine, sine] = match radius > 0.0 {
+            true => [half / radius, 0.5 * shear / radius],
+            false => [1.0, 0.0],
+        };
+        let principal = [mean + radius, mean - radius, third];
+        let intact = self.elastic.intact(principal);
+        let left = self.split.remaining(&self.elastic, principal);
+        let factor = degradation(damage);
+        let mix = |intact: f64, left: f64| factor * (intact - left) + left;
+        let p: [f64; 3] = std::array::from_fn(|i| mix(intact.stress[i], left.stress[i]));
+        let h: [[f64; 3]; 3] = std::array::from_fn(|i| {
+            std::array::from_fn(|j| mix(intact.tangent[i][j], left.tangent[i][j]))
+        });
+        let turning = match radius > 1e-9 * (mean.abs() + third.abs()) && radius > 0.0 {
+            true => (p[0] - p[1]) / (4.0 * radius),
+            false => 0.25 * (h[0][0] + h[1][1]) - 0.5 * h[0][1],
+        };
+        let (centre, spread) = (0.5 * (p[0] + p[1]), 0.5 * (p[0] - p[1]));
+        let stress = [centre + spread * cosine, centre - spread * cosine, p[2], spread * sine];
+        let (high, low) = (0.5 * (1.0 + cosine), 0.5 * (1.0 - cosine));
+        let axes: [Components; 3] =
+            [[high, low, 0.0, 0.5 * sine], [low, high, 0.0, -0.5 * sine], [0.0, 0.0, 1.0, 0.0]];
+        let turn = [-sine, sine, 0.0, cosine];
+        let tangent = std::array::from_fn(|a| {
+            let rows: [f64; 3] =
+                std::array::from_fn(|j| (0..3).map(|i| axes[i][a] * h[i][j]).sum());
+            std::array::from_fn(|b| {
+                let normal: f64 = (0..3).map(|j| rows[j] * axes[j][b]).sum();
+                normal + turning * turn[a] * turn[b]
+            })
+        });
+        PointResponse {
+            stress,
+            tangent,
+            released: intact.energy - left.energy,
+            remaining: left.energy,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn law(split: Split) -> GradientDamage {
+        GradientDamage {
+            elastic: Principal { young: 2.0, poisson: 0.3, is_plane_stress: false },
+            expansion: 0.0,
+            split,
+            dissipation: Dissipation::At1,
+            energy: 1.0,
+            length: 0.1,
+            scatter: 0.0,
+            seed: 0,
+        }
+    }
+
+    #[test]
+    fn stress_and_tangent_are_derivatives_of_the_energy() {
+        const H: f64 = 1e-6;
+        for split in [Split::None, Split::NoTension, Split::Spectral, Split::Volumetric] {
+            let law = law(split);
+            for strain in [
+                [0.4, -0.2, 0.1, 0.7],
+                [-0.3, 0.2, -0.5, 0.01],
+                [0.3, 0.3, -0.2, 0.0],
+                [-0.1, -0.2, -0.3, 0.2],
+            ] {
+                let own = law.respond(strain, 0.6);
+                for axis in 0..4 {
+                    let at = |h: f64| {
+                        let mut moved = strain;
+                        moved[axis] += h;
+                        law.respond(moved, 0.6)
+                    };
+                    let energy = |of: PointResponse| degradation(0.6) * of.released + of.remaining;
+                    let slope = (energy(at(H)) - energy(at(-H))) / (2.0 * H);
+                    assert!((slope - own.stress[axis]).abs() < 1e-6, "{split:?} {strain:?} {axis}");
+                    for row in 0..4 {
+                        let slope = (at(H).stress[row] - at(-H).stress[row]) / (2.0 * H);
+                        let found = own.tangent[row][axis];
+                        assert!((slope - found).abs() < 1e-5, "{split:?} {strain:?} {row} {axis}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn length_and_strength_are_inverse() {
+        for dissipation in [Dissipation::At1, Dissipation::At2] {
+            let law = GradientDamage { dissipation, ..law(Split::NoTension) };
+            assert!((law.length_of(law.strength()) / law.length - 1.0).abs() < 1e-12);
+        }
+        // Alumina (E 340 GPa, G_c 42.47 J/m², ℓ 46 µm) without a split: 343.1 and 182.0 MPa.
+        let alumina = GradientDamage {
+            elastic: Principal { young: 340e9, poisson: 0.0, is_plane_stress: false },
+            energy: 42.47,
+            length: 46e-6,
+            ..law(Split::None)
+        };
+        assert!((alumina.strength() / 343.1e6 - 1.0).abs() < 1e-3);
+        let other = GradientDamage { dissipation: Dissipation::At2, ..alumina };
+        assert!((other.strength() / 182.0e6 - 1.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn scattered_energies_fill_their_range_evenly() {
+        let law = GradientDamage { scatter: 0.3, seed: 7, ..law(Split::None) };
+        let count = 10_000;
+        let all: Vec<f64> = (0..count).map(|n| law.scattered([n % 100, n / 100])).collect();
+        let mean = all.iter().sum::<f64>() / count as f64;
+        let square = all.iter().map(|own| (own - mean).powi(2)).sum::<f64>() / count as f64;
+        assert!(all.iter().all(|own| (0.7..=1.3).contains(own)));
+        assert!(
+            (mean - 1.0).abs() < 0.01
+                && (square.sqrt() / (0.3 / 3.0_f64.sqrt()) - 1.0).abs() < 0.02
+        );
+    }
+}

@@ -1,0 +1,266 @@
+//! Loops over the elements of a section: forces, stiffness, the energy that drives damage, and sums.
+
+use super::section::{POINTS, Point, Section};
+use crate::laws::fracture::{Components, GradientDamage, PointResponse, degradation};
+use crate::math::nine_point::{Grid, NinePoint};
+use crate::runtime::parallel::Team;
+
+/// Rows of elements whose matrices are held at a time.
+const ROWS: usize = 16;
+
+/// A section of one material.
+#[derive(Debug, Clone)]
+pub struct Elements {
+    pub section: Section,
+    pub law: GradientDamage,
+    pub grid: Grid,
+}
+
+/// Nodal values at a moment.
+#[derive(Debug, Clone, Copy)]
+pub struct Nodal<'a> {
+    /// [m], both components of a node together.
+    pub displacement: &'a [f64],
+    /// [1]
+    pub damage: &'a [f64],
+    /// Temperature above the stress-free one [K].
+    pub rise: &'a [f64],
+}
+
+/// Energy of the points that cracks release [J/m³], element by element.
+pub type Released = Vec<[f64; POINTS]>;
+
+/// Sums over a section [J].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Energies {
+    pub elastic: f64,
+    pub dissipated: f64,
+}
+
+struct ElementForces {
+    forces: [f64; 8],
+    released: [f64; POINTS],
+    stiffness: Option<Box<[f64; 64]>>,
+}
+
+impl Elements {
+    pub fn new(section: Section, law: GradientDamage) -> Self {
+        Self { grid: section.grid(), section, law }
+    }
+
+    fn gather<const N: usize>(&self, element: [usize; 2], nodal: &[f64]) -> [f64; N] {
+        let width = N / 4;
+        let corners = self.grid.corners(element);
+        std::array::from_fn(|k| nodal[corners[k / width] * width + k % width])
+    }
+
+    /// Size of an element across a crack [m]: the geometric mean of its edges.
+    fn size(&self, element: [usize; 2]) -> f64 {
+        let [width, height] = self.section.size(element);
+        (width * height).sqrt()
+    }
+
+    /// Calls back for the points of an element with their responses.
+    fn each_point(
+        &self,
+        element: [usize; 2],
+        nodal: &Nodal,
+        mut visit: impl FnMut(usize, &Point, &PointResponse),
+    ) {
+        let u: [f64; 8] = self.gather(element, nodal.displacement);
+        let damage: [f64; 4] = self.gather(element, nodal.damage);
+        let rise: [f64; 4] = self.gather(element, nodal.rise);
+        for (q, point) in self.section.points(element).iter().enumerate() {
+            let thermal = self.law.expansion * point.interpolate(&rise);
+            let mut strain = point.strain(&u);
+            strain[..3].iter_mut().for_each(|strain| *strain -= thermal);
+            visit(q, point, &self.law.respond(strain, point.interpolate(&damage)));
+        }
+    }
+
+    fn respond(&self, element: [usize; 2], nodal: &Nodal, with_stiffness: bool) -> ElementForces {
+        let mut found = ElementForces {
+            forces: [0.0; 8],
+            released: [0.0; POINTS],
+            stiffness: with_stiffness.then(|| Box::new([0.0; 64])),
+        };
+        self.each_point(element, nodal, |q, point, response| {
+            found.released[q] = response.released;
+            let strains: [Components; 8] =
+                std::array::from_fn(|k| point.unit_strains(k / 2)[k % 2]);
+            for (force, strain) in found.forces.iter_mut().zip(&strains) {
+                *force += point.volume * dot(strain, &response.stress);
+            }
+            let Some(stiffness) = &mut found.stiffness else { return };
+            for (column, strain) in strains.iter().enumerate() {
+                let stress = response.tangent.map(|row| point.volume * dot(&row, strain));
+                for (row, strain) in strains.iter().enumerate() {
+                    stiffness[row * 8 + column] += dot(strain, &stress);
+                }
+            }
+        });
+        found
+    }
+
+    /// Computes nodal forces of the stresses [N] and the energy that cracks release; assembles the stiffness on request.
+    pub fn forces(
+        &self,
+        nodal: &Nodal,
+        mut stiffness: Option<&mut NinePoint<2>>,
+        team: &Team,
+    ) -> (Vec<f64>, Released) {
+        let [columns, rows] = self.grid.elements();
+        let mut forces = vec![0.0; 2 * self.grid.nodes()];
+        let mut released = Vec::with_capacity(columns * rows);
+        if let Some(matrix) = &mut stiffness {
+            matrix.clear();
+        }
+        let wants = stiffness.is_some();
+        // Computed on all threads, added in fixed order.
+        for first in (0..rows).step_by(ROWS) {
+            let found = team.map((rows - first).min(ROWS), |row| {
+                let of_row = (0..columns).map(|i| self.respond([i, first + row], nodal, wants));
+                of_row.collect::<Vec<_>>()
+            });
+            for (row, own) in found.iter().enumerate() {
+                for (i, element) in own.iter().enumerate() {
+                    let place = [i, first + row];
+                    for (a, node) in self.grid.corners(place).into_iter().enumerate() {
+                        forces[2 * node] += element.forces[2 * a];
+                        forces[2 * node + 1] += element.forces[2 * a + 1];
+                    }
+                    released.push(element.released);
+                    if let (Some(matrix), Some(own)) = (&mut stiffness, &element.stiffness) {
+                        matrix.add_element(place, &own[..]);
+                    }
+                }
+            }
+        }
+        (forces, released)
+    }
+
+    /// Assembles the conditions on damage under given energies: `A d = b` where nothing bounds it.
+    ///
+    /// The energy `(1 − d)²ψ + G_c/c_w (w/ℓ + ℓ|∇d|²)` is quadratic in d.
+    pub fn damage_system(
+        &self,
+        released: &Released,
+        matrix: &mut NinePoint<1>,
+        team: &Team,
+    ) -> Vec<f64> {
+        use crate::laws::fracture::Dissipation::{At1, At2};
+        let [columns, rows] = self.grid.elements();
+        matrix.clear();
+        let mut load = vec![0.0; self.grid.nodes()];
+        for first in (0..rows).step_by(ROWS) {
+            let found = team.map((rows - first).min(ROWS), |row| {
+                let of_element = |i: usize| {
+                    let place = [i, first + row];
+                    let [local, spread] = self.law.weights(self.size(place), place);
+                    let (mut own, mut b) = ([0.0; 16], [0.0; 4]);
+                    for (point, psi) in self
+                        .section
+                        .points(place)
+                        .iter()
+                        .zip(released[place[0] + columns * place[1]])
+                    {
+                        let (mass, pull) = match self.law.dissipation {
+                            At1 => (2.0 * psi, 2.0 * psi - local),
+                            At2 => (2.0 * (psi + local), 2.0 * psi),
+                        };
+                        for r in 0..4 {
+                            b[r] += point.volume * pull * point.shape[r];
+                            for c in 0..4 {
+                                let slopes = &point.slopes;
+                                let gradients =
+                                    slopes[0][r] * slopes[0][c] + slopes[1][r] * slopes[1][c];
+                                own[4 * r + c] += point.volume
+                                    * (mass * point.shape[r] * point.shape[c]
+                                        + 2.0 * spread * gradients);
+                            }
+                        }
+                    }
+                    (own, b)
+                };
+                (0..columns).map(of_element).collect::<Vec<_>>()
+            });
+            for (row, elements) in found.iter().enumerate() {
+                for (i, (own, b)) in elements.iter().enumerate() {
+                    let place = [i, first + row];
+                    matrix.add_element(place, own);
+                    for (node, b) in self.grid.corners(place).into_iter().zip(b) {
+                        load[node] += b;
+                    }
+                }
+            }
+        }
+        load
+    }
+
+    /// Energies of a moment [J].
+    pub fn energies(&self, nodal: &Nodal, team: &Team) -> Energies {
+        let sums = self.by_rows(team, |place, sum: &mut Energies| {
+            let damage: [f64; 4] = self.gather(place, nodal.damage);
+            let weights = self.law.weights(self.size(place), place);
+            self.each_point(place, nodal, |_, point, response| {
+                let own = point.interpolate(&damage);
+                let elastic = degradation(own) * response.released + response.remaining;
+                sum.elastic += point.volume * elastic;
+                let gradient = point.gradient(&damage);
+                sum.dissipated += point.volume * self.law.dissipated(weights, own, gradient);
+            });
+        });
+        sums.iter().fold(Energies::default(), |all, row| Energies {
+            elastic: all.elastic + row.elastic,
+            dissipated: all.dissipated + row.dissipated,
+        })
+    }
+
+    /// Work of the stress of a moment on a change of temperatures, `−∫ σ : α ΔT dV` [J].
+    pub fn thermal_work(&self, nodal: &Nodal, change: &[f64], team: &Team) -> f64 {
+        let sums = self.by_rows(team, |place, sum: &mut f64| {
+            let change: [f64; 4] = self.gather(place, change);
+            self.each_point(place, nodal, |_, point, response| {
+                let strain = self.law.expansion * point.interpolate(&change);
+                *sum -= point.volume * strain * response.stress[..3].iter().sum::<f64>();
+            });
+        });
+        sums.iter().sum()
+    }
+
+    /// Sums over the elements of each row.
+    fn by_rows<T: Default + Send>(
+        &self,
+        team: &Team,
+        add: impl Fn([usize; 2], &mut T) + Sync,
+    ) -> Vec<T> {
+        let [columns, rows] = self.grid.elements();
+        team.map(rows, |row| {
+            let mut sum = T::default();
+            (0..columns).for_each(|i| add([i, row], &mut sum));
+            sum
+        })
+    }
+
+    /// Stress at the nodes: means of the points of the elements around, by their volumes [Pa].
+    pub fn nodal_stress(&self, nodal: &Nodal) -> Vec<Components> {
+        let mut sums = vec![([0.0; 4], 0.0); self.grid.nodes()];
+        let [columns, rows] = self.grid.elements();
+        for place in (0..rows).flat_map(|j| (0..columns).map(move |i| [i, j])) {
+            let corners = self.grid.corners(place);
+            self.each_point(place, nodal, |q, point, response| {
+                // The nearest point of an element represents its corner.
+                let (stress, volume) = &mut sums[corners[q]];
+                *volume += point.volume;
+                for (sum, own) in stress.iter_mut().zip(&response.stress) {
+                    *sum += point.volume * own;
+                }
+            });
+        }
+        sums.into_iter().map(|(stress, volume)| stress.map(|sum| sum / volume)).collect()
+    }
+}
+
+fn dot(a: &Components, b: &Components) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]
+}

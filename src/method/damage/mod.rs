@@ -1,0 +1,35 @@
+//! Cracks as gradient damage: sections of solids that minimise elastic energy and that of cracks.
+
+mod balance;
+mod bounded;
+mod elements;
+mod problem;
+mod section;
+#[cfg(test)]
+mod tests;
+
+pub use elements::{Elements, Energies};
+pub use problem::{DamageProblem, DamageState, Effort};
+pub use section::{Form, Section};
+
+use crate::math::cholesky::SolverError;
+use crate::runtime::allowance::Halt;
+
+/// Reasons why a step failed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum DamageError {
+    #[error(
+        "no equilibrium at given damage: {residual:e} of the forces are left, where {tolerance:e} is wanted; loads may \
+         be more than the body bears once it is cracked (allowed: smaller loads, or supports that hold each part)"
+    )]
+    NoEquilibrium { residual: f64, tolerance: f64 },
+    #[error(
+        "{alternations} alternations of displacement and damage found no minimum of the energy: damage still changes \
+         by {change:.1e} (allowed: shorter communication steps, or smaller loads)"
+    )]
+    NoMinimum { alternations: usize, change: f64 },
+    #[error(transparent)]
+    Halted(#[from] Halt),
+    #[error(transparent)]
+    Solver(#[from] SolverError),
+}

@@ -1,0 +1,154 @@
+//! Damage and displacement of a section, from one state to the next.
+
+use super::DamageError;
+use super::balance::{Balance, Unknowns};
+use super::bounded::minimise;
+use super::elements::{Elements, Energies, Nodal};
+use crate::laws::fracture::Components;
+use crate::math::nine_point::{NinePoint, Padded};
+use crate::math::separable::dot;
+use crate::runtime::allowance::Allowance;
+use crate::runtime::parallel::Team;
+
+/// Largest number of alternations of a step.
+const MOST_ALTERNATIONS: usize = 3000;
+/// Change of damage in an alternation below which a step has converged, and part of the forces that may be left.
+const TOLERANCE: f64 = 1e-4;
+const TOLERANCE_OF_FORCES: f64 = 1e-4;
+/// Factor by which a change of damage is lengthened (P. E. Farrell & C. Maurini 2017, doi 10.1002/nme.5300).
+const RELAXATION: f64 = 1.6;
+
+/// Equilibrium of a section that cracks.
+pub struct DamageProblem {
+    pub elements: Elements,
+    unknowns: Unknowns,
+    threads: usize,
+}
+
+/// State of a section.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DamageState {
+    /// [m], both components of a node together.
+    pub displacement: Vec<f64>,
+    /// [1], 0 intact to 1 broken.
+    pub damage: Vec<f64>,
+    /// Temperature above the stress-free one [K].
+    pub rise: Vec<f64>,
+    /// Work that loads and thermal strain have done [J].
+    pub work: f64,
+}
+
+/// Effort of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Effort {
+    pub alternations: usize,
+    pub iterations: usize,
+    pub factorings: usize,
+}
+
+impl DamageProblem {
+    /// `held` marks prescribed displacements, both components of a node together.
+    pub fn new(elements: Elements, held: Vec<bool>, threads: usize) -> Self {
+        let unknowns = Unknowns::new(elements.grid, held);
+        Self { elements, unknowns, threads }
+    }
+
+    pub fn initial_state(&self) -> DamageState {
+        let nodes = self.elements.grid.nodes();
+        DamageState {
+            displacement: vec![0.0; 2 * nodes],
+            damage: vec![0.0; nodes],
+            rise: vec![0.0; nodes],
+            work: 0.0,
+        }
+    }
+
+    /// Advances a state to a minimum of the energy at nodal temperatures above the stress-free one [K] under nodal
+    /// forces [N], by alternating minimisation in displacement and damage. Displacements that are held have their values
+    /// already. After an error the state is unusable.
+    pub fn advance(
+        &self,
+        state: &mut DamageState,
+        (rise, forces): (&[f64], &[f64]),
+        allowance: &Allowance,
+    ) -> Result<Effort, DamageError> {
+        let team = Team::new(self.threads);
+        let before = state.clone();
+        let effort = self.minimise(state, (rise, forces), &team, allowance)?;
+        state.rise.copy_from_slice(rise);
+        state.work += self.work([&before, state], &team);
+        Ok(effort)
+    }
+
+    /// Work that loads and thermal strain do between two states [J], by their mean forces and stresses. Where a crack
+    /// jumps, these are those before and after it.
+    fn work(&self, [first, last]: [&DamageState; 2], team: &Team) -> f64 {
+        let moved: Vec<f64> =
+            first.displacement.iter().zip(&last.displacement).map(|(old, new)| new - old).collect();
+        let warmed: Vec<f64> = first.rise.iter().zip(&last.rise).map(|(a, b)| b - a).collect();
+        let of_state = |state: &DamageState| {
+            let (forces, _) = self.elements.forces(&state.nodal(), None, team);
+            dot(&forces, &moved) + self.elements.thermal_work(&state.nodal(), &warmed, team)
+        };
+        0.5 * (of_state(first) + of_state(last))
+    }
+
+    fn minimise(
+        &self,
+        state: &mut DamageState,
+        (rise, forces): (&[f64], &[f64]),
+        team: &Team,
+        allowance: &Allowance,
+    ) -> Result<Effort, DamageError> {
+        let mut balance = Balance::new(&self.elements, &self.unknowns, team, allowance);
+        let low = state.damage.clone();
+        let grid = self.elements.grid;
+        let mut matrix = NinePoint::<1>::zeros(grid);
+        let mut damage = Padded::<1>::zeros(grid);
+        damage.inner_mut().copy_from_slice(&state.damage);
+        let mut change = 1.0_f64;
+        for alternation in 1..=MOST_ALTERNATIONS {
+            let fields = (damage.inner(), rise);
+            let tolerance = TOLERANCE_OF_FORCES * (0.1 * change / TOLERANCE).clamp(1.0, 100.0);
+            let released = balance.settle(&mut state.displacement, fields, forces, tolerance)?;
+            let load = self.elements.damage_system(&released, &mut matrix, team);
+            let before = damage.inner().to_vec();
+            minimise(&matrix, &load, &low, &mut damage, 0.1 * TOLERANCE, team);
+            let moved = damage.inner().iter().zip(&before).map(|(new, old)| (new - old).abs());
+            change = moved.fold(0.0, f64::max);
+            if change <= TOLERANCE {
+                state.damage.copy_from_slice(damage.inner());
+                return Ok(Effort {
+                    alternations: alternation,
+                    iterations: balance.iterations,
+                    factorings: balance.factorings,
+                });
+            }
+            for ((d, old), low) in damage.inner_mut().iter_mut().zip(&before).zip(&low) {
+                *d = (old + RELAXATION * (*d - old)).clamp(*low, 1.0);
+            }
+        }
+        Err(DamageError::NoMinimum { alternations: MOST_ALTERNATIONS, change })
+    }
+
+    /// Energies of a state [J].
+    pub fn energies(&self, state: &DamageState) -> Energies {
+        self.elements.energies(&state.nodal(), &Team::new(self.threads))
+    }
+
+    /// Forces of the stresses on all nodes [N].
+    pub fn forces(&self, state: &DamageState) -> Vec<f64> {
+        self.elements.forces(&state.nodal(), None, &Team::new(self.threads)).0
+    }
+
+    /// Stress at the nodes [Pa].
+    pub fn stress(&self, state: &DamageState) -> Vec<Components> {
+        self.elements.nodal_stress(&state.nodal())
+    }
+}
+
+impl DamageState {
+    fn nodal(&self) -> Nodal<'_> {
+        Nodal { displacement: &self.displacement, damage: &self.damage, rise: &self.rise }
+    }
+}

@@ -1,0 +1,214 @@
+//! Checks bodies that crack: their material, their section, their mesh, and what cannot go with cracks.
+
+use super::{Checker, number};
+use crate::laws::Material;
+use crate::laws::fracture::{Cracking, Dissipation};
+use crate::laws::solid::Elasticity;
+use crate::scene::grid::lateral_extents;
+use crate::scene::locate::Path;
+use crate::scene::lookup::split_place;
+use crate::scene::types::{
+    Carries, CellShape, FaceName, HeatMethod, Mesh, PlaneSection, Shape, Solid,
+};
+
+pub fn check(checker: &mut Checker) {
+    for (name, solid) in checker.scene.solids() {
+        let path = Path::default().key("body").key(name);
+        if !solid.cracks() {
+            let message = "a plane section is of bodies that crack, and nothing cracks here";
+            let allowed = "no `section`, or a material with `fracture`";
+            checker.require(solid.section.is_none(), &path.at("section"), message, allowed);
+            continue;
+        }
+        for (place, material) in solid.materials(&path) {
+            constants(checker, &place, material, solid);
+        }
+        form(checker, &path, solid);
+        neighbours(checker, name, solid);
+        if solid.section.is_some() && matches!(solid.shape, Shape::Box(_)) {
+            conditions_of_section(checker, &path, solid);
+            loads_on_section(checker, name, solid);
+        }
+        mesh(checker, &path.at("mesh"), solid);
+    }
+}
+
+/// Checks the constants of a material that cracks.
+fn constants(checker: &mut Checker, path: &Path, material: &Material, solid: &Solid) {
+    let Some(cracking) = material.fracture.cracking else {
+        let message = "another part of the body cracks";
+        checker.refuse(path, message, "one material, without layers");
+        return;
+    };
+    let own = path.key("fracture");
+    sizes(checker, &own, &cracking);
+    let is_known = cracking.energy.is_some() || material.fracture.toughness.is_some();
+    let message = "neither the energy of cracks nor a toughness, from which it follows, is known";
+    let allowed = "`energy = …` (J/m²), or `toughness = …` (Pa √m) of the material";
+    checker.require(is_known, &own, message, allowed);
+    let is_plane = solid.section != Some(PlaneSection::PlaneStress);
+    let fine = is_plane || cracking.split.suits_plane_stress();
+    let message = "this split is not defined in plane stress";
+    checker.require(fine, &own.at("split"), message, "none, no_tension, or plane_strain");
+    let law = material.law.deformation();
+    let is_linear = law.is_linear();
+    let message = "a body that cracks is thermoelastic with constants: nothing yields, relaxes or depends on the \
+                   temperature";
+    checker.require(
+        is_linear,
+        &own,
+        message,
+        "model = \"thermoelastic\" without tables, or no `fracture`",
+    );
+    if law.needs().is_empty() {
+        super::material::needs(checker, path, material, Elasticity::needs("the body cracks"));
+    }
+    let message = "cracks take the place of a probability of failure";
+    let fine = material.fracture.weibull.is_none();
+    checker.require(fine, &path.key("weibull"), message, "either `weibull` or `fracture`");
+}
+
+/// Requires one of strength and length.
+fn sizes(checker: &mut Checker, path: &Path, cracking: &Cracking) {
+    const EITHER: &str = "`strength = …` (Pa) or `length = …` (m)";
+    match (cracking.strength, cracking.length) {
+        (None, None) => checker.refuse(path, "neither strength nor length is known", EITHER),
+        (Some(_), Some(_)) => {
+            let message = "the length follows from the strength";
+            checker.refuse(&path.key("length"), message, EITHER);
+        }
+        _ => {}
+    }
+}
+
+/// Checks the body as a whole.
+fn form(checker: &mut Checker, path: &Path, solid: &Solid) {
+    let message = "a body of layers does not crack";
+    let fine = solid.layers.is_none();
+    checker.require(fine, &path.key("layers"), message, "one `material`, or no `fracture`");
+    let message = "particles conduct heat in bodies that do not crack";
+    let fine = solid.heat == HeatMethod::Fem;
+    checker.require(fine, &path.key("heat"), message, "fem, or no `fracture`");
+    match (solid.shape, solid.section) {
+        (Shape::Disc(_), Some(_)) => {
+            let message = "a disc cracks in its meridian section";
+            checker.refuse(&path.key("section"), message, "nothing");
+        }
+        (Shape::Box(_), None) => {
+            let message = "a box cracks in a plane section only, and none is chosen";
+            let allowed = "plane_strain, plane_stress; or a disc, or no `fracture`";
+            checker.refuse(&path.key("section"), message, allowed);
+        }
+        _ => {}
+    }
+}
+
+/// Refuses flaws in a body that cracks, and bodies in contact with a plane section.
+fn neighbours(checker: &mut Checker, name: &str, solid: &Solid) {
+    let list = |key: &str, i: usize| Path::default().key(key).index(i);
+    for (i, flaw) in checker.scene.flaw.iter().enumerate() {
+        let message = format!(
+            "`{name}` cracks, and the stress around a flaw is that of a body without cracks"
+        );
+        let allowed = "a flaw in a body without `fracture`";
+        checker.require(flaw.body != name, &list("flaw", i).at("in"), message, allowed);
+    }
+    if solid.section.is_none() {
+        return;
+    }
+    for (i, coupling) in checker.scene.coupling.iter().enumerate() {
+        let touches = |place: &str| split_place(place).is_some_and(|(body, _)| body == name);
+        let fine = !touches(&coupling.from) && !touches(&coupling.to);
+        let message =
+            format!("nothing varies along y in the section `{name}`, which no other body touches");
+        let allowed = "loads and conditions on its faces, or a disc";
+        checker.require(fine, &list("coupling", i), message, allowed);
+    }
+}
+
+/// Refuses conditions that vary along y, or at the ends of y.
+fn conditions_of_section(checker: &mut Checker, path: &Path, solid: &Solid) {
+    for &face in solid.faces.keys() {
+        let is_across = matches!(face, FaceName::Front | FaceName::Back | FaceName::Sides);
+        let path = path.at("faces").key(face.as_str());
+        let message =
+            "nothing varies along y in a plane section, whose front and back are its planes";
+        checker.require(!is_across, &path, message, "left, right, top, bottom");
+    }
+}
+
+/// Refuses loads that vary along y.
+fn loads_on_section(checker: &mut Checker, name: &str, solid: &Solid) {
+    let [_, width] = lateral_extents(&solid.shape);
+    for (i, load) in checker.scene.load.iter().enumerate() {
+        if split_place(&load.on).is_none_or(|(body, _)| body != name) {
+            continue;
+        }
+        let path = Path::default().key("load").index(i);
+        let is_across = match load.footprint.cells() {
+            Some(CellShape::Tiles([_, 1])) => {
+                let half = load.footprint.half_extents(None);
+                (2.0 * half[1] - width).abs() <= super::SLACK * width
+            }
+            _ => false,
+        };
+        let message = "a load on a plane section does not vary along y";
+        let allowed = format!("{{ tiles = {{ count = [n, 1], size = […, {}] }} }}", number(width));
+        checker.require(is_across, &path.at("footprint"), message, allowed);
+        let fine = load.start.y.is_none_or(|y| y == 0.0) && load.range.y.is_none();
+        let message = "a load on a plane section does not move along y";
+        checker.require(fine, &path.at("range"), message, "`range` along x");
+        let place = load.carries.iter().position(|carried| *carried == Carries::Shear);
+        if let Some(place) = place {
+            let message =
+                "shear has a component along y, to which a plane section does not respond";
+            checker.refuse(&path.at("carries").index(place), message, "heat_flux, power, pressure");
+        }
+    }
+}
+
+/// Largest number of nodes of a section.
+const MOST_NODES: f64 = 4e6;
+
+/// Requires a mesh that resolves the length of damage.
+fn mesh(checker: &mut Checker, path: &Path, solid: &Solid) {
+    let keys = &solid.mesh;
+    let message = "a body that cracks has bilinear elements";
+    checker.require(keys.order.is_none_or(|order| order == 1), &path.at("order"), message, "1");
+    let message = "cracks may run anywhere, so that all elements of the body are of one size";
+    let fine = keys.growth.is_none_or(|growth| growth == 1.0);
+    checker.require(fine, &path.at("growth"), message, "1.0, or nothing");
+    let Some(law) = solid.damage() else { return };
+    let limit = law.length / Mesh::NODES_PER_LENGTH;
+    let [x, _] = lateral_extents(&solid.shape);
+    let extents = [x, solid.shape.thickness()];
+    let counts = extents.map(|extent| Mesh::elements_of_cracks(extent, limit));
+    let given = [("spacing", keys.spacing), ("depth_spacing", keys.depth_spacing)];
+    for (key, spacing) in given {
+        let fine = spacing.is_none_or(|spacing| Mesh::resolves_cracks(spacing, law.length));
+        let message = format!(
+            "nodes are too far apart for damage, which spreads over {}",
+            number(law.length)
+        );
+        let allowed = format!(
+            "at most {}, a third of it: {} elements along the surface, {} through the thickness",
+            number(limit),
+            counts[0],
+            counts[1]
+        );
+        checker.require(fine, &path.at(key), message, allowed);
+    }
+    let spacing = keys.spacing_of_cracks(law.length);
+    let nodes = [0, 1].map(|axis| extents[axis] / spacing[axis] + 1.0);
+    let nodes = nodes[0] * nodes[1];
+    let fine = nodes <= MOST_NODES;
+    let model = match law.dissipation {
+        Dissipation::At1 => "AT1",
+        Dissipation::At2 => "AT2",
+    };
+    let message =
+        format!("{} nodes resolve cracks of length {}", number(nodes.round()), number(law.length));
+    let allowed =
+        format!("at most {MOST_NODES:.0e}: a smaller body, or a larger `length` of {model}");
+    checker.require(fine, path, message, allowed);
+}

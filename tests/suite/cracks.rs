@@ -1,0 +1,164 @@
+//! Cracks that run: strength, energy and place, sections against bodies without cracks, states, and warnings.
+
+use impinge::advice::parse_with_warnings;
+
+use crate::common::{Trial, off};
+
+const YOUNG: f64 = 340e9;
+const EXPANSION: f64 = 8e-6;
+const START: f64 = 600.0;
+
+/// A material that cracks at 300 MPa, with keys of its `fracture`.
+fn alumina(fracture: &str) -> String {
+    format!(
+        "material = {{ model = \"thermoelastic\", density = 3980.0, specific_heat = 880.0, conductivity = 31.0, \
+         young = {YOUNG}, poisson = 0.22, expansion = {EXPANSION}{fracture} }}"
+    )
+}
+
+fn scene(shape: &str, material: &str, faces: &str, more: &str) -> String {
+    format!(
+        "name = \"Cracks\"\nstop_time = 10.0\nstep = 1.0\n[body.plate]\nkind = \"solid\"\n{shape}\n\
+         initial_temperature = {START}\n{material}\n[body.plate.faces]\n{faces}\n{more}\n"
+    )
+}
+
+const STRIP: &str = "shape = { box = [1e-3, 1e-3, 0.4e-3] }\nsection = \"plane_stress\"";
+const HELD: &str = "left = { roller = true }\nright = { roller = true }\n\
+                    bottom = { temperature = 600.0, roller = true }\ntop = { temperature = 600.0 }";
+const AT1: &str =
+    ", fracture = { model = \"at1\", strength = 300e6, energy = 45.0, scatter = 0.04 }";
+
+/// A strip between rollers, and the drop of temperature that stresses it to a part of its strength [K].
+fn held_strip() -> (Trial, impl Fn(f64) -> f64) {
+    (Trial::new(&scene(STRIP, &alumina(AT1), HELD, "")), |part| part * 300e6 / (YOUNG * EXPANSION))
+}
+
+fn cool(trial: &mut Trial, drop: f64) {
+    trial.set("plate.top.temperature", START - drop);
+    trial.set("plate.bottom.temperature", START - drop);
+    trial.step(1.0);
+}
+
+#[test]
+fn held_strip_breaks_at_its_strength() {
+    let (mut trial, drop) = held_strip();
+    cool(&mut trial, drop(0.95));
+    let volume = 1e-3 * 1e-3 * 0.4e-3;
+    let stress = 0.95 * 300e6;
+    let elastic = 0.5 * stress * stress / YOUNG * volume;
+    assert_eq!(trial.get("plate.max_damage"), 0.0);
+    assert!(off(trial.get("plate.elastic_energy"), elastic) < 1e-3);
+    assert!(off(trial.get("plate.mechanical_work"), elastic) < 1e-3);
+    assert!(off(trial.get("plate.max_principal"), stress) < 1e-3);
+    cool(&mut trial, drop(1.04));
+    assert!(trial.get("plate.max_damage") > 0.99);
+    let length = trial.get("plate.crack_length");
+    assert!(off(length, 0.4e-3) < 0.1, "{length}");
+    assert!(off(trial.get("plate.crack_area"), length * 1e-3) < 1e-12);
+    assert!(off(trial.get("plate.dissipated_energy"), 45.0 * length * 1e-3) < 1e-12);
+    assert!(trial.get("plate.elastic_energy") < 0.05 * elastic);
+}
+
+/// A body far from breaking, cooled from the top.
+fn uneven(shape: &str, faces: &str, fracture: &str, more: &str) -> Trial {
+    let mut trial = Trial::new(&scene(shape, &alumina(fracture), faces, more));
+    trial.set("plate.top.temperature", START - 20.0);
+    trial.step(2e-3);
+    trial
+}
+
+const STRONG: &str = ", fracture = { model = \"at1\", length = 60e-6, energy = 15e3 }";
+const PROBE: &str = "[[probe]]\nname = \"p\"\nin = \"plate\"\nat = [1e-4, 0.0, -1e-4]\n\
+                     gives = [\"stress\", \"displacement\", \"temperature\"]";
+
+/// Largest difference of readings over the largest stress, displacement and change of temperature.
+fn difference(one: &mut Trial, other: &mut Trial, names: [&[&str]; 3]) -> f64 {
+    let mut of_kind = |names: &[&str], base: f64| {
+        let pairs = names.iter().map(|name| [one.get(name), other.get(name)]);
+        let pairs: Vec<_> = pairs.collect();
+        let largest = pairs.iter().map(|pair| (pair[1] - base).abs()).fold(0.0, f64::max);
+        pairs.iter().map(|[a, b]| (a - b).abs()).fold(0.0, f64::max) / largest
+    };
+    let parts = [of_kind(names[0], 0.0), of_kind(names[1], 0.0), of_kind(names[2], START)];
+    parts.into_iter().fold(0.0, f64::max)
+}
+
+#[test]
+fn intact_section_is_the_box_between_rollers() {
+    let faces =
+        "top = { temperature = 600.0 }\nbottom = { roller = true }\nleft = { roller = true }";
+    let shape = "shape = { box = [1e-3, 0.5e-3, 0.4e-3] }";
+    let section = format!("{shape}\nsection = \"plane_strain\"");
+    let walls = format!("{faces}\nfront = {{ roller = true }}\nback = {{ roller = true }}");
+    let whole = format!("{shape}\nsymmetry = \"none\"\nmesh = {{ spacing = 20e-6 }}");
+    let mut section = uneven(&section, faces, STRONG, PROBE);
+    let mut whole = uneven(&whole, &walls, "", PROBE);
+    let names: [&[&str]; 3] = [
+        &["p.stress_xx", "p.stress_yy", "p.stress_zz", "p.stress_xz", "p.stress_xy"],
+        &["p.displacement_x", "p.displacement_y", "p.displacement_z"],
+        &["p.temperature"],
+    ];
+    let found = difference(&mut section, &mut whole, names);
+    assert!(found < 0.02, "{found}");
+    assert_eq!(section.get("plate.max_damage"), 0.0);
+}
+
+#[test]
+fn intact_disc_is_the_disc_that_does_not_crack() {
+    let faces = "top = { temperature = 600.0 }\nbottom = { roller = true }";
+    let shape = "shape = { disc = { radius = 0.6e-3, thickness = 0.4e-3 } }";
+    let mut cracking = uneven(shape, faces, STRONG, PROBE);
+    let mut usual = uneven(&format!("{shape}\nmesh = {{ spacing = 20e-6 }}"), faces, "", PROBE);
+    let names: [&[&str]; 3] = [
+        &["p.stress_xx", "p.stress_yy", "p.stress_zz", "p.stress_xz"],
+        &["p.displacement_x", "p.displacement_z"],
+        &["p.temperature"],
+    ];
+    let found = difference(&mut cracking, &mut usual, names);
+    assert!(found < 0.02, "{found}");
+}
+
+#[test]
+fn states_and_threads_leave_no_bit_changed() {
+    let text = scene(STRIP, &alumina(AT1), HELD, "");
+    let drop = |part: f64| part * 300e6 / (YOUNG * EXPANSION);
+    let parts = [0.9, 1.04];
+    let run = |threads: usize, restarts: bool| {
+        let mut trial = Trial::on_threads(&text, threads);
+        for part in parts {
+            if restarts {
+                let saved = trial.state.clone();
+                cool(&mut trial, drop(part));
+                trial.restart(&saved);
+            }
+            cool(&mut trial, drop(part));
+        }
+        ["plate.crack_length", "plate.mechanical_work", "plate.max_principal"]
+            .map(|name| trial.get(name).to_bits())
+    };
+    let usual = run(1, false);
+    assert_eq!(run(3, false), usual);
+    assert_eq!(run(1, true), usual);
+}
+
+#[test]
+fn damage_never_heals_and_closed_cracks_bear_pressure() {
+    let (mut trial, drop) = held_strip();
+    cool(&mut trial, drop(1.04));
+    let area = trial.get("plate.crack_area");
+    assert!(trial.get("plate.max_damage") > 0.99);
+    cool(&mut trial, -drop(1.0));
+    assert!(trial.get("plate.crack_area") >= area);
+    // As an intact strip would be stressed by the same heat.
+    let stress = trial.get("plate.elastic_energy") * 2.0 * YOUNG / (1e-3 * 1e-3 * 0.4e-3);
+    assert!(off(stress.sqrt(), 300e6) < 0.01, "{}", stress.sqrt());
+}
+
+#[test]
+fn damage_as_wide_as_the_body_is_warned_of() {
+    let wide = alumina(", fracture = { model = \"at2\", length = 0.2e-3, energy = 15.0 }");
+    let (_, warnings) = parse_with_warnings(&scene(STRIP, &wide, HELD, ""), "scene").unwrap();
+    let ids: Vec<_> = warnings.iter().map(|warning| warning.finding().id).collect();
+    assert_eq!(ids, ["damage_wider_than_body"]);
+}
