@@ -51,6 +51,7 @@ COARSE = {
         "\nspacing = 3e-6": "\nspacing = 8e-6",
         "spacing = 3e-5, depth_spacing = 5e-6": "spacing = 6e-5, depth_spacing = 1e-5",
     },
+    "quench_cracks": {"strength = 180e6": "strength = 80e6"},
     "tin_drop": {"\nspacing = 60e-6": "\nspacing = 200e-6"},
 }
 # Fields of examples that have hundreds of points.
@@ -60,6 +61,7 @@ GRIDS = {
     "moving_spot": {"grid = [32, 20]": "grid = [4, 2]"},
     "printed_line": {"grid = [48, 16]": "grid = [4, 2]"},
     "printer_control": {"grid = [40, 12]": "grid = [4, 2]"},
+    "quench_cracks": {"grid = [144, 48]": "grid = [4, 2]"},
 }
 
 
