@@ -2,9 +2,9 @@
 
 AT1 without tension, plane strain, bilinear elements with four points. Displacement and damage are
 minimised in turn, changes of damage lengthened by 1.6 (P. E. Farrell & C. Maurini 2017, doi
-10.1002/nme.5300), until damage changes by less than 1e-4. Displacements follow from Newton's method,
-damage from an active set between its last value and 1; both with direct solvers, PARDISO if there
-is pypardiso.
+10.1002/nme.5300), until damage changes by less than 1e-4. Displacements follow from Newton's
+method, damage from an active set between its last value and 1; both with direct solvers, PARDISO if
+there is pypardiso.
 
     python tests/verification/cracks_peer.py [NODES PER LENGTH] [STEPS]
 
@@ -75,7 +75,7 @@ def remaining(principal):
 
 
 def respond(strain, damage):
-    """Stress and tangent in xx, zz, yy, xz with engineering shear, and the energy that cracks free."""
+    """Stress and tangent in xx, zz, yy, xz with engineering shear, and the energy set free."""
     along, across, third, shear = strain
     mean, half = (along + across) / 2, (along - across) / 2
     radius = np.sqrt(half**2 + shear**2 / 4)
