@@ -59,6 +59,7 @@ COARSE = {
         "faces.right = { clamped = true }\n\n[material",
     },
     "thermostat_strip": {"spacing = 0.2e-3": "spacing = 0.8e-3"},
+    "quench_cracks": {"strength = 180e6": "strength = 80e6"},
     "tin_drop": {"\nspacing = 60e-6": "\nspacing = 200e-6"},
 }
 # Fields of examples that have hundreds of points.
@@ -68,6 +69,7 @@ GRIDS = {
     "moving_spot": {"grid = [32, 20]": "grid = [4, 2]"},
     "printed_line": {"grid = [48, 16]": "grid = [4, 2]"},
     "printer_control": {"grid = [40, 12]": "grid = [4, 2]"},
+    "quench_cracks": {"grid = [144, 48]": "grid = [4, 2]"},
 }
 
 

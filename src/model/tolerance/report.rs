@@ -59,7 +59,7 @@ pub fn estimate(scene: &Scene, name: &str) -> BodyEstimate {
     let mut found =
         BodyEstimate { body: name.to_owned(), outputs: Vec::new(), notes: Vec::new(), stuck: None };
     if scene.meshed(name).is_none() {
-        found.notes.push("no estimate: particles conduct the heat, or the body cracks".to_owned());
+        found.notes.push("no estimate: the body cracks, or particles conduct its heat".to_owned());
         return found;
     }
     let is_touched = |place: &str| place.rsplit_once('.').is_some_and(|(body, _)| body == name);
