@@ -52,6 +52,7 @@ COARSE = {
         "spacing = 3e-5, depth_spacing = 5e-6": "spacing = 6e-5, depth_spacing = 1e-5",
     },
     "tin_drop": {"\nspacing = 60e-6": "\nspacing = 200e-6"},
+    "wax_line": {"mesh = { spacing = 0.8e-3 }": "mesh = { spacing = 1e-3, order = 1 }"},
 }
 # Fields of examples that have hundreds of points.
 GRIDS = {
@@ -60,6 +61,7 @@ GRIDS = {
     "moving_spot": {"grid = [32, 20]": "grid = [4, 2]"},
     "printed_line": {"grid = [48, 16]": "grid = [4, 2]"},
     "printer_control": {"grid = [40, 12]": "grid = [4, 2]"},
+    "wax_line": {"grid = [60, 45]": "grid = [4, 3]"},
 }
 
 
