@@ -61,6 +61,7 @@ COARSE = {
     "thermostat_strip": {"spacing = 0.2e-3": "spacing = 0.8e-3"},
     "quench_cracks": {"strength = 180e6": "strength = 80e6"},
     "tin_drop": {"\nspacing = 60e-6": "\nspacing = 200e-6"},
+    "wax_line": {"mesh = { spacing = 0.8e-3 }": "mesh = { spacing = 1e-3, order = 1 }"},
 }
 # Fields of examples that have hundreds of points.
 GRIDS = {
@@ -70,6 +71,7 @@ GRIDS = {
     "printed_line": {"grid = [48, 16]": "grid = [4, 2]"},
     "printer_control": {"grid = [40, 12]": "grid = [4, 2]"},
     "quench_cracks": {"grid = [144, 48]": "grid = [4, 2]"},
+    "wax_line": {"grid = [60, 45]": "grid = [4, 3]"},
 }
 
 

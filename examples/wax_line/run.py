@@ -17,11 +17,10 @@ from impinge import Unit  # noqa: E402
 
 NAME = "wax_line"
 CORNERS = np.array([[-14e-3, -8e-3], [10e-3, -8e-3], [10e-3, 10e-3]])  # m
-SPEED, SLOW, ACCELERATION = 20e-3, 2e-3, 0.02  # m/s, m/s at corners, m/s²
+SPEED, SLOW, ACCELERATION = 20e-3, 2e-3, 0.05  # m/s, m/s at corners, m/s²
 SECTION = 0.45e-6  # m², of the strand
 STEP, AFTER = 0.05, 1.5  # s, longest step, and time without flow in the end
 READ = {
-    "width": "ink.last_width",
     "deviation": "ink.largest_deviation",
     "frozen": "ink.solid_fraction",
     "stress": "corner.max_principal",
@@ -142,9 +141,19 @@ def simulate(fmu: Path, folder: Path, plan: Plan) -> dict[str, np.ndarray]:
     }
 
 
-def outlines(folder: Path) -> list[np.ndarray]:
-    """Rectangles of the segments [mm], from the last ParaView file of the strand."""
-    arrays = paraview.read(list(paraview.files(folder, "ink").values())[-1])
+def strand(folder: Path) -> dict[str, np.ndarray]:
+    """The segments of the last ParaView file of a run."""
+    return paraview.read(list(paraview.files(folder, "ink").values())[-1])
+
+
+def widths(arrays: dict[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """Distance along the strand and its width [mm]."""
+    steps = np.linalg.norm(np.diff(arrays["position"][:, :2], axis=0), axis=1)
+    return 1e3 * np.r_[0.0, np.cumsum(steps)], 1e3 * arrays["width"]
+
+
+def outlines(arrays: dict[str, np.ndarray]) -> list[np.ndarray]:
+    """Rectangles of the segments [mm]."""
     middle, width = 1e3 * arrays["position"][:, :2], 1e3 * arrays["width"]
     volume = 1e9 * arrays["mass"] / arrays["density"]
     length = volume / (width * 2e3 * arrays["position"][:, 2])
@@ -162,22 +171,23 @@ def draw(runs: dict, folder: Path, out: Path) -> Path:
         image = shared.show_field(
             panel, runs[name]["laid"], (40.0, 30.0), cmap="inferno", vmin=20.0, vmax=45.0
         )
-        style = {"facecolors": "none", "edgecolors": "white", "linewidths": 0.7}
-        panel.add_collection(PolyCollection(outlines(folder / name), **style))
+        style = {"facecolors": "none", "edgecolors": "white", "linewidths": 0.5}
+        panel.add_collection(PolyCollection(outlines(strand(folder / name)), **style))
         panel.plot(*(1e3 * CORNERS.T), color="#59c3ff", linewidth=1.0, linestyle=(0, (4, 3)))
         panel.set(title=plan.title, xlim=(-16, 16), ylim=(-12, 12), xlabel="x / mm")
     axes[0, 0].set_ylabel("y / mm")
     shared.add_colour_bar(image, "glass at the end of the path / °C")
     for (name, plan), colour in zip(PLANS.items(), shared.COLOURS, strict=False):
         run = runs[name]
-        axes[1, 0].plot(run["time"], run["width"] * 1e3, color=colour, label=plan.title)
+        axes[1, 0].plot(*widths(strand(folder / name)), color=colour, label=plan.title)
         axes[1, 1].plot(run["time"], run["stress"] * 1e-6, color=colour)
         axes[1, 2].plot(run["time"], run["frozen"] * 100, color=colour)
     axes[1, 0].legend(fontsize=9)
     axes[1, 0].set_ylim(bottom=0.0)
-    titles = ["width at the nozzle / mm", "tension of the glass at the corner / MPa", "frozen / %"]
+    titles = ["final width / mm", "tension of the glass at the corner / MPa", "frozen / %"]
     for panel, title in zip(axes[1], titles, strict=True):
         panel.set(title=title, xlabel="t / s")
+    axes[1, 0].set_xlabel("along the strand / mm")
     return shared.save(figure, out, NAME)
 
 
@@ -193,7 +203,7 @@ def main(given: list[str] | None = None) -> dict:
             [
                 plan.title,
                 f"{runs[name]['deviation'].max() * 1e3:.2f} mm",
-                f"{runs[name]['width'].max() * 1e3:.2f} mm",
+                f"{widths(strand(folder / name))[1].max():.2f} mm",
                 f"{runs[name]['totals']['width'] * 1e3:.2f} mm",
                 f"{runs[name]['totals']['gap'] * 1e3:.2f} mm",
                 f"{runs[name]['frozen'][-1] * 100:.0f} %",

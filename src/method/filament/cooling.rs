@@ -2,10 +2,10 @@
 //!
 //! A segment is a column of layers, each a fixed share of its volume, thinnest at its lower side. Each has a heat
 //! content, and heat passes between their middles and from the lowest to what lies below. A step is implicit in the
-//! temperatures, `C c' + Δt G T(c') = C c + …`. T is linear in c piece by piece, and Newton's method goes from kink to kink,
-//! which always ends (J. Katzenelson 1965, doi 10.1002/j.1538-7305.1965.tb04195.x). Fluxes follow
-//! from the temperatures found, so that heat balances however exact these are. A layer that is freezing has the front
-//! inside and conducts with the mean of both phases.
+//! temperatures, `C c' + Δt G T(c') = C c + …`. T is linear in c piece by piece, and Newton's method goes from kink to
+//! kink, which always ends (J. Katzenelson 1965, doi 10.1002/j.1538-7305.1965.tb04195.x). Fluxes follow from the
+//! temperatures found, so that heat balances however exact these are. A layer that is freezing has the front inside and
+//! conducts with the mean of both phases.
 
 use std::f64::consts::PI;
 

@@ -167,8 +167,7 @@ impl Line {
             self.settled(strand, start, (strand.len(), begin[2]))
         };
         let open = last.unwrap_or_else(next);
-        let swift = velocity[0].hypot(velocity[1]).max(SLOW * speed);
-        let thickness = (piece.volume / (duration * swift)).sqrt();
+        let thickness = self.thickness(strand, velocity[0].hypot(velocity[1]), speed);
         let free = (end[2] - open.base - thickness).max(0.0);
         let touch = touchdown(strand.touch, [begin, end], (duration, 0.5 * free / speed));
         let path = (touch[0] - open.end[0]).hypot(touch[1] - open.end[1]);
@@ -202,6 +201,15 @@ impl Line {
         let mass = self.plan.fluid.density * piece.volume;
         let impulse = [velocity[0], velocity[1], velocity[2] - speed].map(|part| mass * part);
         Ok(Arrival { segment: index, impulse })
+    }
+
+    /// Height at which fluid touches down [m], at the speeds of the nozzle and of the fluid in it: that of a strand as wide
+    /// as high, or of the segment below a nozzle that hardly moves.
+    fn thickness(&self, strand: &Strand, swift: f64, speed: f64) -> f64 {
+        match strand.segments().next_back() {
+            Some(last) if swift < SLOW * speed => last.height(),
+            _ => (self.plan.outlet() * speed / swift.max(SLOW * speed)).sqrt(),
+        }
     }
 
     fn check_piece(&self, strand: &Strand, height: f64, temperature: f64) -> Result<(), Failure> {
