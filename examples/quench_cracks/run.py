@@ -43,7 +43,7 @@ def simulate(fmu: Path, drop: float, steps: int) -> Run:
 
 def count(damage: np.ndarray) -> int:
     """Cracks that pass below the top, in the quarter."""
-    row = damage[:, round(damage.shape[1] * (1 - BELOW / DEPTH))] > CRACKED
+    row = damage[:, int(damage.shape[1] * (1 - BELOW / DEPTH))] > CRACKED
     return int(np.sum(row[1:] & ~row[:-1])) + int(row[0])
 
 
