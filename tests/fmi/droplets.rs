@@ -346,8 +346,7 @@ fn strands_that_cannot_be_laid_are_refused_and_change_nothing() {
     }
     assert_eq!(unit.set("ink.flow", -1e-9), ERROR);
     unit.expect_message(ERROR, &["ink.flow"]);
-    for (flow, rate, words) in
-        [(1.0, 0.0, "more than `most`"), (1e-8, -1.0, "must be at least 0")]
+    for (flow, rate, words) in [(1.0, 0.0, "more than `most`"), (1e-8, -1.0, "must be at least 0")]
     {
         let (before, state) = (unit.snapshot(), unit.save());
         assert_eq!(unit.set("ink.flow", flow), OK);

@@ -51,7 +51,7 @@ fn run(text: &str, steps: usize) -> Trial {
 #[test]
 fn balances_close_for_all_fluids() {
     let air = "convection = { coefficient = 30.0, ambient = 300.0 }";
-    // Elements wider than the strand have up to a third of the range too much below it on poor conductors.
+    // The even flux below a segment makes poor conductors too warm in its middle.
     for (fluid, temperature, material) in [
         (WAX, 343.0, "soda-lime-glass"),
         (WAX, 343.0, "copper"),
@@ -127,7 +127,8 @@ fn strands_in_air_cool_as_lumps() {
 /// Inputs with derivatives move the nozzle as the table of the same path does, in steps of any length.
 #[test]
 fn inputs_follow_polynomials() {
-    let table = line(WAX, 343.0, "soda-lime-glass", "").replace("height = 0.7e-3", "height = 0.6e-3");
+    let table =
+        line(WAX, 343.0, "soda-lime-glass", "").replace("height = 0.7e-3", "height = 0.6e-3");
     let path = "{ time = [0.0, 0.5, 1.0], x = [-5e-3, 5e-3, 5e-3], y = [-2e-3, -2e-3, 3e-3] }";
     assert!(table.contains(path));
     let by_inputs = table.replace(path, "\"input\"");

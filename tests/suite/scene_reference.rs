@@ -327,7 +327,8 @@ fn the_reference_has_every_key_and_no_other() {
     let is_read = |key: &String| {
         let with = format!("path = {{ {key} = [0.0, 1.0, 2.0], ");
         let own = FILAMENT.lines().find(|line| line.starts_with("path")).unwrap();
-        own.contains(&format!("{key} = ")) || parse(&FILAMENT.replace("path = { ", &with), "").is_ok()
+        own.contains(&format!("{key} = "))
+            || parse(&FILAMENT.replace("path = { ", &with), "").is_ok()
     };
     assert!(path.len() == 4 && path.iter().all(is_read), "{path:?}");
     assert_eq!(text.matches("\n## ").count(), SECTIONS.len() + 3, "a section is not compared");
