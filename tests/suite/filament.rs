@@ -51,7 +51,7 @@ fn run(text: &str, steps: usize) -> Trial {
 #[test]
 fn balances_close_for_all_fluids() {
     let air = "convection = { coefficient = 30.0, ambient = 300.0 }";
-    // Elements wider than the strand have up to a third of the range too much below it on poor conductors.
+    // The even flux below a segment makes poor conductors too warm in its middle.
     for (fluid, temperature, material) in [
         (WAX, 343.0, "soda-lime-glass"),
         (WAX, 343.0, "copper"),

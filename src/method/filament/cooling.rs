@@ -133,7 +133,7 @@ impl Heat {
     ) -> [f64; 2] {
         let old = self.contents(heats, column.volume);
         let links = self.links(&old, column, around);
-        let to_air = self.to_air(column, duration, around);
+        let to_air = self.air_links(column, duration, around);
         let contents = self.solve(&old, column, duration, &links, (around, &to_air));
         let temperatures = contents.map(|content| self.temperature(content));
         let down = duration * links[0] * (temperatures[0] - around.below);
@@ -168,7 +168,7 @@ impl Heat {
     }
 
     /// Conductances from each layer to the air [W/K], with which an implicit step of a lump is exact.
-    fn to_air(&self, column: Column, duration: f64, around: &Surroundings) -> [f64; LAYERS] {
+    fn air_links(&self, column: Column, duration: f64, around: &Surroundings) -> [f64; LAYERS] {
         let all = around.above + around.aside;
         let ratio = duration * all / self.capacity(column.volume);
         let ratio = ratio.min(LARGEST_RATIO);
