@@ -19,8 +19,8 @@ fn with_prefix(value: f64, unit: &str, digits: usize) -> String {
     let (digits, exponent) = scientific(value, digits);
     let fitting = PREFIXES.iter().find(|(_, power)| (0..3).contains(&(exponent - power)));
     match fitting {
-        // The kilogram already has a prefix.
-        Some((prefix, power)) if value != 0.0 && !unit.starts_with("kg") => {
+        // The kilogram already has a prefix, and one of an area or a volume would be raised to its power.
+        Some((prefix, power)) if value != 0.0 && !unit.starts_with("kg") && !is_power(unit) => {
             // The decimal point is moved in the text, so that no digit is lost to a multiplication.
             let shifted = format!("{digits}e{}", exponent - power);
             let shifted = shifted.parse().unwrap_or(value);
@@ -30,6 +30,12 @@ fn with_prefix(value: f64, unit: &str, digits: usize) -> String {
         _ if value == 0.0 || !value.is_finite() => format!("{} {unit}", value + 0.0),
         _ => format!("{value:.4e} {unit}"),
     }
+}
+
+/// Returns true if a unit begins with a power, as m² does, "m2" or "m²".
+fn is_power(unit: &str) -> bool {
+    let mut rest = unit.chars().skip_while(|letter| letter.is_alphabetic());
+    rest.next().is_some_and(|letter| letter.is_ascii_digit() || matches!(letter, '²' | '³'))
 }
 
 /// An estimated duration [s] in a readable unit.

@@ -51,7 +51,6 @@ fn run(text: &str, steps: usize) -> Trial {
 #[test]
 fn balances_close_for_all_fluids() {
     let air = "convection = { coefficient = 30.0, ambient = 300.0 }";
-    // The even flux below a segment makes poor conductors too warm in its middle.
     for (fluid, temperature, material) in [
         (WAX, 343.0, "soda-lime-glass"),
         (WAX, 343.0, "copper"),
@@ -74,13 +73,9 @@ fn balances_close_for_all_fluids() {
             assert!(heat > 0.0 && missing.abs() < 1e-10 * heat, "{said}: {missing} of {heat}");
             let received = trial.get("plate.heat_in");
             assert!((received / heat - 1.0).abs() < 1e-12, "{said}: {received} of {heat}");
-            let beyond = if material == "fr4" { 0.33 * (temperature - 293.0) } else { 0.0 };
             let coldest = trial.get("ink.min_temperature");
             let hottest = trial.get("plate.max_temperature");
-            assert!(
-                coldest > 293.0 && hottest < temperature + beyond,
-                "{said}: {coldest} {hottest}"
-            );
+            assert!(coldest > 293.0 && hottest < temperature, "{said}: {coldest} {hottest}");
             assert!(trial.get("ink.max_temperature") < temperature + 1e-9, "{said}");
             heats.push(heat);
         }

@@ -140,12 +140,12 @@ impl Body for FilamentBody {
             let message = format!("{value} K is not above absolute zero");
             return Err(BodyError::Input { index, message });
         }
-        match self.nozzle.flow(inputs) {
-            (index, flow) if flow < 0.0 => {
+        match self.nozzle.flow_back(inputs) {
+            Some((index, flow)) => {
                 let message = format!("a flow of {flow} m³/s goes back into the nozzle");
                 Err(BodyError::Input { index, message })
             }
-            _ => Ok(()),
+            None => Ok(()),
         }
     }
 

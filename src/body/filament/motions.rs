@@ -6,6 +6,9 @@ use crate::inputs::InputPath;
 use crate::method::filament::Motion;
 use crate::scene::{Filament, PathTable};
 
+/// Part of the largest volume whose flow per second is rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// Places of a filament's inputs, and the path that the scene sets.
 pub struct NozzleInputs {
     /// Places of x, y and z among the inputs, if inputs move the nozzle.
@@ -13,6 +16,8 @@ pub struct NozzleInputs {
     flow: usize,
     temperature: usize,
     air: Option<usize>,
+    /// Flow below zero that is rounding, as of inputs that fall to zero [m³/s].
+    rounding: f64,
     table: Option<(PathTable, f64)>,
 }
 
@@ -23,7 +28,8 @@ impl NozzleInputs {
         let place = table.is_none().then(|| own.start..own.start + 3);
         let flow = own.start + place.as_ref().map_or(0, Range::len);
         let air = filament.convection.map(|_| flow + 2);
-        Self { place, flow, temperature: flow + 1, air, table }
+        let rounding = ROUNDING * filament.most;
+        Self { place, flow, temperature: flow + 1, air, rounding, table }
     }
 
     /// Place of the outlet at time zero [m].
@@ -46,9 +52,10 @@ impl NozzleInputs {
         places.map(|place| (place, inputs[place]))
     }
 
-    /// The flow of an input vector [m³/s], with its place.
-    pub fn flow(&self, inputs: &[f64]) -> (usize, f64) {
-        (self.flow, inputs[self.flow])
+    /// The flow of an input vector [m³/s] that goes back into the nozzle, with its place.
+    pub fn flow_back(&self, inputs: &[f64]) -> Option<(usize, f64)> {
+        let flow = inputs[self.flow];
+        (flow < -self.rounding).then_some((self.flow, flow))
     }
 
     /// Motions of the nozzle over a step that begins at a time [s]: one, or one for each part of the table.
@@ -65,7 +72,8 @@ impl NozzleInputs {
                     [0, 1, 2].map(|order| [0, 1, 2].map(|axis| axes[axis][order]))
                 }
             };
-            let (flow, temperature) = (input(self.flow), input(self.temperature));
+            let (mut flow, temperature) = (input(self.flow), input(self.temperature));
+            flow[0] = flow[0].max(0.0);
             Motion { duration, place, flow, temperature }
         };
         let Some((table, height)) = &self.table else {

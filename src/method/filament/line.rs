@@ -172,8 +172,13 @@ impl Line {
                 None => {
                     strand.given += given;
                     let inside = feet[n].inside();
+                    let [_, free] = &free;
+                    let mean = feet[n].mean(|cell| free[cell]).unwrap_or(0.0);
+                    let conductance = step.conductance(&segment, time);
                     for &(cell, weight) in &feet[n].cells {
-                        strand.cell_heat[cell] += given * weight / inside;
+                        // Warm cells take less than cold ones below the same segment.
+                        let more = conductance * time * (mean - free[cell]);
+                        strand.cell_heat[cell] += (given + more) * weight / inside;
                     }
                 }
             }
@@ -415,6 +420,17 @@ impl SegmentStep<'_> {
             Below::Plate { inside, .. } => segment.area() * inside,
             Below::Segment(_) => segment.area(),
         }
+    }
+
+    /// Heat flow from the lowest layer into the plate over their difference of temperature [W/K], at the end of a time [s] in
+    /// which it warms the plate; 0 without one.
+    fn conductance(&self, segment: &Segment, time: f64) -> f64 {
+        let Below::Plate { surface, flux, .. } = self.below else { return 0.0 };
+        let area = self.contact(segment);
+        let contact = self.line.plan.conductance.map_or(0.0, |value| 1.0 / (value * area));
+        let content = self.line.contents(segment)[0];
+        let own = self.line.heat.half_resistance(0, segment.height(), content) / area;
+        1.0 / (flux * surface.response.of_held_flux(time) + contact + own)
     }
 
     /// Temperature below [K], and the resistance to it, with the rise that the heat of this inner step causes [K/W].
