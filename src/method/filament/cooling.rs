@@ -22,6 +22,8 @@ pub const SHARES: [f64; LAYERS] = shares();
 const MOST_ITERATIONS: usize = 200;
 /// Distance beyond a kink at which the next iteration begins [K].
 const BEYOND: f64 = 1e-9;
+/// Largest heat that passes in a step per kelvin over the capacity of a layer.
+const LARGEST_LINK: f64 = 1e6;
 /// Largest step over the relaxation time to the air that is made exact.
 const LARGEST_RATIO: f64 = 3.0;
 /// Fourier number from which on two terms of the series are exact to 1e-12.
@@ -132,8 +134,15 @@ impl Heat {
         around: &Surroundings,
     ) -> [f64; 2] {
         let old = self.contents(heats, column.volume);
+        // Beyond a ratio temperatures are equal, and larger conductances would multiply rounding.
+        let most = |n: usize| {
+            LARGEST_LINK * SHARES[n] * self.capacity(column.volume)
+                / duration.max(f64::MIN_POSITIVE)
+        };
         let links = self.links(&old, column, around);
+        let links: [f64; LAYERS] = std::array::from_fn(|n| links[n].min(most(n)));
         let to_air = self.air_links(column, duration, around);
+        let to_air: [f64; LAYERS] = std::array::from_fn(|n| to_air[n].min(most(n)));
         let contents = self.solve(&old, column, duration, &links, (around, &to_air));
         let temperatures = contents.map(|content| self.temperature(content));
         let down = duration * links[0] * (temperatures[0] - around.below);

@@ -6,9 +6,10 @@ use crate::quantity::kelvin;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Failure {
     #[error(
-        "the outlet of the nozzle is at z = {height:e} m while fluid comes (allowed: above the plate, z > 0)"
+        "the outlet of the nozzle is at z = {height:e} m while fluid comes (allowed: {least:e} m and more, a hundredth of its \
+         diameter)"
     )]
-    NozzleInPlate { height: f64 },
+    NozzleInPlate { height: f64, least: f64 },
     #[error(
         "{volume:e} m³ would have come, more than `most`, {most:e} m³ (allowed: less flow, a shorter run or a larger \
          `most`)"

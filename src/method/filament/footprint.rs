@@ -1,13 +1,17 @@
 //! Place of a segment on the cells of the plate.
 //!
-//! The lower side of a segment, a rectangle along its direction, is cut into nearly square parts; each is replaced by a
-//! square of the same area along the axes of the cells. So everything arrives where cells partition unity.
+//! The lower side of a segment, a rectangle along its direction, becomes rectangles along the axes of the cells, where cells
+//! partition unity: one of its size if it lies along an axis, otherwise one for each of nearly square parts, with the
+//! same second moments along both axes.
 
 use super::Segment;
 use crate::port::WallCells;
 
-/// Largest number of parts along and across a segment.
-const MOST: [f64; 2] = [16.0, 4.0];
+/// Parts of the shorter side of a segment that lies across the axes, and the largest numbers along and across it.
+const PARTS: f64 = 3.0;
+const MOST: [f64; 2] = [32.0, 12.0];
+/// Cosine below which a segment lies along an axis.
+const ALIGNED: f64 = 1e-6;
 
 /// Weights of the cells below a segment; with the part outside they sum to 1.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -19,10 +23,15 @@ pub struct Footprint {
 impl Footprint {
     pub fn of(segment: &Segment, cells: &WallCells) -> Self {
         let (length, width) = (segment.length(), segment.width());
-        let along = (length / width).round().clamp(1.0, MOST[0]);
-        let across = (width / length).round().clamp(1.0, MOST[1]);
-        let half = 0.5 * (length * width / (along * across)).sqrt();
         let (direction, middle) = (segment.direction(), segment.middle());
+        let is_along_axis = direction.iter().any(|cosine| cosine.abs() < ALIGNED);
+        let parts = |extent: f64, most: f64| match is_along_axis {
+            true => 1.0,
+            false => (PARTS * extent / width.min(length)).round().clamp(1.0, most),
+        };
+        let (along, across) = (parts(length, MOST[0]), parts(width, MOST[1]));
+        let [a, b] = [length / along, width / across];
+        let half = [0, 1].map(|axis| 0.5 * (a * direction[axis]).hypot(b * direction[1 - axis]));
         let share = 1.0 / (along * across);
         let mut footprint = Self::default();
         for i in 0..along as usize {
@@ -33,7 +42,7 @@ impl Footprint {
                     middle[0] + s * direction[0] - t * direction[1],
                     middle[1] + s * direction[1] + t * direction[0],
                 ];
-                let cover = cells.cover(at.map(|x| [x - half, x + half]));
+                let cover = cells.cover([0, 1].map(|n| [at[n] - half[n], at[n] + half[n]]));
                 footprint.outside += share * cover.outside;
                 cover.cells.iter().for_each(|&(cell, weight)| footprint.add(cell, share * weight));
             }
@@ -84,6 +93,6 @@ mod tests {
         }
         let at_the_edge = Segment { start: [2.0, -0.4], end: [2.0, 0.4], path: 0.8, ..segment };
         let footprint = Footprint::of(&at_the_edge, &cells);
-        assert!((footprint.outside - 0.5).abs() < 0.02, "{footprint:?}");
+        assert!((footprint.outside - 0.5).abs() < 1e-9, "{footprint:?}");
     }
 }

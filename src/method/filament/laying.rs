@@ -28,6 +28,8 @@ const PIECES: f64 = 4.0;
 /// Speed of the nozzle over that of the fluid in it below which fluid piles up in a heap, which is complete when it is as
 /// long as wide, or when it has the volume of a segment and the nozzle moves on.
 const SLOW: f64 = 0.25;
+/// Least height of the outlet over its diameter.
+const LEAST_HEIGHT: f64 = 0.01;
 /// Least gap above an older segment, over the diameter of the nozzle, with which a strand lies on that.
 const CLEARANCE: f64 = 0.1;
 /// Bisections in the search for the time of a volume.
@@ -213,8 +215,9 @@ impl Line {
     }
 
     fn check_piece(&self, strand: &Strand, height: f64, temperature: f64) -> Result<(), Failure> {
-        if height <= 0.0 {
-            return Err(Failure::NozzleInPlate { height });
+        let least = LEAST_HEIGHT * self.plan.diameter;
+        if height < least {
+            return Err(Failure::NozzleInPlate { height, least });
         }
         if temperature <= 0.0 {
             return Err(Failure::BelowAbsoluteZero { temperature });

@@ -66,6 +66,14 @@ pub fn estimate(scene: &Scene, name: &str) -> BodyEstimate {
     if scene.coupling.iter().any(|coupling| is_touched(&coupling.from)) {
         found.notes.push("what other bodies bring is left out of the estimate".to_owned());
     }
+    let is_below_strand = scene
+        .coupling
+        .iter()
+        .any(|coupling| is_touched(&coupling.to) && scene.filament(&coupling.from).is_some());
+    if is_below_strand {
+        found.notes.push("no estimate: heat comes from a strand".to_owned());
+        return found;
+    }
     if scene.asks_mechanics(name) && Twin::of(scene, name, Physics::Deformation).is_none() {
         let why = "no probe, field or running maximum gives them";
         found.notes.push(format!("no estimate of stress and displacement: {why}"));

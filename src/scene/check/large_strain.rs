@@ -129,6 +129,10 @@ fn check_law(checker: &mut Checker, path: &Path, material: &Material, temperatur
         let message = "the probability of failure is that of small strain";
         checker.refuse(&path.key("weibull"), message, "no `weibull`");
     }
+    if material.fracture.cracking.is_some() {
+        let message = "cracks run in bodies of small strain";
+        checker.refuse(&path.key("fracture"), message, "no `fracture`");
+    }
     if material.law.deformation().large_strain(temperature).is_none() {
         let message = "a solid of large strain cannot be made of this material";
         let allowed = "`model = \"neo_hookean\"` with `young` and `poisson`; `\"viscoelastic\"` with \
