@@ -132,7 +132,8 @@ fn inputs_without_derivatives_lay_a_strand() {
         assert!((strand.jump / (0.1 * step) - 1.0).abs() < 1e-9);
         strand.segment(strand.len() - 1).end[0] / (0.1 * step * (steps - 1) as f64)
     });
-    assert!(lengths.iter().all(|part| (part - 1.0).abs() < 1e-9), "{lengths:?}");
+    // But for the lag of an outlet that is above the strand, half of that gap at equal speeds.
+    assert!(lengths.iter().all(|part| (0.99..1.0 + 1e-9).contains(part)), "{lengths:?}");
 }
 
 /// The strand trails by half the time of the fall from a steadily moving nozzle.
