@@ -73,6 +73,12 @@ impl Scene {
         }
     }
 
+    /// Returns true if a strand is laid on the body.
+    pub fn lies_below_strand(&self, name: &str) -> bool {
+        let is_on_it = |place: &str| place.rsplit_once('.').is_some_and(|(body, _)| body == name);
+        self.coupling.iter().any(|own| is_on_it(&own.to) && self.filament(&own.from).is_some())
+    }
+
     /// The filaments, in the order of their names.
     pub fn filaments(&self) -> impl Iterator<Item = (&str, &Filament)> {
         self.body.keys().filter_map(|name| Some((name.as_str(), self.filament(name)?)))

@@ -6,8 +6,8 @@ use crate::quantity::kelvin;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Failure {
     #[error(
-        "the outlet of the nozzle is at z = {height:e} m while fluid comes (allowed: {least:e} m and more, a hundredth of its \
-         diameter)"
+        "the outlet of the nozzle is at z = {height:e} m while fluid comes (allowed: above the plate by a hundredth of its \
+         diameter, {least:e} m, and more)"
     )]
     NozzleInPlate { height: f64, least: f64 },
     #[error(

@@ -66,11 +66,7 @@ pub fn estimate(scene: &Scene, name: &str) -> BodyEstimate {
     if scene.coupling.iter().any(|coupling| is_touched(&coupling.from)) {
         found.notes.push("what other bodies bring is left out of the estimate".to_owned());
     }
-    let is_below_strand = scene
-        .coupling
-        .iter()
-        .any(|coupling| is_touched(&coupling.to) && scene.filament(&coupling.from).is_some());
-    if is_below_strand {
+    if scene.lies_below_strand(name) {
         found.notes.push("no estimate: heat comes from a strand".to_owned());
         return found;
     }
