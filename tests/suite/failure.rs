@@ -252,7 +252,9 @@ fn any_modulus_and_any_stress_have_a_probability() {
 
 #[test]
 fn nothing_mechanical_is_solved_before_a_risk_is_read_or_a_step_taken() {
-    let trial = Trial::new(&spot(&one(&flaws(10, "volume = 1e-9")), "", COLD));
+    // Of a modulus that no other test has: bodies that are alike share their factors.
+    let text = spot(&one(&flaws(10, "volume = 1e-9")), "", COLD);
+    let trial = Trial::new(&text.replace("young = ", "young = 1"));
     assert_eq!(trial.model.factor_entries(), 0);
 }
 
