@@ -74,7 +74,10 @@ pub fn expand(source: &mut Source) -> Vec<(Path, Problem)> {
         let is_repeated = text(source, &body.key("method"))
             .is_some_and(|method| method != "sph" && method != "line");
         let insulates = number(source, &fluid.key("conductivity")) == Some(0.0);
+        // A strand comes molten; one that does not is refused.
+        let is_laid = source.value(&body.key("nozzle")).is_some();
         if !own {
+            let start = start.filter(|_| !is_laid);
             stay_liquid(source, &fluid, (start, is_repeated || insulates));
         }
     }
