@@ -134,6 +134,32 @@ pub fn load(fields: &mut dyn Fields, from: &[f64]) {
     }
 }
 
+/// Returns the values of all fields as a list.
+pub fn stored<T: Fields + Clone>(fields: &T) -> Vec<f64> {
+    let mut fields = fields.clone();
+    let mut numbers = vec![0.0; Layout::of(&mut fields).len()];
+    store(&mut fields, &mut numbers);
+    numbers
+}
+
+/// Returns the layout of a list of the same fields; `None` if the list has another length.
+pub fn layout_like<T: Fields + Clone>(fields: &T, numbers: &[f64]) -> Option<Layout> {
+    Some(Layout::of(&mut fields.clone())).filter(|layout| layout.len() == numbers.len())
+}
+
+/// Refuses a list of another length than the same fields of a body have.
+pub fn expect_like<T: Fields + Clone>(
+    fields: &T,
+    numbers: &[f64],
+    body: &str,
+) -> Result<(), String> {
+    let own = Layout::of(&mut fields.clone()).len();
+    match numbers.len() == own {
+        true => Ok(()),
+        false => Err(format!("{} unknowns of {body}; this body has {own}", numbers.len())),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn the_strip_turned_over_bends_the_other_way() {
+    fn exchanged_layers_reverse_the_curvature() {
         let [lower, upper] = pair(0.08);
         let one = BentStrip { layers: vec![lower, upper] }.curvature(-60.0);
         let other = BentStrip { layers: vec![upper, lower] }.curvature(60.0);

@@ -61,7 +61,7 @@ class Piece:
     duration: float
 
     def after(self, moment: float) -> "Piece":
-        """What remains of it after a moment."""
+        """Returns the motion that remains after a moment."""
         path = moment * (self.speed + 0.5 * self.acceleration * moment)
         return replace(
             self,

@@ -64,15 +64,7 @@ pub fn notes(forecast: &Forecast) -> String {
                 engineering(body.time_step, "s")
             ),
         };
-        let _ = writeln!(
-            text,
-            "    about {:.0} MB, {} for all its steps and exchanges",
-            body.memory / 1e6,
-            lasting(body.run_time)
-        );
-        for note in &body.notes {
-            let _ = writeln!(text, "    - {note}");
-        }
+        cost(&mut text, (body.memory, body.run_time), "steps and exchanges", &body.notes);
     }
     for body in &forecast.large_strains {
         let (nodes, points) = (body.nodes, body.points);
@@ -90,27 +82,11 @@ pub fn notes(forecast: &Forecast) -> String {
                 body.name, body.steps
             ),
         };
-        let _ = writeln!(
-            text,
-            "    about {:.0} MB, {} for all its steps",
-            body.memory / 1e6,
-            lasting(body.run_time)
-        );
-        for note in &body.notes {
-            let _ = writeln!(text, "    - {note}");
-        }
+        cost(&mut text, (body.memory, body.run_time), "steps", &body.notes);
     }
     for body in &forecast.filaments {
         let _ = writeln!(text, "  {}: room for {} segments", body.name, body.segments);
-        let _ = writeln!(
-            text,
-            "    about {:.0} MB, {} for all its steps",
-            body.memory / 1e6,
-            lasting(body.run_time)
-        );
-        for note in &body.notes {
-            let _ = writeln!(text, "    - {note}");
-        }
+        cost(&mut text, (body.memory, body.run_time), "steps", &body.notes);
     }
     text
 }
@@ -123,4 +99,13 @@ fn conduction(forecast: &ParticleForecast, count: usize) -> String {
         "heat: {count} particles of {neighbours} neighbours; about {sub_steps} {parts} of {products} \
          products a communication step, where explicit Euler steps would need {euler_steps}"
     )
+}
+
+/// Adds the memory [B] and time [s] of a body, and the notes on it.
+fn cost(text: &mut String, (memory, time): (f64, f64), what: &str, notes: &[String]) {
+    let (memory, time) = (memory / 1e6, lasting(time));
+    let _ = writeln!(text, "    about {memory:.0} MB, {time} for all its {what}");
+    for note in notes {
+        let _ = writeln!(text, "    - {note}");
+    }
 }

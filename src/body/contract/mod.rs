@@ -100,6 +100,21 @@ pub struct Acts<'a> {
     pub below: Option<&'a Surface>,
 }
 
+impl Acts<'_> {
+    /// Advances through both halves of the time, one after the other.
+    pub fn in_halves(
+        &self,
+        mut advance: impl FnMut(&Acts) -> Result<(), BodyError>,
+    ) -> Result<(), BodyError> {
+        let duration = 0.5 * self.duration;
+        for part in 0..2 {
+            let path = self.path.from(f64::from(part) * duration);
+            advance(&Acts { path: &path, duration, ..*self })?;
+        }
+        Ok(())
+    }
+}
+
 /// A transfer through a face.
 #[derive(Debug, Clone, Copy)]
 pub struct Received<'a> {

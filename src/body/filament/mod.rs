@@ -24,7 +24,7 @@ use crate::method::sph::{ParticleFields, WarmPlace};
 use crate::port::{Surface, WallCells};
 use crate::runtime::allowance::{Allowance, cost};
 use crate::scene::{Coupling, Filament, Scene};
-use crate::state::{Layout, load, store};
+use crate::state::{Layout, expect_like, layout_like, load, store, stored};
 use crate::warning::{self, Warning};
 
 use motions::NozzleInputs;
@@ -114,23 +114,16 @@ impl Body for FilamentBody {
     }
 
     fn initial_state(&self) -> Vec<f64> {
-        let mut start = self.start.clone();
-        let mut state = vec![0.0; Layout::of(&mut start).len()];
-        store(&mut start, &mut state);
-        state
+        stored(&self.start)
     }
 
     fn layout(&self, state: &[f64]) -> Option<Layout> {
-        let layout = Layout::of(&mut self.start.clone());
-        Some(layout).filter(|layout| layout.len() == state.len())
+        layout_like(&self.start, state)
     }
 
     fn check_state(&self, state: &[f64], _: &[f64]) -> Result<(), String> {
         let name = &self.name;
-        if self.layout(state).is_none() {
-            let own = Layout::of(&mut self.start.clone()).len();
-            return Err(format!("{} unknowns of {name}; this body has {own}", state.len()));
-        }
+        expect_like(&self.start, state, name)?;
         self.line.check(&self.strand(state)).map_err(|reason| format!("{name}: {reason}"))
     }
 

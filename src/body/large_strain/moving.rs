@@ -11,7 +11,7 @@ use crate::method::large_strain::{Dynamics, Failure, Motion};
 use crate::port::WallCells;
 use crate::runtime::allowance::{Allowance, cost};
 use crate::scene::LargeStrain;
-use crate::state::{Layout, load, store};
+use crate::state::{Layout, expect_like, layout_like, load, store, stored};
 
 /// A body with inertia.
 pub struct MovingBody {
@@ -151,23 +151,16 @@ impl Body for MovingBody {
     }
 
     fn initial_state(&self) -> Vec<f64> {
-        let mut start = self.start.clone();
-        let mut state = vec![0.0; Layout::of(&mut start).len()];
-        store(&mut start, &mut state);
-        state
+        stored(&self.start)
     }
 
     fn layout(&self, state: &[f64]) -> Option<Layout> {
-        let layout = Layout::of(&mut self.start.clone());
-        Some(layout).filter(|layout| layout.len() == state.len())
+        layout_like(&self.start, state)
     }
 
     fn check_state(&self, state: &[f64], _: &[f64]) -> Result<(), String> {
         let name = &self.name;
-        if self.layout(state).is_none() {
-            let own = Layout::of(&mut self.start.clone()).len();
-            return Err(format!("{} unknowns of {name}; this body has {own}", state.len()));
-        }
+        expect_like(&self.start, state, name)?;
         self.check_motion(&self.motion(state)).map_err(|reason| format!("{name}: {reason}"))
     }
 

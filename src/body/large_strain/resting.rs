@@ -17,7 +17,9 @@ use crate::method::large_strain::{
 use crate::runtime::allowance::{Allowance, Interrupt, cost};
 use crate::scene::LargeStrain;
 use crate::space::{Form, Mesh};
-use crate::state::{Field, Fields as StateFields, Layout, Per, load, store};
+use crate::state::{
+    Field, Fields as StateFields, Layout, Per, expect_like, layout_like, load, store, stored,
+};
 
 /// A body without inertia.
 pub struct RestingBody {
@@ -41,7 +43,7 @@ pub struct RestingBody {
     notes: Vec<String>,
 }
 
-/// What the inputs prescribe at a time.
+/// Displacements and temperature that the inputs prescribe at a time.
 #[derive(Debug, Clone, PartialEq)]
 struct Prescribed {
     /// Displacements of the moved faces [m].
@@ -162,7 +164,7 @@ impl RestingBody {
         Ok(own)
     }
 
-    /// What all inputs prescribe.
+    /// Returns the displacements and the temperature that all inputs prescribe.
     fn prescribed(&self, inputs: &[f64]) -> Prescribed {
         let mut own = inputs[self.inputs.clone()].iter();
         let of_face = |axes: &Vec<usize>| {
@@ -269,7 +271,7 @@ impl RestingBody {
         Conditions { forces: self.weight.clone(), displacements }
     }
 
-    /// What was prescribed of a state.
+    /// Returns the displacements and the temperature under which a state is in equilibrium.
     fn held(&self, state: &Resting) -> Prescribed {
         let mut places = vec![[0.0; 3]; self.moved.len()];
         for (holds, u) in self.holds.iter().zip(&state.rest.displacement) {
@@ -388,23 +390,16 @@ impl Body for RestingBody {
     }
 
     fn initial_state(&self) -> Vec<f64> {
-        let mut start = self.start.clone();
-        let mut state = vec![0.0; Layout::of(&mut start).len()];
-        store(&mut start, &mut state);
-        state
+        stored(&self.start)
     }
 
     fn layout(&self, state: &[f64]) -> Option<Layout> {
-        let layout = Layout::of(&mut self.start.clone());
-        Some(layout).filter(|layout| layout.len() == state.len())
+        layout_like(&self.start, state)
     }
 
     fn check_state(&self, state: &[f64], _: &[f64]) -> Result<(), String> {
         let name = &self.name;
-        if self.layout(state).is_none() {
-            let own = Layout::of(&mut self.start.clone()).len();
-            return Err(format!("{} unknowns of {name}; this body has {own}", state.len()));
-        }
+        expect_like(&self.start, state, name)?;
         self.check_resting(&self.resting(state)).map_err(|reason| format!("{name}: {reason}"))
     }
 

@@ -238,13 +238,7 @@ impl SolidBody {
             return Ok(());
         }
         state.copy_from_slice(&start);
-        let length = 0.5 * acts.duration;
-        for part in 0..2 {
-            let path = acts.path.from(f64::from(part) * length);
-            let acts = Acts { path: &path, duration: length, ..*acts };
-            self.crack_in_part(advance, state, &acts, halves - 1)?;
-        }
-        Ok(())
+        acts.in_halves(|half| self.crack_in_part(advance, state, half, halves - 1))
     }
 
     /// Temperatures above the stress-free one [K] and forces [N] at the section's nodes at the end of a step.

@@ -155,13 +155,7 @@ impl SolidBody {
             }
         }
         state.copy_from_slice(&start);
-        let length = 0.5 * acts.duration;
-        for part in 0..2 {
-            let path = acts.path.from(f64::from(part) * length);
-            let acts = Acts { path: &path, duration: length, ..*acts };
-            self.advance_part(advance, state, &acts, halves - 1)?;
-        }
-        Ok(())
+        acts.in_halves(|half| self.advance_part(advance, state, half, halves - 1))
     }
 
     /// Returns true if temperatures between two states exceed those at its ends, in a body that yields. The margin is the

@@ -32,7 +32,7 @@ pub struct Brittleness {
         .plausible(&plausible::TOUGHNESS)
         .otherwise("none"))]
     pub toughness: Option<f64>,
-    /// Cracks that run ([keys](#fracture-of-a-material)).
+    /// Cracks that run.
     #[serde(default, rename = "fracture", skip_serializing_if = "Option::is_none")]
     #[schemars(extend(
         "condition" = "of bodies of one thermoelastic material: discs, and boxes with `section`",

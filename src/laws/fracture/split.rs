@@ -10,16 +10,16 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Split {
-    /// All of it: cracks also run under compression, and their faces penetrate each other.
+    /// The whole energy: cracks also run under compression, and their faces penetrate each other.
     None,
-    /// What a material without tensile strength does not store (F. Freddi & G. Royer-Carfagni 2010, doi
+    /// The energy that a material without tensile strength does not store (F. Freddi & G. Royer-Carfagni 2010, doi
     /// 10.1016/j.jmps.2010.02.010): closed cracks transmit compression.
     #[default]
     NoTension,
-    /// That of positive principal strains and of a positive change of volume (C. Miehe, M. Hofacker & F. Welschinger
+    /// The energy of positive principal strains and of a positive change of volume (C. Miehe, M. Hofacker & F. Welschinger
     /// 2010, doi 10.1016/j.cma.2010.04.011).
     Spectral,
-    /// That of shear and of a positive change of volume (H. Amor, J.-J. Marigo & C. Maurini 2009, doi
+    /// The energy of shear and of a positive change of volume (H. Amor, J.-J. Marigo & C. Maurini 2009, doi
     /// 10.1016/j.jmps.2009.04.011).
     Volumetric,
 }
@@ -233,7 +233,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cracks_release_is_never_negative() {
+    fn released_energy_is_never_negative() {
         for split in SPLITS {
             for strain in states() {
                 let elastic = elastic(false);

@@ -55,7 +55,7 @@ pub struct Heat {
     pub phases: Option<Phases>,
 }
 
-/// What a column of fluid exchanges heat with.
+/// Bodies with which a column of fluid exchanges heat.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Surroundings {
     /// Temperature below [K], the resistance to it [K/W] and the area of contact [m²].

@@ -306,7 +306,7 @@ impl Line {
     }
 }
 
-/// What a segment lies on.
+/// The body below a segment.
 enum Below<'a> {
     Nothing,
     Plate {
@@ -405,7 +405,7 @@ impl SegmentStep<'_> {
         duration * self.line.plan.air * exposed / self.line.heat.capacity(segment.volume)
     }
 
-    /// What the segment exchanges heat with between two ages, after some heat has passed down in this step [J].
+    /// Returns the bodies with which the segment exchanges heat between two ages, after some heat has passed down in this step [J].
     fn surroundings(&self, segment: &Segment, ages: [f64; 2], before: f64) -> Surroundings {
         let (below, resistance) = self.below(segment, ages, before);
         let [above, aside] = self.exposed(segment).map(|area| self.line.plan.air * area);

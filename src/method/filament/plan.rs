@@ -1,4 +1,4 @@
-//! What a strand is made of and lies on.
+//! Constants of a strand and of the plate below it.
 
 use std::f64::consts::FRAC_PI_4;
 
