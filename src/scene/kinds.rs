@@ -121,11 +121,10 @@ impl Body {
         material.iter_mut().map(|own| (None, own)).chain(layers).collect()
     }
 
-    /// The solid whose heat finite elements conduct, on a mesh that can be refined. That of bodies that crack follows from
-    /// the length of damage.
+    /// The solid whose heat finite elements conduct, on a mesh that can be refined.
     fn meshed(&self) -> Option<&Solid> {
         match self {
-            Body::Solid(solid) if solid.heat == HeatMethod::Fem && !solid.cracks() => Some(solid),
+            Body::Solid(solid) if solid.heat == HeatMethod::Fem => Some(solid),
             _ => None,
         }
     }
@@ -140,7 +139,7 @@ impl Scene {
     /// The same, to be changed.
     pub fn meshed_mut(&mut self, name: &str) -> Option<&mut Solid> {
         match self.body.get_mut(name)? {
-            Body::Solid(solid) if solid.heat == HeatMethod::Fem && !solid.cracks() => Some(solid),
+            Body::Solid(solid) if solid.heat == HeatMethod::Fem => Some(solid),
             _ => None,
         }
     }

@@ -21,6 +21,9 @@ pub struct MeshFactors {
     /// True if linear heat uses linear elements, as nonlinear heat does; error estimates need it.
     #[serde(skip)]
     pub linear_heat: bool,
+    /// True if the mechanics of the body is left out; estimates of the temperatures of bodies that crack need it.
+    #[serde(skip)]
+    pub heat_alone: bool,
 }
 
 const FACTOR: &str = "a mesh is refined or coarsened by a factor";
@@ -28,7 +31,7 @@ const FACTOR: &str = "a mesh is refined or coarsened by a factor";
 impl MeshFactors {
     /// Factors of a mesh with unknown error.
     pub fn of([along, through]: [f64; 2]) -> Self {
-        Self { along, through, estimated_error: None, linear_heat: false }
+        Self { along, through, estimated_error: None, linear_heat: false, heat_alone: false }
     }
 
     /// Factors along the surface and through the thickness.

@@ -72,6 +72,11 @@ rules! {
     "particles have made or lost {part} % of the heat, more than {most} %, as their distances grow too fast \
      (`heat_drift`)"; "set a `mesh.growth` nearer 1, or `heat = \"fem\"`"
 
+    Step torn_apart(opening)
+    "a crack is open {opening} times as wide as its elements: it has torn a part off, which the millionth of the \
+     stiffness that broken elements keep does not hold";
+    "do not rely on displacements and stresses from here on: `crack_area` and the place of the cracks hold"
+
     Step flaw_unresolved(flaw, elements, finer)
     "the mesh has {elements} elements over the depth of `{flaw}`, too few for the stress along it";
     "set a `mesh.depth_spacing` of {finer} m or less"
@@ -85,6 +90,11 @@ rules! {
     "the film is {layers} distances of particles high, and its height depends on how these happen to stand: the \
      error is some {usual} %, often {large} %";
     "a `spacing` {finer} times as small has errors below 10 %, from 6 distances on"
+
+    End damage_is_even(most, mean)
+    "damage is nearly even, {most} at most and {mean} in the mean: where no place is weaker or more stressed than others, no \
+     crack is singled out";
+    "`scatter = 0.05` of `fracture` makes elements differ as grains do"
 
     End fluid_comes_off(part)
     "{part} % of the fluid have come off in small lumps (`stray_mass`): films thinner than some two particles break \

@@ -1,6 +1,7 @@
 //! Cracks that run: strength, energy and place, sections against bodies without cracks, states, and warnings.
 
 use impinge::advice::parse_with_warnings;
+use impinge::model::tolerance::estimates;
 
 use crate::common::{Trial, off};
 
@@ -58,6 +59,38 @@ fn held_strip_breaks_at_its_strength() {
     assert!(off(trial.get("plate.crack_area"), length * 1e-3) < 1e-12);
     assert!(off(trial.get("plate.dissipated_energy"), 45.0 * length * 1e-3) < 1e-12);
     assert!(trial.get("plate.elastic_energy") < 0.05 * elastic);
+    assert_eq!(trial.get("plate.crack_count"), 1.0);
+    let depth = trial.get("plate.crack_depth");
+    assert!(off(depth, 0.4e-3) < 1e-9, "{depth}");
+}
+
+/// A strip on its own, which cold from above and below bends by itself, under a pull from the top.
+#[test]
+fn what_is_torn_off_is_warned_of() {
+    let held = HELD.replace("top = { temperature = 600.0 }", "");
+    let pull = "[[load]]\nname = \"pull\"\non = \"plate.top\"\ncarries = [\"pressure\"]\n\
+                footprint = { tiles = { count = [1, 1], size = [1e-3, 1e-3] } }";
+    let mut trial = Trial::new(&scene(STRIP, &alumina(AT1), &held, pull));
+    let ids = |trial: &Trial| -> Vec<&str> {
+        let found = trial.model.warnings(&trial.state);
+        found.iter().map(|warning| warning.finding().id).collect()
+    };
+    trial.set("pull.pressure[1,1]", -250e6);
+    trial.step(1.0);
+    assert_eq!(ids(&trial), [""; 0]);
+    trial.set("pull.pressure[1,1]", -330e6);
+    trial.step(1.0);
+    assert_eq!(ids(&trial), ["torn_apart"]);
+}
+
+#[test]
+fn even_damage_is_warned_of() {
+    let even = AT1.replace(", scatter = 0.04", "");
+    let mut trial = Trial::new(&scene(STRIP, &alumina(&even), HELD, ""));
+    cool(&mut trial, 1.04 * 300e6 / (YOUNG * EXPANSION));
+    let found = trial.model.closing_warnings(&trial.state);
+    let ids: Vec<_> = found.iter().map(|warning| warning.finding().id).collect();
+    assert_eq!(ids, ["damage_is_even"]);
 }
 
 /// A body far from breaking, cooled from the top.
@@ -153,6 +186,25 @@ fn damage_never_heals_and_closed_cracks_bear_pressure() {
     // As an intact strip would be stressed by the same heat.
     let stress = trial.get("plate.elastic_energy") * 2.0 * YOUNG / (1e-3 * 1e-3 * 0.4e-3);
     assert!(off(stress.sqrt(), 300e6) < 0.01, "{}", stress.sqrt());
+}
+
+/// Temperatures that jump on a face are overshot on a mesh that is as coarse as cracks allow.
+#[test]
+fn temperatures_of_bodies_that_crack_are_estimated() {
+    let shape = "shape = { box = [1e-3, 1e-3, 1e-3] }\nsection = \"plane_strain\"";
+    let law = alumina(", fracture = { model = \"at1\", length = 0.15e-3, energy = 15e3 }");
+    let faces = "top = { temperature = 300.0 }\nbottom = { clamped = true }";
+    let near = "[[probe]]\nname = \"near\"\nin = \"plate\"\nat = [0.0, 0.0, -5e-5]\n\
+                gives = [\"temperature\"]";
+    let errors = |step: f64| -> f64 {
+        let times = format!("stop_time = {}\nstep = {step}", 10.0 * step);
+        let text = scene(shape, &law, faces, near).replace("stop_time = 10.0\nstep = 1.0", &times);
+        let scene = impinge::scene::parse(&text, "scene").unwrap();
+        let (_, found) = estimates(&scene);
+        found[0].worst().unwrap()
+    };
+    let [quick, slow] = [errors(1e-6), errors(1e-2)];
+    assert!(quick > 0.05 && slow < 0.02, "{quick} {slow}");
 }
 
 #[test]

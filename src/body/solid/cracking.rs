@@ -7,7 +7,7 @@ use super::memo::SolidMemo;
 use crate::body::{Acts, BodyError};
 use crate::laws::fracture::Components;
 use crate::method::damage::{
-    DamageError, DamageProblem, DamageState, Elements, Energies, Form, Section,
+    Cracks, DamageError, DamageProblem, DamageState, Elements, Energies, Form, Section, Side,
 };
 use crate::method::fem::elastic::Support;
 use crate::method::fem::{Deformation, Geometry, Mesh, Plan, Remembered, SolidLoads};
@@ -30,6 +30,8 @@ pub struct Cracking {
     copies: f64,
     /// Width of the body along the normal of a plane section [m].
     width: Option<f64>,
+    /// Kinds of the section's sides.
+    sides: [[Side; 2]; 2],
     /// Largest change of temperature in a part of a step [K].
     most_change: f64,
 }
@@ -67,6 +69,7 @@ impl Cracking {
             counts: mesh.node_counts(),
             copies: mesh.copies(),
             width: (mesh.geometry == Geometry::Box).then_some(along_y * thickness),
+            sides: [[first_side(mesh), Side::Face], [Side::Face; 2]],
             most_change: PART_OF_BREAKING * breaking,
         })
     }
@@ -168,6 +171,15 @@ impl Cracking {
             Some(_) => nodal.into_iter().flat_map(|[x, z]| [x, 0.0, z]).collect(),
             None => nodal.into_flattened(),
         }
+    }
+}
+
+/// Kind of the side from which the first axis of the section starts.
+fn first_side(mesh: &Mesh) -> Side {
+    match mesh.geometry {
+        Geometry::Axisymmetric => Side::Axis,
+        Geometry::Box if mesh.mirrored[0] => Side::Mirror,
+        Geometry::Box => Side::Face,
     }
 }
 
@@ -288,6 +300,29 @@ impl SolidBody {
         let Some(cracking) = &self.cracking else { return 0.0 };
         let [_, damage, _] = cracking.places();
         self.mechanics_of(state)[damage].iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Mean damage of all nodes [1]; zero without cracks.
+    pub(super) fn mean_damage(&self, state: &[f64]) -> f64 {
+        let Some(cracking) = &self.cracking else { return 0.0 };
+        let [_, damage, _] = cracking.places();
+        self.mechanics_of(state)[damage].iter().sum::<f64>() / cracking.nodes() as f64
+    }
+
+    /// Width of the widest crack over the size of its elements [1]; zero without cracks.
+    pub(super) fn opening_of_cracks(&self, state: &[f64]) -> f64 {
+        let Some(cracking) = &self.cracking else { return 0.0 };
+        let [displacement, damage, _] = cracking.places();
+        let own = self.mechanics_of(state);
+        cracking.problem.elements.section.opening(&own[displacement], &own[damage])
+    }
+
+    /// Number and depth of the cracks of a state.
+    pub(super) fn cracks_of(&self, state: &[f64]) -> Cracks {
+        let Some(cracking) = &self.cracking else { return Cracks::default() };
+        let [_, damage, _] = cracking.places();
+        let damage = &self.mechanics_of(state)[damage];
+        cracking.problem.elements.section.cracks(damage, cracking.sides)
     }
 
     /// Energies of a body that cracks [J].

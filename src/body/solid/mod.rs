@@ -376,10 +376,14 @@ impl Advice for SolidBody {
         let found: Vec<_> = match occasion {
             Occasion::Step => {
                 let particles = warnings::of_particles(self, state);
-                particles.into_iter().chain(warnings::of_flaws(self)).collect()
+                let torn = warnings::of_torn_parts(self, state);
+                particles.into_iter().chain(torn).chain(warnings::of_flaws(self)).collect()
             }
             Occasion::Response { .. } => Vec::new(),
-            Occasion::End => warnings::of_fronts(self, state).into_iter().collect(),
+            Occasion::End => {
+                let even = warnings::of_even_damage(self, state);
+                warnings::of_fronts(self, state).into_iter().chain(even).collect()
+            }
         };
         found.into_iter().map(|finding| finding.at(&self.name)).collect()
     }

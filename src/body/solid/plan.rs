@@ -23,20 +23,20 @@ pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
     }
     refinements.extend(contacts(scene, name, solid));
     let shortest = scene.step.min(scene.stop_time);
-    let mechanics = match (scene.asks_mechanics(name), scene.gives_mechanics(name)) {
+    let mesh = scene.refinement.get(name);
+    let is_asked = scene.asks_mechanics(name) && !mesh.is_some_and(|mesh| mesh.heat_alone);
+    let mechanics = match (is_asked, scene.gives_mechanics(name)) {
         (false, _) => Mechanics::Absent,
         (true, false) => Mechanics::Offered,
         (true, true) => Mechanics::Wanted,
     };
     let newton = takes_newton(scene, solid).then_some(TEMPERATURES * scene.fidelity.tolerance);
-    let mesh = scene.refinement.get(name);
     let factors = mesh.map_or([1.0; 2], MeshFactors::factors);
     let linear_heat = mesh.is_some_and(|mesh| mesh.linear_heat);
     let refinements = &refinements;
     let request = PlanRequest { mechanics, refinements, shortest, newton, factors, linear_heat };
     let mut plan = Plan::new(solid, request);
-    let chosen =
-        mesh.map(|mesh| note_on_mesh(mesh, solid.mesh.spacing.is_some(), scene.fidelity.tolerance));
+    let chosen = mesh.map(|mesh| note_on_mesh(mesh, solid, scene.fidelity.tolerance));
     plan.notes.extend(chosen);
     plan.notes.extend(solid.has_stress_peaks().then(|| NOTE_ON_PEAKS.to_owned()));
     plan.notes.extend(solid.has_flaws().then(|| NOTE_ON_FLAWS.to_owned()));
@@ -45,7 +45,7 @@ pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
 }
 
 /// Note on the fineness of the mesh, chosen for a tolerance or set by the scene.
-fn note_on_mesh(mesh: &MeshFactors, is_own: bool, tolerance: f64) -> String {
+fn note_on_mesh(mesh: &MeshFactors, solid: &Solid, tolerance: f64) -> String {
     let error = match mesh.estimated_error {
         Some(error) => format!(
             "outputs err by about {:.1e} of their ranges over the default experiment at most, where {tolerance:e} is wanted",
@@ -55,9 +55,10 @@ fn note_on_mesh(mesh: &MeshFactors, is_own: bool, tolerance: f64) -> String {
             "outputs are to err by {tolerance:e}; what they do is estimated when it is asked for"
         ),
     };
-    match is_own {
-        true => format!("on the mesh that the scene asks for {error}"),
-        false => format!(
+    match (solid.mesh.spacing.is_some(), solid.cracks()) {
+        (true, _) => format!("on the mesh that the scene asks for {error}"),
+        (false, true) => format!("on the mesh that cracks need {error}"),
+        (false, false) => format!(
             "{:.2} times as many elements as usual along the surface and {:.2} times through the thickness: {error}",
             mesh.along, mesh.through
         ),

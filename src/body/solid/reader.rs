@@ -185,6 +185,16 @@ impl SolidReader<'_> {
         self.body.measures_of_cracks().map_or(0.0, |(energy, _)| dissipated / energy)
     }
 
+    /// Number of cracks [1].
+    pub fn crack_count(&self) -> f64 {
+        self.body.cracks_of(self.state).count as f64
+    }
+
+    /// Depth of the deepest crack [m].
+    pub fn crack_depth(&self) -> f64 {
+        self.body.cracks_of(self.state).depth
+    }
+
     /// Length of cracks in a plane section [m].
     pub fn crack_length(&mut self) -> f64 {
         let width = self.body.measures_of_cracks().and_then(|(_, width)| width);

@@ -35,7 +35,7 @@ enum Offered {
     Breaking,
 }
 
-const TOTALS: [Total; 25] = [
+const TOTALS: [Total; 27] = [
     Total {
         descriptor: Descriptor {
             key: "max_temperature",
@@ -146,6 +146,18 @@ const TOTALS: [Total; 25] = [
             |reader| Ok(reader.crack_length()),
         )
     },
+    of_cracks(
+        "crack_count",
+        "number of cracks: connected places where damage is 0.9 or more",
+        Quantity::Count,
+        |reader| Ok(reader.crack_count()),
+    ),
+    of_cracks(
+        "crack_depth",
+        "depth of the deepest crack, where damage is 0.9 or more, from the face at which it begins",
+        Quantity::Length,
+        |reader| Ok(reader.crack_depth()),
+    ),
     of_cracks(
         "dissipated_energy",
         "energy that damage has dissipated",

@@ -30,6 +30,25 @@ pub fn of_particles(body: &SolidBody, state: &[f64]) -> Option<Finding> {
     (part > MOST_DRIFT).then(|| warning::particles_lose_heat(shown, most))
 }
 
+/// Opening of a crack over the size of its elements from which on it has torn a part off.
+const TORN: f64 = 2.0;
+/// Damage from which on it counts, and the part of it that its mean reaches where it is even.
+const DAMAGED: f64 = 0.05;
+const EVEN: f64 = 0.8;
+
+/// Returns `None` unless a crack has opened so wide that a part is loose.
+pub fn of_torn_parts(body: &SolidBody, state: &[f64]) -> Option<Finding> {
+    let opening = body.opening_of_cracks(state);
+    (opening > TORN).then(|| warning::torn_apart(format!("{opening:.0}")))
+}
+
+/// Returns `None` unless the whole body is damaged alike.
+pub fn of_even_damage(body: &SolidBody, state: &[f64]) -> Option<Finding> {
+    let (most, mean) = (body.max_damage(state), body.mean_damage(state));
+    let [shown, shown_mean] = [most, mean].map(|damage| format!("{damage:.2}"));
+    (most > DAMAGED && mean > EVEN * most).then(|| warning::damage_is_even(shown, shown_mean))
+}
+
 /// Returns the flaws along which the mesh is too coarse.
 pub fn of_flaws(body: &SolidBody) -> Vec<Finding> {
     let coarse = body.cracks.iter().filter_map(|(_, crack)| crack.too_few_elements());

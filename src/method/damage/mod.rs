@@ -2,12 +2,14 @@
 
 mod balance;
 mod bounded;
+mod broken;
 mod elements;
 mod problem;
 mod section;
 #[cfg(test)]
 mod tests;
 
+pub use broken::{Cracks, Side};
 pub use elements::{Elements, Energies};
 pub use problem::{DamageProblem, DamageState, Effort};
 pub use section::{Form, Section};

@@ -1,11 +1,14 @@
 //! Meshes of bodies that crack: uniform, as cracks may run anywhere.
 
 use crate::method::mesh::{Axis, Geometry, Layering, Mesh, Weight};
-use crate::scene::{Mesh as MeshKeys, Shape};
+use crate::scene::{Mesh as MeshKeys, Shape, Solid};
 
-/// Builds the mesh of a body whose damage spreads over a length [m]. A plane section is one element wide along y.
-pub fn crack_mesh(shape: &Shape, mirrored: [bool; 2], keys: &MeshKeys, length: f64) -> Mesh {
-    let [along, through] = keys.spacing_of_cracks(length);
+/// Builds the mesh of a body whose damage spreads over a length [m], with multiples of the usual numbers of elements
+/// along its surface and through its thickness. A plane section is one element wide along y.
+pub fn crack_mesh(solid: &Solid, mirrored: [bool; 2], length: f64, factors: [f64; 2]) -> Mesh {
+    let Solid { shape, mesh: keys, .. } = solid;
+    let usual = keys.spacing_of_cracks(length);
+    let [along, through] = [0, 1].map(|way| usual[way] / factors[way]);
     let low = |axis: usize, half: f64| if mirrored[axis] { 0.0 } else { -half };
     let height = axis([-shape.thickness(), 0.0], through, Weight::Uniform);
     let layering = Layering::default();

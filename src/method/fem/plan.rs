@@ -131,7 +131,8 @@ impl Plan {
         let laws: Option<Vec<_>> = strata.iter().map(|layer| layer.constants.law()).collect();
         let wanted = mechanics != Mechanics::Absent;
         let is_inelastic = wanted && !solid.deforms_linearly();
-        let damage = solid.damage().filter(|_| wanted);
+        let cracks = solid.damage();
+        let damage = cracks.filter(|_| wanted);
         let law = laws.filter(|_| wanted && !is_inelastic && damage.is_none());
         let mut notes = Vec::new();
         let mirrored =
@@ -140,8 +141,8 @@ impl Plan {
         let resolution = Resolution { refinements, shortest, factors, is_column };
         let mut notes_on_mesh = Vec::new();
         let fineness = Fineness::choose(solid, &strata, resolution, &mut notes_on_mesh);
-        let mesh = match &damage {
-            Some(damage) => crack_mesh(&solid.shape, mirrored, &solid.mesh, damage.length),
+        let mesh = match &cracks {
+            Some(law) => crack_mesh(solid, mirrored, law.length, factors),
             None => {
                 notes.append(&mut notes_on_mesh);
                 build_mesh(&solid.shape, mirrored, &fineness)

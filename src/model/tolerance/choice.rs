@@ -70,9 +70,13 @@ pub struct Choice {
     pub error: Option<f64>,
 }
 
-/// Returns whether the scene leaves the mesh of a solid to be chosen, along its surface and through its thickness.
+/// Returns whether the scene leaves the mesh of a solid to be chosen, along its surface and through its thickness. That
+/// of bodies that crack follows from the length of damage.
 pub fn open(solid: &Solid) -> [bool; 2] {
     let keys = &solid.mesh;
+    if solid.cracks() {
+        return [false; 2];
+    }
     [keys.spacing.is_none(), keys.spacing.is_none() && keys.depth_spacing.is_none()]
 }
 

@@ -59,7 +59,7 @@ pub fn estimate(scene: &Scene, name: &str) -> BodyEstimate {
     let mut found =
         BodyEstimate { body: name.to_owned(), outputs: Vec::new(), notes: Vec::new(), stuck: None };
     if scene.meshed(name).is_none() {
-        found.notes.push("no estimate: the body cracks, or particles conduct its heat".to_owned());
+        found.notes.push("no estimate: particles conduct the heat of the body".to_owned());
         return found;
     }
     let is_touched = |place: &str| place.rsplit_once('.').is_some_and(|(body, _)| body == name);
@@ -71,7 +71,11 @@ pub fn estimate(scene: &Scene, name: &str) -> BodyEstimate {
         return found;
     }
     if scene.asks_mechanics(name) && Twin::of(scene, name, Physics::Deformation).is_none() {
-        let why = "no probe, field or running maximum gives them";
+        let solid = scene.meshed(name);
+        let why = match solid.is_some_and(Solid::cracks) {
+            true => "cracks change them",
+            false => "no probe, field or running maximum gives them",
+        };
         found.notes.push(format!("no estimate of stress and displacement: {why}"));
     }
     for physics in [Physics::Heat, Physics::Deformation] {
@@ -297,6 +301,11 @@ fn finer_spacing(scene: &Scene, estimate: &BodyEstimate, solid: &Solid) -> Strin
             .to_owned();
     };
     let [spacing, depth] = finest(scene, &estimate.body, [along, through]);
+    if solid.cracks() {
+        return format!(
+            "about `mesh.spacing = {spacing:.1e}`, `mesh.depth_spacing = {depth:.1e}` would keep it"
+        );
+    }
     let growth = solid.mesh.growth.unwrap_or(GROWTH);
     let growth = 1.0 + (growth - 1.0) / along.max(through);
     format!(

@@ -34,6 +34,8 @@ pub struct Twin {
     pub has_drops: bool,
     /// True if heat uses linear elements, as with Newton's method.
     pub linear_heat: bool,
+    /// True if mechanics is left out, as the body cracks.
+    heat_alone: bool,
     /// Notes on differences from the body itself.
     pub simplified: Vec<String>,
 }
@@ -49,7 +51,7 @@ impl Twin {
         let has_stress_peaks = solid.has_stress_peaks();
         // The probability of failure is no output whose error is estimated.
         let reads = scene.gives_mechanics_at_places(name) || has_stress_peaks;
-        if is_mechanical && !reads && !has_stress_peaks {
+        if is_mechanical && (solid.cracks() || !reads && !has_stress_peaks) {
             return None;
         }
         let mut simplified = Vec::new();
@@ -92,6 +94,7 @@ impl Twin {
                 );
             }
         }
+        let heat_alone = solid.cracks();
         let has_drops = scene.couplings_to(name).next().is_some();
         if has_drops {
             simplified.push(
@@ -126,6 +129,7 @@ impl Twin {
             has_history,
             has_drops,
             linear_heat,
+            heat_alone,
             simplified,
         })
     }
@@ -135,7 +139,8 @@ impl Twin {
     pub fn on_mesh(&self, factors: [f64; 2]) -> Scene {
         let mut scene = self.scene.clone();
         let factors = MeshFactors::of([0, 1].map(|way| self.own[way] * factors[way]));
-        let factors = MeshFactors { linear_heat: self.linear_heat, ..factors };
+        let factors =
+            MeshFactors { linear_heat: self.linear_heat, heat_alone: self.heat_alone, ..factors };
         scene.refinement.insert(self.name.clone(), factors);
         scene
     }

@@ -30,6 +30,7 @@ pub fn check(checker: &mut Checker) {
             loads_on_section(checker, name, solid);
         }
         mesh(checker, &path.at("mesh"), solid);
+        number_of_nodes(checker, &path, solid);
     }
 }
 
@@ -46,6 +47,9 @@ fn constants(checker: &mut Checker, path: &Path, material: &Material, solid: &So
     let message = "neither the energy of cracks nor a toughness, from which it follows, is known";
     let allowed = "`energy = …` (J/m²), or `toughness = …` (Pa √m) of the material";
     checker.require(is_known, &own, message, allowed);
+    let message = "elements differ by `scatter` only, of which `seed` numbers the sample";
+    let fine = cracking.seed == 0 || cracking.scatter > 0.0;
+    checker.require(fine, &own.key("seed"), message, "`scatter = 0.05`, or no `seed`");
     let is_plane = solid.section != Some(PlaneSection::PlaneStress);
     let fine = is_plane || cracking.split.suits_plane_stress();
     let message = "this split is not defined in plane stress";
@@ -198,7 +202,14 @@ fn mesh(checker: &mut Checker, path: &Path, solid: &Solid) {
         );
         checker.require(fine, &path.at(key), message, allowed);
     }
-    let spacing = keys.spacing_of_cracks(law.length);
+}
+
+/// Refuses cracks that are too short for a mesh.
+fn number_of_nodes(checker: &mut Checker, path: &Path, solid: &Solid) {
+    let Some(law) = solid.damage() else { return };
+    let [x, _] = lateral_extents(&solid.shape);
+    let extents = [x, solid.shape.thickness()];
+    let spacing = solid.mesh.spacing_of_cracks(law.length);
     let nodes = [0, 1].map(|axis| extents[axis] / spacing[axis] + 1.0);
     let nodes = nodes[0] * nodes[1];
     let fine = nodes <= MOST_NODES;
@@ -208,7 +219,16 @@ fn mesh(checker: &mut Checker, path: &Path, solid: &Solid) {
     };
     let message =
         format!("{} nodes resolve cracks of length {}", number(nodes.round()), number(law.length));
-    let allowed =
-        format!("at most {MOST_NODES:.0e}: a smaller body, or a larger `length` of {model}");
-    checker.require(fine, path, message, allowed);
+    let of_fracture = path.at("material").key("fracture");
+    let strength =
+        solid.material.as_ref().and_then(|own| own.material().fracture.cracking?.strength);
+    let (place, larger) = match (solid.mesh.spacing, strength) {
+        (Some(_), _) => (path.at("mesh").key("spacing"), "spacing".to_owned()),
+        (None, Some(_)) => {
+            (of_fracture.key("strength"), format!("`length` of {model}, with less strength"))
+        }
+        (None, None) => (of_fracture.key("length"), format!("`length` of {model}")),
+    };
+    let allowed = format!("at most {MOST_NODES:.0e}: a smaller body, or a larger {larger}");
+    checker.require(fine, &place, message, allowed);
 }

@@ -1,0 +1,167 @@
+//! Broken places of a section: how many cracks they are, how deep these reach, and how wide they are open.
+
+use super::section::Section;
+use crate::math::nine_point::Grid;
+
+/// Damage from which on a place is broken [1]: it bears less than a hundredth of the stiffness.
+const BROKEN: f64 = 0.9;
+
+/// Sides of a section: the first and the last along its first axis, then along z.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// A face of the body.
+    Face,
+    /// A plane of symmetry: what touches it continues in the other half.
+    Mirror,
+    /// The axis of a meridian section.
+    Axis,
+}
+
+/// Measures of the broken places of a body.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Cracks {
+    /// Number of connected broken regions.
+    pub count: usize,
+    /// Largest distance of a broken node from the face at which its crack begins [m].
+    pub depth: f64,
+}
+
+/// Returns the broken nodes of a section, each list a connected region.
+fn regions(grid: Grid, damage: &[f64]) -> Vec<Vec<usize>> {
+    let [columns, rows] = grid.counts;
+    let mut is_open: Vec<bool> = damage.iter().map(|&damage| damage >= BROKEN).collect();
+    let mut found = Vec::new();
+    for start in 0..damage.len() {
+        if !std::mem::replace(&mut is_open[start], false) {
+            continue;
+        }
+        let mut region = vec![start];
+        let mut next = 0;
+        while let Some(&node) = region.get(next) {
+            next += 1;
+            let (i, j) = (node % columns, node / columns);
+            for row in j.saturating_sub(1)..(j + 2).min(rows) {
+                for column in i.saturating_sub(1)..(i + 2).min(columns) {
+                    let other = column + columns * row;
+                    if std::mem::replace(&mut is_open[other], false) {
+                        region.push(other);
+                    }
+                }
+            }
+        }
+        found.push(region);
+    }
+    found
+}
+
+impl Section {
+    /// Counts cracks and measures their depth, with the kind of both sides along each axis.
+    pub fn cracks(&self, damage: &[f64], sides: [[Side; 2]; 2]) -> Cracks {
+        let grid = self.grid();
+        let regions = regions(grid, damage);
+        let mirrored = sides[0][0] == Side::Mirror;
+        let touches = |region: &[usize]| region.iter().any(|node| node % grid.counts[0] == 0);
+        // Those that touch the plane of symmetry are one with their image.
+        let copies = |region: &Vec<usize>| if mirrored && !touches(region) { 2 } else { 1 };
+        let depths = regions.iter().map(|region| self.depth(region, sides));
+        Cracks { count: regions.iter().map(copies).sum(), depth: depths.fold(0.0, f64::max) }
+    }
+
+    /// Depth of a region [m]: how far it reaches from the face that it touches, from the nearest one if it touches several
+    /// or none.
+    fn depth(&self, region: &[usize], sides: [[Side; 2]; 2]) -> f64 {
+        let faces = (0..4).filter(|face| sides[face / 2][face % 2] == Side::Face);
+        let reaches = faces.map(|face| {
+            let distances = region.iter().map(|&node| self.distance(node, [face / 2, face % 2]));
+            distances.fold([f64::INFINITY, 0.0], |[near, far], d| [near.min(d), far.max(d)])
+        });
+        let reaches: Vec<[f64; 2]> = reaches.collect();
+        let nearest = reaches.iter().map(|[near, _]| *near).fold(f64::INFINITY, f64::min);
+        let touched = reaches.iter().filter(|[near, _]| *near == nearest);
+        touched.map(|[_, far]| *far).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Distance of a node from the first or last side along an axis [m].
+    fn distance(&self, node: usize, [axis, side]: [usize; 2]) -> f64 {
+        let columns = self.axes[0].len();
+        let place = [node % columns, node / columns][axis];
+        let nodes = &self.axes[axis];
+        (nodes[place] - nodes[side * (nodes.len() - 1)]).abs()
+    }
+
+    /// Largest `|u₁ − u₂|/h` of the displacements u [m] at both ends of an edge of length h [m] with a broken end: how
+    /// wide a crack is open over the size of its elements [1].
+    pub fn opening(&self, displacement: &[f64], damage: &[f64]) -> f64 {
+        let grid = self.grid();
+        let mut most = 0.0_f64;
+        let mut visit = |one: usize, other: usize, length: f64| {
+            if damage[one].max(damage[other]) >= BROKEN {
+                let apart = [0, 1].map(|c| displacement[2 * one + c] - displacement[2 * other + c]);
+                most = most.max(apart[0].hypot(apart[1]) / length);
+            }
+        };
+        let [columns, rows] = grid.elements();
+        for j in 0..rows {
+            for i in 0..columns {
+                let [first, right, above, _] = grid.corners([i, j]);
+                let [width, height] = self.size([i, j]);
+                visit(first, right, width);
+                visit(first, above, height);
+            }
+        }
+        most
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::method::damage::Form;
+
+    /// Nodes a millimetre apart, those of a list broken.
+    fn broken(nodes: &[[usize; 2]]) -> (Section, Vec<f64>) {
+        let axis = |count: usize| (0..count).map(|i| i as f64 * 1e-3).collect();
+        let section =
+            Section { axes: [axis(9), axis(5)], form: Form::PlaneStrain { thickness: 1.0 } };
+        let mut damage = vec![0.5; 45];
+        nodes.iter().for_each(|[i, j]| damage[i + 9 * j] = 1.0);
+        (section, damage)
+    }
+
+    const FACES: [[Side; 2]; 2] = [[Side::Face; 2]; 2];
+
+    #[test]
+    fn separate_cracks_are_counted_with_their_depth() {
+        let (section, damage) = broken(&[[2, 4], [3, 3], [3, 2], [6, 4], [8, 0]]);
+        let found = section.cracks(&damage, FACES);
+        assert_eq!(found.count, 3);
+        assert!((found.depth - 2e-3).abs() < 1e-15);
+        assert_eq!(section.cracks(&[0.5; 45], FACES), Cracks::default());
+    }
+
+    #[test]
+    fn images_count_and_no_depth_is_measured_from_a_plane_of_symmetry() {
+        let (section, damage) = broken(&[[0, 2], [6, 4]]);
+        let sides = [[Side::Mirror, Side::Face], [Side::Face; 2]];
+        let found = section.cracks(&damage, sides);
+        assert_eq!(found.count, 3);
+        assert!((found.depth - 2e-3).abs() < 1e-15);
+        let sides = [[Side::Axis, Side::Face], [Side::Face; 2]];
+        assert_eq!(section.cracks(&damage, sides).count, 2);
+    }
+
+    #[test]
+    fn a_crack_from_face_to_face_is_as_deep_as_the_body() {
+        let (section, damage) = broken(&[0, 1, 2, 3, 4].map(|j| [1, j]));
+        assert!((section.cracks(&damage, FACES).depth - 4e-3).abs() < 1e-15);
+    }
+
+    #[test]
+    fn opening_is_that_of_broken_elements() {
+        let (section, damage) = broken(&[[4, 2]]);
+        let mut displacement = vec![0.0; 90];
+        displacement[2 * (4 + 18)] = 2e-3;
+        assert!((section.opening(&displacement, &damage) - 2.0).abs() < 1e-12);
+        assert_eq!(section.opening(&displacement, &[0.0; 45]), 0.0);
+    }
+}
