@@ -224,7 +224,9 @@ impl Model {
             (next.inputs, next.derivatives) = (inputs.clone(), derivatives.to_vec());
         }
         cache.forget_states(self);
-        if let Err((place, error)) = self.note_peaks_here(&mut next, cache, When::End) {
+        if let Err((place, error)) =
+            self.note_peaks_here(&mut next, cache, When::End { duration: dt })
+        {
             // The cache follows from a state that is discarded.
             cache.clear();
             let body = self.bodies[place].name().to_owned();

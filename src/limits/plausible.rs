@@ -89,6 +89,20 @@ pub static STRENGTH: Range<'static> = Range {
     highest: 2e10, // fibres of silica without flaws 14 GPa
     mistakes: Cow::Borrowed(&[scaled("MPa", 1e6), scaled("GPa", 1e9)]),
 };
+pub static GROWTH_EXPONENT: Range<'static> = Range {
+    what: "the exponent of slow growth",
+    unit: "1",
+    lowest: 8.0,   // porous ceramics
+    highest: 90.0, // silicon nitride and carbide have 50 and more
+    mistakes: Cow::Borrowed(&[]),
+};
+pub static GROWTH_CONSTANT: Range<'static> = Range {
+    what: "the constant of slow growth",
+    unit: "Pa² s",
+    lowest: 1e9,   // glass in water has 3e12
+    highest: 1e20, // ceramics in dry air
+    mistakes: Cow::Borrowed(&[scaled("MPa² s", 1e12), scaled("GPa² s", 1e18)]),
+};
 pub static TOUGHNESS: Range<'static> = Range {
     what: "the toughness",
     unit: "Pa √m",

@@ -36,10 +36,27 @@ impl Peak {
 }
 
 /// End of a step at which maxima are noted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum When {
     Beginning,
-    End,
+    /// After a duration [s].
+    End {
+        duration: f64,
+    },
+}
+
+impl When {
+    fn is_end(self) -> bool {
+        self != Self::Beginning
+    }
+
+    /// Time since the last moment at which maxima were noted [s].
+    fn duration(self) -> f64 {
+        match self {
+            Self::Beginning => 0.0,
+            Self::End { duration } => duration,
+        }
+    }
 }
 
 impl State {
@@ -77,7 +94,7 @@ impl Model {
         cache.update(self, state);
         let holds = |number: usize| {
             let (place, which) = self.peaks[number];
-            when == When::End || self.bodies[place].holds_at_beginning(which)
+            when.is_end() || self.bodies[place].holds_at_beginning(which)
         };
         // The first maxima are noted together.
         let is_soon = state.peaks.is_empty() && !(0..self.peaks.len()).all(holds);
@@ -94,7 +111,7 @@ impl Model {
         let peaks = peaks.collect::<Result<Vec<_>, _>>()?;
         let is_kept = |&place: &usize| {
             let body = &self.bodies[place];
-            body.keeps_field() && (when == When::End || body.field_holds_at_beginning())
+            body.keeps_field() && (when.is_end() || body.field_holds_at_beginning())
         };
         let keep = || (0..self.bodies.len()).filter(is_kept);
         for place in keep() {
@@ -103,7 +120,11 @@ impl Model {
             observed.map_err(|error| (place, error))?;
         }
         for place in keep() {
-            self.bodies[place].note_field(&mut state.bodies[place], cache.memo(place));
+            self.bodies[place].note_field(
+                &mut state.bodies[place],
+                cache.memo(place),
+                when.duration(),
+            );
         }
         state.peaks = peaks;
         Ok(())

@@ -117,6 +117,60 @@ fn spot(material: &str, keys: &str, load: &str) -> String {
     )
 }
 
+/// A bar under a pull along z [Pa], with flaws that grow slowly.
+fn pulled(keys: &str) -> Trial {
+    let faces = "bottom = { roller = true }\nleft = { roller = true }\nfront = { roller = true }";
+    let material = one(&flaws(10, keys));
+    Trial::new(&format!(
+        "name = \"Bar\"\nstop_time = 1e-2\nstep = 1e-3\n[body.plate]\nkind = \"solid\"\nshape = {{ {BOX} }}\n\
+         {material}\ninitial_temperature = 300.0\nmesh = {{ spacing = 1e-3 }}\n[body.plate.faces]\n{faces}\n\
+         [[load]]\nname = \"pull\"\non = \"plate.top\"\ncarries = [\"pressure\"]\n\
+         footprint = {{ tiles = {{ count = [1, 1], size = [3e-3, 2e-3] }} }}\n"
+    ))
+}
+
+/// Under a pull that comes and goes, glass in water breaks as if `σ^(n−2) + σ^n t/B` were that of a stress.
+#[test]
+fn flaws_that_grow_slowly_break_under_repeated_stress() {
+    let (exponent, constant) = (16.0, 3.4e12);
+    let keys = "volume = 1e-9, slow_growth = { exponent = 16.0, constant = 3.4e12 }";
+    let mut trial = pulled(keys);
+    let mut loaded = 0.0;
+    for (pull, duration) in [(0.0, 1e-3), (100e6, 4e-4), (100e6, 1e-4), (0.0, 2e-3), (100e6, 2e-3)]
+    {
+        trial.set("pull.pressure[1,1]", -pull);
+        let saved = trial.state.clone();
+        trial.step(duration);
+        trial.restart(&saved);
+        trial.step(duration);
+        loaded += if pull > 0.0 { duration } else { 0.0 };
+        let stress = if loaded > 0.0 { 100e6_f64 } else { 0.0 };
+        let inert =
+            stress * (1.0 + stress * stress * loaded / constant).powf(1.0 / (exponent - 2.0));
+        let wanted = 6.0 * (inert / STRENGTH).powi(10);
+        let found = trial.get("plate.failure_risk");
+        assert!((found - wanted).abs() <= 1e-6 * wanted, "{loaded}: {found} {wanted}");
+    }
+    let mut other = pulled("volume = 1e-9");
+    other.set("pull.pressure[1,1]", -100e6);
+    other.step(5e-3);
+    assert!(trial.get("plate.failure_risk") > 2.0 * other.get("plate.failure_risk"));
+}
+
+/// Growth that no run leads to.
+#[test]
+fn states_of_flaws_that_shrank_are_refused() {
+    let mut trial = pulled("volume = 1e-9, slow_growth = { exponent = 16.0, constant = 3.4e12 }");
+    trial.set("pull.pressure[1,1]", -100e6);
+    trial.step(1e-3);
+    let mut state = trial.state.clone();
+    trial.model.check_state(&state).unwrap();
+    let unknowns = &mut state.bodies[0];
+    let grown = unknowns.iter().rposition(|own| *own > 0.0 && *own < 1.0);
+    unknowns[grown.expect("flaws have grown")] = -1.0;
+    assert!(trial.model.check_state(&state).is_err());
+}
+
 const COLD: &str = "start = { heat_flux = -4e7 }";
 
 #[test]

@@ -43,8 +43,8 @@ pub trait Maxima {
         Ok(())
     }
 
-    /// Updates the running maxima of that field to the values observed.
-    fn note_field(&self, _state: &mut [f64], _memo: &mut Memo) {}
+    /// Updates the running maxima of that field to the values observed, a duration [s] after the last time.
+    fn note_field(&self, _state: &mut [f64], _memo: &mut Memo, _duration: f64) {}
 
     /// Refuses a running maximum that no run of this body produces, with the reason.
     fn check_peak(&self, _which: usize, _peak: &Extreme) -> Result<(), String> {

@@ -1,12 +1,16 @@
 //! Probability of failure of a solid of brittle material.
 //!
 //! A flaw breaks at the largest stress that it has met, so the equivalent stress of every node keeps its running
-//! maximum, as part of the body's state. It is noted at communication points, like other running maxima.
+//! maximum, as part of the body's state. It is noted at communication points, like other running maxima. Flaws that grow
+//! slowly break at a stress that falls with time, which counts like a stress that rises.
+
+use std::borrow::Cow;
 
 use super::SolidBody;
 use super::memo::SolidMemo;
 use super::reader::SolidReader;
 use crate::body::BodyError;
+use crate::method::fem::Flaws;
 use crate::state::{Field, Layout, Per};
 
 /// Value of a node before anything is noted [Pa].
@@ -34,25 +38,40 @@ struct Noted<'s> {
     stress: &'s [f64],
 }
 
+/// Growth of the flaws of all nodes: `∫ (s/σ₀)^n dt` [s], and the equivalent stress when it was last noted [Pa].
+struct Growth<'s> {
+    grown: &'s mut [f64],
+    last: &'s mut [f64],
+}
+
 impl SolidBody {
     /// Fields of the running maxima.
     pub(super) fn layout_of_flaws(&self) -> Layout {
         let field = |name, words, per| Field { name, words, per, width: 1 };
+        let Some(flaws) = self.solid.flaws() else { return Layout::default() };
+        let count = self.solid.risk_points();
         let risk = field("failure_risk", "largest risk of failure so far [1]", Per::Body);
         let stress =
             field("equivalent_stress", "largest equivalent stress of flaws so far [Pa]", Per::Node);
-        match self.solid.risk_points() {
-            0 => Layout::default(),
-            count => Layout::default().with(risk, 1).with(stress, count),
+        let layout = Layout::default().with(risk, 1).with(stress, count);
+        if !flaws.grow() {
+            return layout;
         }
+        let grown = field("grown", "integral of its power over time [s]", Per::Node);
+        let last = field("present_stress", "equivalent stress when last noted [Pa]", Per::Node);
+        layout.with(grown, count).with(last, count)
     }
 
     /// Running maxima before anything is noted.
     pub(super) fn nothing_noted(&self) -> Vec<f64> {
-        match self.solid.risk_points() {
-            0 => Vec::new(),
-            count => [vec![0.0], vec![NOTHING; count]].concat(),
+        let Some(flaws) = self.solid.flaws() else { return Vec::new() };
+        let count = self.solid.risk_points();
+        let mut noted = [vec![0.0], vec![NOTHING; count]].concat();
+        if flaws.grow() {
+            noted
+                .extend([0.0, NOTHING].into_iter().flat_map(|own| std::iter::repeat_n(own, count)));
         }
+        noted
     }
 
     /// Place of the running maxima in a state.
@@ -62,7 +81,8 @@ impl SolidBody {
 
     /// Running maxima of a state; `None` before anything is noted.
     fn noted<'s>(&self, state: &'s [f64]) -> Option<Noted<'s>> {
-        let (&risk, stress) = state[self.place_of_noted(state)..].split_first()?;
+        let (&risk, rest) = state[self.place_of_noted(state)..].split_first()?;
+        let stress = &rest[..self.solid.risk_points()];
         (*stress.first()? != NOTHING).then_some(Noted { risk, stress })
     }
 
@@ -78,14 +98,23 @@ impl SolidBody {
         wrong.map_or(Ok(()), |value| BodyError::unless_finite(value).map(|_| ()))
     }
 
-    /// Updates the running maxima to the observed values. The risk follows from the stresses; it is kept itself, so
-    /// that it never falls where these change the interpolation between them.
-    pub(super) fn note_flaws(&self, state: &mut [f64], memo: &mut SolidMemo) {
+    /// Updates the running maxima to the observed values, a duration [s] after the last time. The risk follows from the
+    /// stresses; it is kept itself, so that it never falls where these change the interpolation between them.
+    pub(super) fn note_flaws(&self, state: &mut [f64], memo: &mut SolidMemo, duration: f64) {
         let Some(flaws) = self.solid.flaws() else { return };
         memo.forget_risk();
         let place = self.place_of_noted(state);
-        let Some((risk, stress)) = state[place..].split_first_mut() else { return };
-        self.solid.note_largest(flaws, stress, memo.observed(), NOTHING);
+        let count = self.solid.risk_points();
+        let Some((risk, rest)) = state[place..].split_first_mut() else { return };
+        let (stress, growth) = rest.split_at_mut(count);
+        let observed = match growth.split_at_mut_checked(count) {
+            Some((grown, last)) if flaws.grow() => {
+                self.note_growth(flaws, Growth { grown, last }, memo.observed(), duration)
+            }
+            _ => Cow::Borrowed(memo.observed()),
+        };
+        self.solid.note_largest(flaws, stress, &observed, NOTHING);
+        drop(observed);
         // While stress grows, the present one is the largest so far.
         let found = match memo.known_risk().filter(|_| stress == memo.observed()) {
             Some(present) => present,
@@ -97,25 +126,53 @@ impl SolidBody {
         }
     }
 
+    /// Lets flaws grow up to the observed stress; returns the stress that breaks as many which have not grown. Before the
+    /// first note the stress counts as if it had been there from the start.
+    fn note_growth<'o>(
+        &self,
+        flaws: &Flaws,
+        Growth { grown, last }: Growth,
+        observed: &'o [f64],
+        duration: f64,
+    ) -> Cow<'o, [f64]> {
+        if last.first() == Some(&NOTHING) {
+            last.copy_from_slice(observed);
+        }
+        self.solid.grow(flaws, [last, observed], duration, grown);
+        last.copy_from_slice(observed);
+        Cow::Owned(self.solid.inert_stress(flaws, observed, grown))
+    }
+
     /// Refuses running maxima that no run produces.
     pub(super) fn check_flaws(&self, state: &[f64]) -> Result<(), String> {
         let Some(flaws) = self.solid.flaws() else { return Ok(()) };
         let place = self.place_of_noted(state);
         let is_possible = match self.noted(state) {
-            None => state[place] == 0.0 && state[place + 1..].iter().all(|own| *own == NOTHING),
+            None => state[place..] == self.nothing_noted()[..],
             Some(Noted { risk, stress }) => {
                 let is_known = |own: &f64| own.is_finite() && *own != NOTHING;
                 let follows = || {
                     let least = self.solid.risk(flaws, stress).min(f64::MAX);
                     risk.is_finite() && risk >= least && risk <= MOST_OF_STRESS * least
                 };
-                stress.iter().all(is_known) && follows()
+                stress.iter().all(is_known) && self.growth_is_possible(state) && follows()
             }
         };
         match is_possible {
             true => Ok(()),
             false => Err(format!("stresses of flaws in {} that no run leads to", self.name)),
         }
+    }
+}
+
+impl SolidBody {
+    /// Returns true if flaws of a state have grown by finite amounts at finite stresses.
+    fn growth_is_possible(&self, state: &[f64]) -> bool {
+        let count = self.solid.risk_points();
+        let growth = &state[self.place_of_noted(state) + 1 + count..];
+        let (grown, last) = growth.split_at(growth.len() / 2);
+        grown.iter().all(|own| own.is_finite() && *own >= 0.0)
+            && last.iter().all(|own| own.is_finite() && *own != NOTHING)
     }
 }
 

@@ -346,8 +346,8 @@ impl Maxima for SolidBody {
         self.observe_flaws(state, SolidMemo::of_mut(memo))
     }
 
-    fn note_field(&self, state: &mut [f64], memo: &mut Memo) {
-        self.note_flaws(state, SolidMemo::of_mut(memo));
+    fn note_field(&self, state: &mut [f64], memo: &mut Memo, duration: f64) {
+        self.note_flaws(state, SolidMemo::of_mut(memo), duration);
     }
 
     fn check_peak(&self, which: usize, peak: &Extreme) -> Result<(), String> {

@@ -3,11 +3,13 @@
 mod cracking;
 mod damage;
 mod normal_average;
+mod slow_growth;
 mod split;
 mod weibull;
 
 pub use cracking::Cracking;
 pub use damage::{Components, Dissipation, GradientDamage, PointResponse, degradation};
+pub use slow_growth::SlowGrowth;
 pub use split::{Principal, Split};
 pub use weibull::{Directions, Extent, FlawStatistics, Weibull};
 

@@ -10,6 +10,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::normal_average::NormalAverage;
+use super::slow_growth::SlowGrowth;
 use crate::laws::stress::principals;
 use crate::limits::{plausible, positive, within};
 
@@ -36,6 +37,10 @@ pub struct Weibull {
     /// Orientation of flaws.
     #[serde(default)]
     pub directions: Directions,
+    /// Slow growth of flaws under tension.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("otherwise" = "flaws break at once or never"))]
+    pub slow_growth: Option<SlowGrowth>,
 }
 
 /// Orientation of flaws under a stress of several axes.
@@ -63,6 +68,7 @@ pub struct FlawStatistics {
     /// [Pa]
     pub strength: f64,
     pub extent: Extent,
+    pub slow_growth: Option<SlowGrowth>,
     /// Average over directions; `None` if principal stresses are independent.
     average: Option<NormalAverage>,
 }
@@ -77,14 +83,14 @@ impl Weibull {
 
     /// Returns the distribution, ready for use; flaws are in the volume unless an area is given.
     pub fn statistics(&self) -> FlawStatistics {
-        let Self { modulus, strength, volume, area, directions } = *self;
+        let Self { modulus, strength, volume, area, directions, slow_growth } = *self;
         let extent = match (volume, area) {
             (_, Some(area)) => Extent::Area(area),
             (volume, None) => Extent::Volume(volume.unwrap_or(1.0)),
         };
         let is_normal = directions == Directions::Normal;
         let average = is_normal.then(|| NormalAverage::of(modulus));
-        FlawStatistics { modulus, strength, extent, average }
+        FlawStatistics { modulus, strength, extent, slow_growth, average }
     }
 }
 
@@ -146,8 +152,14 @@ mod tests {
     use super::*;
 
     fn flaws(modulus: f64, directions: Directions) -> FlawStatistics {
-        let weibull =
-            Weibull { modulus, strength: 300e6, volume: Some(1e-9), area: None, directions };
+        let weibull = Weibull {
+            modulus,
+            strength: 300e6,
+            volume: Some(1e-9),
+            area: None,
+            directions,
+            slow_growth: None,
+        };
         weibull.statistics()
     }
 

@@ -91,6 +91,11 @@ impl Flaws {
         Some(Self { layers, rules: (1..=MOST_POINTS).map(rule).collect(), patches, bears })
     }
 
+    /// Returns true if flaws of a layer grow slowly.
+    pub fn grow(&self) -> bool {
+        self.layers.iter().flatten().any(|own| own.slow_growth.is_some())
+    }
+
     /// The distribution of a patch.
     fn of_patch(&self, patch: &Patch) -> &FlawStatistics {
         self.layers[patch.layer].as_ref().expect("patches are those of layers with flaws")
@@ -300,13 +305,9 @@ impl SolidFem {
     /// Equivalent stress at the nodes of all images [Pa], continued to negative values as
     /// [`FlawStatistics::continued`] says; zero where there are no flaws.
     pub fn equivalent_stress(&self, flaws: &Flaws, stresses: &[ImageStress]) -> Vec<f64> {
-        let [nx, ny, _] = self.mesh.sided_counts();
         let of_image = |stress: &[[f64; 6]]| {
             let value = |(node, stress): (usize, &[f64; 6])| {
-                let level = node / (nx * ny);
-                let layer = level - self.nodes_of_sided[level];
-                let own = flaws.layers[layer].as_ref().filter(|_| flaws.bears[node]);
-                own.map_or(0.0, |own| own.continued(*stress))
+                self.statistics(flaws, node).map_or(0.0, |own| own.continued(*stress))
             };
             stress.iter().enumerate().map(value).collect::<Vec<f64>>()
         };
@@ -318,6 +319,42 @@ impl SolidFem {
             known.iter().rev().find(|(own, _)| same(own)).map_or(&known[0].1, |(_, own)| own)
         };
         self.all_images().flat_map(|image| like(image).iter().copied()).collect()
+    }
+
+    /// Distribution of the flaws at a node of one image; `None` where there are none.
+    fn statistics<'f>(&self, flaws: &'f Flaws, node: usize) -> Option<&'f FlawStatistics> {
+        let [nx, ny, _] = self.mesh.sided_counts();
+        let level = node / (nx * ny);
+        let layer = level - self.nodes_of_sided[level];
+        flaws.layers[layer].as_ref().filter(|_| flaws.bears[node])
+    }
+
+    /// Adds to `∫ (s/σ₀)^n dt` [s] of all nodes, between two equivalent stresses [Pa] a time apart [s].
+    pub fn grow(
+        &self,
+        flaws: &Flaws,
+        [first, last]: [&[f64]; 2],
+        duration: f64,
+        grown: &mut [f64],
+    ) {
+        let nodes = self.mesh.sided_nodes();
+        for (place, grown) in grown.iter_mut().enumerate() {
+            let Some(own) = self.statistics(flaws, place % nodes) else { continue };
+            let Some(law) = own.slow_growth else { continue };
+            let more = law.grown([first[place], last[place]], own.strength, duration);
+            *grown = (*grown + more).min(f64::MAX);
+        }
+    }
+
+    /// Equivalent stress at which flaws that have not grown would break like those of a state [Pa].
+    pub fn inert_stress(&self, flaws: &Flaws, equivalent: &[f64], grown: &[f64]) -> Vec<f64> {
+        let nodes = self.mesh.sided_nodes();
+        let inert = |(place, (&stress, &grown)): (usize, (&f64, &f64))| {
+            let own = self.statistics(flaws, place % nodes);
+            let law = own.and_then(|own| Some((own.slow_growth?, own.strength)));
+            law.map_or(stress, |(law, strength)| law.inert(stress, strength, grown))
+        };
+        equivalent.iter().zip(grown).enumerate().map(inert).collect()
     }
 
     /// Updates running maxima of the equivalent stress to the present one. Tension keeps its largest value. Where none
