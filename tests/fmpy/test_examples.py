@@ -13,6 +13,7 @@ FEWER = {
     "moving_spot": ["--frames", "8"],
     "printer_control": ["--drops", "1", "--after", "0.15"],
     "quench_cracks": ["--steps", "6"],
+    "thermal_fatigue": ["--drops", "2"],
     "stress_study": ["--samples", "4", "--levels", "3"],
 }
 # Examples that draw the points of the grid that their scene has.
