@@ -1,4 +1,4 @@
-"""Drops of water fall on hot glass again and again: flaws grow, and the glass may break at the tenth."""
+"""Drops of water fall on hot glass again and again, and flaws grow while they are pulled."""
 
 import sys
 from dataclasses import dataclass
@@ -67,7 +67,8 @@ def draw(results: dict[float, Result], folder: Path):
     for (plate, result), colour in zip(results.items(), shared.COLOURS, strict=False):
         first = result.times <= PERIOD
         label = f"{plate:.0f} °C"
-        axes[0].semilogx(result.times[first], result.stress[first] * 1e-6, color=colour, label=label)
+        tension = result.stress[first] * 1e-6
+        axes[0].semilogx(result.times[first], tension, color=colour, label=label)
         axes[1].loglog(drops, result.after_drops(), "o-", ms=3, color=colour, label=label)
         axes[1].loglog(drops, result.without_water(), "--", lw=1, color=colour)
     axes[0].set(xlabel="time since the drop / s", ylabel="largest tension / MPa")
