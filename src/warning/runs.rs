@@ -101,6 +101,10 @@ rules! {
      up";
     "a smaller `spacing` delays it"
 
+    End drops_wait(waiting, asked)
+    "{waiting} of {asked} drops asked for are not released, as fluid occupies their place (`waiting`)";
+    "a larger `height` of the drops starts them above what rests on the wall"
+
     End fluid_came_off_in_record(part)
     "{part} % of the fluid had come off in small lumps by the end of the record: films thinner than some two \
      particles break up"; "a smaller `spacing` delays it"

@@ -55,6 +55,19 @@ fn counts(trial: &mut Trial) -> [f64; 2] {
 }
 
 #[test]
+fn drops_that_still_wait_at_the_end_are_warned_of() {
+    let mut trial = Trial::new(&(drop(ON_DEMAND) + &wall(TILES)));
+    ask(&mut trial, &[("release", 1.0)]);
+    steps(&mut trial, 1);
+    assert_eq!(trial.model.closing_warnings(&trial.state), []);
+    ask(&mut trial, &[("release", 2.0)]);
+    steps(&mut trial, 1);
+    assert_eq!(counts(&mut trial), [1.0, 1.0]);
+    let found = trial.model.closing_warnings(&trial.state);
+    assert!(found[0].to_string().contains("1 of 2 drops asked for are not released"), "{found:?}");
+}
+
+#[test]
 fn drops_on_demand_are_those_of_arrivals_to_the_bit() {
     let arrivals =
         "symmetry = \"none\"\narrivals = [{ x = 4e-5 }, { time = 1e-6, x = -9e-5, y = 3e-5 }]\n";

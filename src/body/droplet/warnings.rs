@@ -68,6 +68,19 @@ impl DropletBody {
     }
 }
 
+impl DropletBody {
+    /// Warns of fluid that has come off, and of drops that still wait.
+    fn at_end(&self, state: &[f64]) -> Vec<Finding> {
+        let totals = self.droplet.totals(state);
+        let part = totals.stray_mass / totals.mass;
+        let off =
+            (part > STRAY_SHARE).then(|| warning::fluid_comes_off(format!("{:.0}", 100.0 * part)));
+        let asked = totals.released + totals.waiting;
+        let waits = (totals.waiting > 0.0).then(|| warning::drops_wait(totals.waiting, asked));
+        off.into_iter().chain(waits).collect()
+    }
+}
+
 impl Advice for DropletBody {
     fn notes(&self) -> Vec<String> {
         self.notes.iter().map(|note| format!("{}: {note}", self.name)).collect()
@@ -75,16 +88,15 @@ impl Advice for DropletBody {
 
     fn warnings(&self, state: &[f64], occasion: Occasion) -> Vec<Warning> {
         let found = match occasion {
-            Occasion::Step => self.overflows(state).then(warning::fluid_beyond_edge),
-            Occasion::Response { before, now } => self.held_wall(state, before, now),
-            Occasion::End => {
-                let totals = self.droplet.totals(state);
-                let part = totals.stray_mass / totals.mass;
-                (part > STRAY_SHARE)
-                    .then(|| warning::fluid_comes_off(format!("{:.0}", 100.0 * part)))
+            Occasion::Step => {
+                self.overflows(state).then(warning::fluid_beyond_edge).into_iter().collect()
             }
+            Occasion::Response { before, now } => {
+                self.held_wall(state, before, now).into_iter().collect()
+            }
+            Occasion::End => self.at_end(state),
         };
-        found.map(|finding| finding.at(&self.name)).into_iter().collect()
+        found.into_iter().map(|finding: Finding| finding.at(&self.name)).collect()
     }
 
     fn watch(&self) -> Option<&Watch> {
