@@ -60,6 +60,7 @@ COARSE = {
     },
     "thermostat_strip": {"spacing = 0.2e-3": "spacing = 0.8e-3"},
     "quench_cracks": {"strength = 180e6": "strength = 80e6"},
+    "remelting": {"\nspacing = 80e-6": "\nspacing = 200e-6"},
     "tin_drop": {"\nspacing = 60e-6": "\nspacing = 200e-6"},
     "wax_line": {"mesh = { spacing = 0.8e-3 }": "mesh = { spacing = 1e-3, order = 1 }"},
 }
