@@ -5,6 +5,7 @@ use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
+use impinge::limits::number;
 use impinge::model::State;
 use impinge::runtime::available_memory;
 use impinge::scene::{self, Scene};
@@ -136,14 +137,15 @@ impl InputTable {
         let (first, last) = (*self.times.first()?, *self.times.last()?);
         let file = path.display();
         if first >= stop {
-            let [stop, first] = [stop, first].map(|time| format!("{time:e}"));
+            let [stop, first] = [stop, first].map(number);
             let warning = warning::run_ends_before_rows(stop, first).at(file.to_string());
             return Some(("warning", warning.to_string()));
         }
         if first > 0.0 {
             let message = format!(
-                "{file}: the values of the first row, at {first:e} s, hold from the start: they replace those that the \
-                 scene starts with"
+                "{file}: the values of the first row, at {} s, hold from the start: they replace those that the \
+                 scene starts with",
+                number(first)
             );
             return Some(("note", message));
         }
@@ -152,7 +154,11 @@ impl InputTable {
         ends_early.then(|| {
             (
                 "note",
-                format!("{file}: the values of the last row hold from {last:e} s to {stop:e} s"),
+                format!(
+                    "{file}: the values of the last row hold from {} s to {} s",
+                    number(last),
+                    number(stop)
+                ),
             )
         })
     }
@@ -224,8 +230,11 @@ impl InputTable {
     /// Names the rows that bound a part of a step between two times [s].
     pub fn rows_at(&self, from: f64, to: f64) -> String {
         let is_row = |time: &f64| self.times.contains(time);
-        let times: Vec<String> =
-            [from, to].into_iter().filter(is_row).map(|time| format!("{time:e} s")).collect();
+        let times: Vec<String> = [from, to]
+            .into_iter()
+            .filter(is_row)
+            .map(|time| format!("{} s", number(time)))
+            .collect();
         format!("{}, row at {}", self.path.display(), times.join(" and at "))
     }
 

@@ -1,7 +1,7 @@
 //! Errors of models.
 
 use crate::body::BodyError;
-use crate::limits::Bounds;
+use crate::limits::{Bounds, number};
 use crate::runtime::address_space::TooLittle;
 use crate::runtime::allowance::Halt;
 use crate::scene::SceneError;
@@ -17,7 +17,7 @@ pub enum ModelError {
     #[error("{0}")]
     Scene(#[from] SceneError),
     /// A step length outside the limits of the arithmetic.
-    #[error("step size {step:e} s {requirement} (allowed: {bounds} s)")]
+    #[error("step size {} s {requirement} (allowed: {bounds} s)", number(*step))]
     StepLength { step: f64, requirement: String, bounds: Bounds },
     /// A scene is too large for the machine.
     #[error(

@@ -107,7 +107,7 @@ fn run_notes_values_kept_before_and_after_its_table() {
     for (rows, words) in [
         (
             "1,5e7\n",
-            "before the first row at 1e0 s, whose values hold throughout; check that the times",
+            "before the first row at 1 s, whose values hold throughout; check that the times",
         ),
         ("0,5e7\n2e-7,6e7\n", "the values of the last row hold from 2e-7 s to 1e-6 s"),
     ] {
@@ -126,7 +126,8 @@ fn short_pulses_warn_and_balance() {
         run_with(&place, &table, &options).succeeds().stderr()
     };
     let pulse = said("0,5e7\n1e-11,0\n");
-    let named = "warning: table.csv, row at 0e0 s and at 1e-11 s: plate: a step of 1.0e-11 s is shorter than";
+    let named =
+        "warning: table.csv, row at 0 s and at 1e-11 s: plate: a step of 1.0e-11 s is shorter than";
     assert!(pulse.contains(named), "{pulse}");
     let late = said("0,5e7\n9.999e-8,0\n");
     let named = "warning: table.csv, row at 9.999e-8 s: plate: a step of 1.0e-11 s is shorter than";

@@ -109,8 +109,17 @@ fn own_material(checker: &mut Checker, path: &Path, choice: &MaterialChoice, che
 fn thickness(checker: &mut Checker, path: &Path, wanted: f64, list: &[Layer]) {
     let sum: f64 = list.iter().map(|layer| layer.thickness).sum();
     let fine = (sum - wanted).abs() <= SLACK * wanted;
-    let message = format!("the layers are {sum:e} m thick together, the shape is {wanted:e} m");
-    checker.require(fine, path, message, format!("thicknesses that add up to {wanted:e} m"));
+    let message = format!(
+        "the layers are {} m thick together, the shape is {} m",
+        number(sum),
+        number(wanted)
+    );
+    checker.require(
+        fine,
+        path,
+        message,
+        format!("thicknesses that add up to {} m", number(wanted)),
+    );
 }
 
 /// Checks lateral convection on layers. Its flux follows the temperature along the face, but lateral modes are common
