@@ -109,6 +109,17 @@ impl Body {
         of_faces.chain(own).chain([self.initial_temperature()]).collect()
     }
 
+    /// The materials of the body and of its layers.
+    pub(super) fn materials(&self) -> Vec<&MaterialChoice> {
+        let (material, layers) = match self {
+            Body::Solid(solid) => (&solid.material, &solid.layers),
+            Body::LargeStrain(solid) => (&solid.material, &solid.layers),
+            Body::Droplet(_) | Body::Reservoir(_) | Body::Filament(_) => return Vec::new(),
+        };
+        let layers = layers.iter().flatten().map(|layer| &layer.material);
+        material.iter().chain(layers).collect()
+    }
+
     /// The materials of the body, each with the number of its layer.
     pub(super) fn materials_mut(&mut self) -> Vec<(Option<usize>, &mut MaterialChoice)> {
         let (material, layers) = match self {

@@ -39,13 +39,17 @@ pub struct BeyondSubstance {
 impl Scene {
     /// The substance of a solid whose range a temperature [K] exceeds first.
     pub fn beyond_substance(&self, body: &str, temperature: f64) -> Option<BeyondSubstance> {
-        let solid = self.solid(body)?;
+        let melts = match self.body.get(body)? {
+            Body::Solid(solid) => solid.melts(),
+            Body::LargeStrain(_) => false,
+            _ => return None,
+        };
         let beyond = self.substances_of(body).filter(|named| temperature > named.valid[1]);
         let named = beyond.min_by(|a, b| a.valid[1].total_cmp(&b.valid[1]))?;
         Some(BeyondSubstance {
             substance: named.substance.name,
             highest: named.valid[1],
-            unmelted: named.melts.filter(|&point| temperature > point && !solid.melts()),
+            unmelted: named.melts.filter(|&point| temperature > point && !melts),
         })
     }
 
@@ -54,13 +58,7 @@ impl Scene {
         &'s self,
         body: &'s str,
     ) -> impl Iterator<Item = &'s NamedSubstance> + use<'s> {
-        let choices: Vec<&MaterialChoice> = match self.body.get(body) {
-            Some(Body::Solid(solid)) => {
-                let layers = solid.layers.iter().flatten().map(|layer| &layer.material);
-                solid.material.iter().chain(layers).collect()
-            }
-            _ => Vec::new(),
-        };
+        let choices = self.body.get(body).map_or(Vec::new(), Body::materials);
         let own = Path::default().key("body").key(body);
         let materials = Path::default().key("material");
         self.substances.iter().filter(move |named| {

@@ -33,6 +33,21 @@ const FLAT: &str =
     "top = { roller = true, displacement = [0.0, 0.0, 0.0] }, bottom = { roller = true }";
 
 #[test]
+fn temperatures_beyond_a_substance_are_warned_of() {
+    let copper = "material = { substance = \"copper\", at = 300.0, model = \"neo_hookean\" }";
+    let mut trial = Trial::new(&scene(&format!(
+        "shape = {{ box = [10e-3, 8e-3, 12e-3] }}\nmesh = {{ spacing = 4e-3 }}\nfaces = {{ bottom = {{ roller = true \
+         }} }}\n{copper}"
+    )));
+    for (temperature, said) in [(400.0, 0), (1600.0, 1)] {
+        trial.set("pad.temperature", temperature);
+        trial.step(1.0);
+        let found = trial.model.warnings(&trial.state);
+        assert_eq!(found.len(), said, "{found:?}");
+    }
+}
+
+#[test]
 fn free_blocks_expand_without_stress() {
     for keys in ["", "mechanics = \"rkpm\"", "mechanics = \"efg\"", "dimension = 2"] {
         let mut trial =

@@ -48,6 +48,11 @@ pub trait Advice {
         None
     }
 
+    /// Returns the temperature of a body that an input sets as a whole [K].
+    fn temperature_set(&self, _state: &[f64]) -> Option<f64> {
+        None
+    }
+
     /// Returns the coldest and the hottest place of a fluid in a state, if the body has fluid.
     fn warm_places(&self, _state: &[f64]) -> Option<[WarmPlace; 2]> {
         None

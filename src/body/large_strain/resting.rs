@@ -472,6 +472,10 @@ impl Advice for RestingBody {
     fn notes(&self) -> Vec<String> {
         self.notes.clone()
     }
+
+    fn temperature_set(&self, state: &[f64]) -> Option<f64> {
+        Some(self.resting(state).temperature)
+    }
 }
 
 impl Resources for RestingBody {

@@ -131,8 +131,8 @@ mod tests {
             LIMIT.set(Some(limit));
             let drop = drop();
             let mut state = drop.initial_state();
-            drop.advance(&mut state, &[300.0; 9], 2e-6).unwrap();
-            assert!(drop.totals(&state).steps > 20.0);
+            drop.advance(&mut state, &[300.0; 9], 1e-6).unwrap();
+            assert!(drop.totals(&state).steps > 10.0);
             LIMIT.set(None);
             state
         };

@@ -506,7 +506,7 @@ mod tests {
             |i: usize, step: usize| [0, 1, 2].map(|a| 0.03 * (number(i + 11 * a + step / 9) - 0.5));
         for (images, steps) in models().into_iter().zip([1.0, 9.0]) {
             let (mut points, mut neighbours) = ordered(300);
-            for step in 0..40 {
+            for step in 0..20 {
                 let drifts: Vec<_> = (0..300).map(|i| drift(i, step)).collect();
                 let team = Team::new(1);
                 neighbours.prepare(

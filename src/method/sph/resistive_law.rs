@@ -361,8 +361,8 @@ mod tests {
 
     #[test]
     fn half_spaces_exchange_their_heat_from_the_first_step() {
-        for wall in [None, Some(100.0), Some(1.0), Some(0.3), Some(0.03)] {
-            for conductance in [1e-3, 0.03, 0.3, 1.0, 3.0, 30.0, 1e3, 1e9] {
+        for wall in [None, Some(100.0), Some(0.03)] {
+            for conductance in [1e-3, 0.3, 3.0, 30.0, 1e9] {
                 let errors = errors(conductance, wall, 1e-2, &[1e-2, 1e-1, 1.0, 10.0, 50.0]);
                 let name = format!("{conductance} above {wall:?}: {errors:?}");
                 assert!(errors.iter().all(|error| error.abs() < 5e-3), "{name}");

@@ -241,7 +241,7 @@ fn a_radius_is_a_round_body() {
 #[test]
 fn stability_on_lattices_of_any_grading() {
     // Any value at any particle; in an insulated body all differences decay.
-    for (growth, fine) in [(1.0, 0.05), (1.3, 1.0), (1.3, 0.1), (1.7, 1.0)] {
+    for (growth, fine) in [(1.0, 0.05), (1.3, 0.1), (1.7, 1.0)] {
         for insulated in [true, false] {
             let axes = [axis(1e-3, 5, growth), axis(1e-3, 3, 1.0), axis(fine * 1e-3, 6, growth)];
             let held = [(0, true, Condition::Held), (2, false, Condition::Held)];
