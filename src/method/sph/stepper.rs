@@ -6,6 +6,9 @@
 //! 2012, J. Comput. Phys. 231, 7057–7075, doi 10.1016/j.jcp.2012.05.005). Surface tension, which changes
 //! slowly, acts as impulses between rounds of steps.
 
+mod frozen;
+mod wall;
+
 use super::arrest::note_arrest;
 use super::cloud::{Cloud, Ledger, Part, UNKNOWNS};
 use super::continuity::Continuity;
@@ -308,21 +311,6 @@ impl<'a, 'p> Stepper<'a, 'p> {
         self.place_frozen(&moved);
     }
 
-    /// Positions and velocities of free pieces after a time without forces.
-    fn frozen_moved(&self, dt: f64) -> Vec<Moved> {
-        match self.frozen.any_is_free() {
-            true => self.frozen.bodies(self.cloud).moved(dt),
-            false => Vec::new(),
-        }
-    }
-
-    fn place_frozen(&mut self, moved: &[Moved]) {
-        for Moved { particle, position, velocity } in moved {
-            self.cloud.position[*particle] = *position;
-            self.cloud.velocity[*particle] = *velocity;
-        }
-    }
-
     /// Changes velocities by the accelerations; the reaction on the wall waits for [`Self::push_wall`].
     fn kick(&mut self, times: Times) -> Motion {
         let gravity = self.method.gravity;
@@ -347,61 +335,6 @@ impl<'a, 'p> Stepper<'a, 'p> {
         let (gravity, bonds) = (self.method.gravity, self.frozen.bonds());
         let kick = |part: &mut Part| kick(part, times, gravity, bonds);
         Motion::of(self.team.map_each(&mut self.cloud.parts(PART), kick))
-    }
-
-    /// Projects the velocities of free pieces onto rigid motions after a kick; returns the measures of the motion then.
-    fn make_rigid(&mut self, times: Times, kicked: Motion) -> Motion {
-        let (cloud, gravity) = (&*self.cloud, self.method.gravity);
-        let bodies = self.frozen.bodies(cloud);
-        let accelerations = bodies.projected(|i| acceleration(cloud, i, times, gravity));
-        for (i, velocity) in bodies.projected(|i| cloud.velocity[i]) {
-            self.cloud.velocity[i] = velocity;
-        }
-        let mut motion =
-            self.kick_particles(Times { dt: 0.0, tension: times.tension.map(|_| 0.0) });
-        motion.sound &= kicked.sound;
-        accelerations.into_iter().for_each(|(_, acceleration)| motion.accelerate(acceleration));
-        motion
-    }
-
-    /// Adds the velocities that held particles have lost to those whose impulse the wall has not received yet.
-    fn note_stopped(&mut self, motion: &Motion) {
-        if !motion.stopped.is_empty() {
-            self.stopped.resize(self.cloud.len(), [0.0; 3]);
-        }
-        for &(i, velocity) in &motion.stopped {
-            (0..3).for_each(|a| self.stopped[i][a] += velocity[a]);
-        }
-    }
-
-    /// Transfers to the wall below them the impulses of forces on held particles; their pieces carry these there.
-    fn push_wall_by_stopped(&mut self) {
-        let momentum = self.method.units.mass() * self.method.units.speed;
-        let stopped = std::mem::take(&mut self.stopped);
-        let Some(points) = &mut self.points else { return };
-        for (i, velocity) in stopped.iter().enumerate().filter(|(_, v)| **v != [0.0; 3]) {
-            let impulse = velocity.map(|v| momentum * self.cloud.mass[i] * v);
-            points.push(self.method.place(self.cloud.position[i]), impulse);
-        }
-    }
-
-    /// Transfers to the wall the reaction to all pending kicks of the particles that it pushes;
-    /// nothing moved between these kicks.
-    fn push_wall(&mut self, pushed: &[usize]) {
-        let (method, cloud) = (self.method, &*self.cloud);
-        let kicks = std::mem::take(&mut self.pending_kicks);
-        let dt: f64 = kicks.iter().map(|times| times.dt).sum();
-        let turn: f64 = kicks.iter().filter_map(|times| times.tension).sum();
-        let momentum = method.units.mass() * method.units.speed;
-        let Some(points) = &mut self.points else { return };
-        let pushes = self.team.map(pushed.len(), |k| {
-            let i = pushed[k];
-            let [x, y, z] = cloud.acceleration[i][1];
-            let change = [dt * x, dt * y, dt * z + turn * cloud.tension[i][3]];
-            let impulse = change.map(|v| -momentum * cloud.mass[i] * v);
-            (method.place(cloud.position[i]), impulse)
-        });
-        pushes.into_iter().for_each(|(at, impulse)| points.push(at, impulse));
     }
 
     /// Advances densities and temperatures over a step, and moves the particles from its middle to its end.
