@@ -47,12 +47,16 @@ pub struct LargeStrain {
     #[serde(default)]
     #[schemars(extend("condition" = "a box is not `axisymmetric`, a disc is"))]
     pub symmetry: LargeStrainSymmetry,
-    /// Discretisation: finite elements, reproducing kernels, or the element-free Galerkin method.
+    /// Discretisation: finite elements, reproducing kernels, the element-free Galerkin method, or total-Lagrangian smoothed
+    /// particles.
     #[serde(default)]
     pub mechanics: Mechanics,
     /// Settings of `rkpm` and `efg`.
     #[schemars(extend("otherwise" = "a linear basis", "condition" = "with `mechanics = \"rkpm\"` or `\"efg\"`"))]
     pub rkpm: Option<KernelSettings>,
+    /// Settings of `sph`.
+    #[schemars(extend("otherwise" = "supports of 2.2 distances", "condition" = "with `mechanics = \"sph\"`"))]
+    pub sph: Option<ParticleSettings>,
     /// True if the body has inertia: it moves freely above the plane z = 0, or above the body of its coupling, and falls.
     /// Otherwise it is in equilibrium at every time.
     #[serde(default)]
@@ -111,6 +115,26 @@ pub enum Mechanics {
     Rkpm,
     /// The element-free Galerkin method: moving least squares with quartic splines.
     Efg,
+    /// Total-Lagrangian smoothed particles: neighbours of the undeformed body, with corrected gradients.
+    Sph,
+}
+
+/// Settings of smoothed particles of large strain.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ParticleSettings {
+    /// Radius of supports, in distances of particles.
+    #[schemars(transform = within(1.5, 6.0, "distances of particles", "").says(
+        "the support, in distances of particles, reaches too few or too many",
+        "1.5 to 6",
+    ))]
+    pub support: f64,
+}
+
+impl Default for ParticleSettings {
+    fn default() -> Self {
+        Self { support: 2.2 }
+    }
 }
 
 /// Settings of reproducing kernels.

@@ -45,7 +45,7 @@ fn gauss_points(form: Form) -> Vec<[f64; 3]> {
 }
 
 /// Place, weight and row of a point of a cell.
-fn sample(mesh: &Mesh, cell: &[u32], local: [f64; 3]) -> ([f64; 3], f64, Vec<Value>) {
+pub(super) fn sample(mesh: &Mesh, cell: &[u32], local: [f64; 3]) -> ([f64; 3], f64, Vec<Value>) {
     let axes = mesh.form.axes();
     let shapes: Vec<(f64, [f64; 3])> =
         (0..cell.len()).map(|n| shape(mesh.form, n, local)).collect();
@@ -93,7 +93,7 @@ pub(super) fn shape(form: Form, corner: usize, local: [f64; 3]) -> (f64, [f64; 3
 
 /// Points of the boundary: two Gauss points an edge, four a face, with the functions of the edge or face and no
 /// gradients.
-fn boundary(mesh: &Mesh) -> Boundary {
+pub(super) fn boundary(mesh: &Mesh) -> Boundary {
     let centre_of_cell = centres(mesh);
     let mut boundary = Boundary::default();
     for (number, (side, face)) in mesh.faces.iter().enumerate() {

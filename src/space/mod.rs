@@ -1,13 +1,17 @@
 //! Functions of nodes with their gradients at points, as sparse rows: what a discretisation is to a mechanics that does
-//! not ask how it was made. Finite elements and reproducing kernels fill the same [`Space`].
+//! not ask how it was made. Finite elements, reproducing kernels and smoothed particles fill the same [`Space`].
 
+mod bins;
+mod factor;
 mod finite_elements;
 mod mesh;
+mod particles;
 mod reproducing;
 mod samples;
 
 pub use finite_elements::finite_elements;
 pub use mesh::{Mesh, Side};
+pub use particles::particles;
 pub use reproducing::{
     Functions, Integration, Kernel, Refused, Reproducing, Row, Shape, Sides, reproducing,
 };

@@ -1,11 +1,9 @@
 //! Reproducing-kernel discretisations of a mesh's nodes, of which the element-free Galerkin method is one.
 
 mod basis;
-mod bins;
 mod cell_map;
 mod cells;
 mod facets;
-mod factor;
 mod functions;
 mod kernel;
 mod nodal_cells;
@@ -13,6 +11,7 @@ mod nodal_points;
 mod refused;
 mod sides;
 
+pub(super) use functions::spacings;
 pub use functions::{Functions, Row};
 pub use kernel::Kernel;
 pub use refused::Refused;

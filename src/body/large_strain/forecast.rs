@@ -1,5 +1,7 @@
 //! Cost of solids of large strain.
 
+use std::f64::consts::PI;
+
 use super::plan;
 use crate::body::threads_for;
 use crate::laws::solid::large_strain::Thermal;
@@ -85,6 +87,11 @@ fn points(solid: &LargeStrain, mesh: &Mesh) -> (usize, f64) {
     let kernels = plan::kernels(solid, mesh);
     match (solid.mechanics, kernels.integration) {
         (Mechanics::Fem, _) => (mesh.cells.len() * corners, corners as f64),
+        (Mechanics::Sph, _) => {
+            let support = solid.sph.unwrap_or_default().support;
+            let ball = if axes == 3 { 4.0 / 3.0 * PI } else { PI };
+            (mesh.cells.len() * corners, ball * support.powi(axes as i32))
+        }
         (_, integration) => {
             let reach = (2.0 * kernels.support).powi(axes as i32);
             let points = match integration {
@@ -152,10 +159,15 @@ pub fn notes(solid: &LargeStrain) -> Vec<String> {
         Mechanics::Efg => {
             Some("nodes have moving least squares, which reach over several elements".to_owned())
         }
+        Mechanics::Sph => Some(
+            "particles keep the neighbours of the undeformed body; near faces, forces of a constant stress cancel with an \
+             error of the order of their distance"
+                .to_owned(),
+        ),
     });
     let mut layers = plan::layers(solid).into_iter();
     let hardly_changes = layers.any(|own| own.law.is_nearly_incompressible());
-    if solid.mechanics != Mechanics::Fem && hardly_changes {
+    if matches!(solid.mechanics, Mechanics::Rkpm | Mechanics::Efg) && hardly_changes {
         notes.push(NOTE_ON_LOCKING.to_owned());
     }
     notes

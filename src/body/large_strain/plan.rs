@@ -10,7 +10,7 @@ use crate::scene::{
 };
 use crate::space::{
     Form, Integration, Kernel, Mesh, Reproducing, Shape, Side, Sides, Space, finite_elements,
-    reproducing,
+    particles, reproducing,
 };
 
 /// Stiffness of the plane over that of a layer of the body one spacing thick.
@@ -85,6 +85,7 @@ pub fn deformable(solid: &LargeStrain, threads: usize) -> Result<Deformable, Fai
     let space = match solid.mechanics {
         Mechanics::Fem => finite_elements(&mesh),
         Mechanics::Rkpm | Mechanics::Efg => reproducing(&mesh, kernels(solid, &mesh))?,
+        Mechanics::Sph => particles(&mesh, solid.sph.unwrap_or_default().support)?,
     };
     Ok(Deformable::new(space, law, density, solid.mirrors(), threads))
 }
@@ -122,7 +123,7 @@ pub fn kernels(solid: &LargeStrain, mesh: &Mesh) -> Reproducing {
     let held: Vec<Side> = mesh.faces.iter().map(|(side, _)| *side).filter(is_held).collect();
     let kernel = match solid.mechanics {
         Mechanics::Efg => Kernel::QuarticSpline,
-        Mechanics::Rkpm | Mechanics::Fem => Kernel::CubicSpline,
+        Mechanics::Rkpm | Mechanics::Fem | Mechanics::Sph => Kernel::CubicSpline,
     };
     Reproducing {
         basis,

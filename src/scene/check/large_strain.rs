@@ -87,10 +87,13 @@ fn check_shape(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
 }
 
 fn check_kernels(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
+    let fine = solid.sph.is_none() || solid.mechanics == Mechanics::Sph;
+    let message = "these are settings of smoothed particles";
+    checker.require(fine, &path.key("sph"), message, "`mechanics = \"sph\"`, or no `sph`");
     let Some(settings) = solid.rkpm else { return };
     let path = path.key("rkpm");
-    let fine = solid.mechanics != Mechanics::Fem;
-    let message = "finite elements have no such settings";
+    let fine = matches!(solid.mechanics, Mechanics::Rkpm | Mechanics::Efg);
+    let message = "these are settings of reproducing kernels";
     checker.require(fine, &path, message, "`mechanics = \"rkpm\"` or `\"efg\"`, or no `rkpm`");
     let fine = settings.support.is_none_or(|support| support > settings.basis as f64);
     let message = "supports reach too few nodes for this basis";

@@ -1,11 +1,11 @@
 //! Functions of nodes that reproduce polynomials at any place.
 
 use super::basis::{add_slope, monomials, slope, terms};
-use super::bins::Bins;
-use super::factor::Factor;
 use super::kernel::{CubicSpline, Kernel, Profile, QuarticSpline};
 use super::{Refused, Reproducing, Shape};
 use crate::math::lanes::{LANES, Lanes};
+use crate::space::bins::Bins;
+use crate::space::factor::Factor;
 use crate::space::{Form, Mesh, Value};
 
 /// The functions Ψ_I(x) = Hᵀ(0) M⁻¹(x) H(x − x_I) φ_I(x − x_I) with M = Σ_I H Hᵀ φ_I, where H are the monomials of a
@@ -394,7 +394,7 @@ fn dot<const N: usize>(h: &[Lanes; N], factors: &[f64; N]) -> Lanes {
 
 /// Spacing of each node: the largest distance to nodes of the same cells, along each coordinate for supports that are
 /// boxes, and in space for round ones.
-fn spacings(mesh: &Mesh, shape: Shape) -> Vec<[f64; 3]> {
+pub(in crate::space) fn spacings(mesh: &Mesh, shape: Shape) -> Vec<[f64; 3]> {
     let mut spacings = vec![[0.0_f64; 3]; mesh.nodes.len()];
     for cell in &mesh.cells {
         for &node in cell {

@@ -1,0 +1,332 @@
+//! Total-Lagrangian smoothed particles: gradients are corrected sums over the neighbours of the reference state.
+//!
+//! The deformation gradient of a particle a with neighbours b of volumes V is `F_a = Σ V_b (x_b − x_a) ⊗ B_a ∇₀W_ab`, with
+//! `B_a = [Σ V_b (X_b − X_a) ⊗ ∇₀W_ab]⁻¹` (J. Bonet & T.-S. L. Lok 1999, doi 10.1016/S0045-7825(99)00051-1): it is exact
+//! for affine motion. The forces that do the work of the stresses at the particles are the antisymmetric pair forces of
+//! total-Lagrangian SPH.
+//!
+//! One gradient for each particle does not see motion that alternates between neighbours. So each particle has a point in
+//! every quarter (eighth) of its cell, with the gradient there, which changes linearly with the second derivatives
+//! that fit the displacements of the neighbours left over by F_a, weighted like them. No mode is without energy, and there
+//! is no constant to be chosen. The points of a particle share one dilatation.
+
+use super::bins::Bins;
+use super::factor::Factor;
+use super::finite_elements::{boundary, sample};
+use super::reproducing::{Refused, Shape, spacings};
+use super::{Form, Mesh, Samples, Space, Value};
+use crate::kernel::{CubicSpline, Shape as Kernel};
+
+/// Part of a particle's cell: place and volume.
+struct Part {
+    at: [f64; 3],
+    weight: f64,
+}
+
+/// Coordinates of the centres of both halves of a cell.
+const HALVES: [f64; 2] = [0.25, 0.75];
+
+/// Creates the space of particles at a mesh's nodes, with supports of a radius in spacings of nodes.
+///
+/// Forces of a constant stress cancel in the interior of regular arrangements. Near faces and on uneven ones they do so
+/// with an error of the order of the spacing.
+pub fn particles(mesh: &Mesh, support: f64) -> Result<Space, Refused> {
+    let parts = parts(mesh);
+    let around = Around::new(mesh, &parts, support);
+    let mut volume = Samples::default();
+    let mut groups = Vec::new();
+    for (node, parts) in parts.iter().enumerate() {
+        let first = volume.len();
+        let rows = match mesh.form {
+            Form::Solid => around.rows::<3, 6>([0, 1, 2], node, parts)?,
+            Form::Plane | Form::Axisymmetric => around.rows::<2, 3>([0, 2], node, parts)?,
+        };
+        for (part, row) in parts.iter().zip(rows) {
+            volume.push(part.at, part.weight, row);
+        }
+        groups.push(first..volume.len());
+    }
+    let shares = parts.iter().map(|parts| parts.iter().map(|part| part.weight).sum()).collect();
+    Ok(Space {
+        form: mesh.form,
+        nodes: mesh.nodes.clone(),
+        volume,
+        groups,
+        boundary: boundary(mesh),
+        at_nodes: None,
+        shares,
+    })
+}
+
+/// The parts of each node's cell: of every cell of the mesh the quarter or eighth next to it.
+fn parts(mesh: &Mesh) -> Vec<Vec<Part>> {
+    let mut parts: Vec<Vec<Part>> = mesh.nodes.iter().map(|_| Vec::new()).collect();
+    for cell in &mesh.cells {
+        for (corner, &node) in cell.iter().enumerate() {
+            let local = match mesh.form {
+                Form::Solid => [corner & 1, corner >> 1 & 1, corner >> 2].map(|bit| HALVES[bit]),
+                _ => [HALVES[corner & 1], 0.0, HALVES[corner >> 1]],
+            };
+            let (at, weight, _) = sample(mesh, cell, local);
+            parts[node as usize].push(Part { at, weight });
+        }
+    }
+    parts
+}
+
+/// Particles with the supports of all.
+struct Around<'a> {
+    nodes: &'a [[f64; 3]],
+    support: f64,
+    /// Radii of supports [m].
+    reach: Vec<f64>,
+    /// Volumes, areas in a plane and in a meridian section.
+    volumes: Vec<f64>,
+    bins: Bins,
+}
+
+/// A neighbour of a particle.
+struct Neighbour<const D: usize> {
+    node: u32,
+    /// `X_b − X_a` over the radius of a's support.
+    y: [f64; D],
+    /// `V_b |∇₀W|/|X_b − X_a|`, up to a factor that all share.
+    weight: f64,
+}
+
+impl<'a> Around<'a> {
+    fn new(mesh: &'a Mesh, parts: &[Vec<Part>], support: f64) -> Self {
+        let widest = |spacing: [f64; 3]| spacing.into_iter().fold(0.0, f64::max);
+        let reach: Vec<f64> =
+            spacings(mesh, Shape::Box).into_iter().map(|s| support * widest(s)).collect();
+        // Supports differ in their radii: a place is near to all nodes that the widest support would reach.
+        let most = reach.iter().copied().fold(0.0, f64::max);
+        let supports: Vec<[[f64; 3]; 2]> =
+            mesh.nodes.iter().map(|at| [at.map(|x| x - most), at.map(|x| x + most)]).collect();
+        let mean = reach.iter().sum::<f64>() / reach.len() as f64;
+        let bins = Bins::new(mesh.form.axes(), &supports, [mean; 3]);
+        let flat = |part: &Part| part.weight / mesh.form.depth(part.at);
+        let volumes = parts.iter().map(|parts| parts.iter().map(flat).sum()).collect();
+        Self { nodes: &mesh.nodes, support, reach, volumes, bins }
+    }
+
+    fn neighbours<const D: usize>(&self, axes: [usize; D], node: usize) -> Vec<Neighbour<D>> {
+        let (at, reach) = (self.nodes[node], self.reach[node]);
+        let of = |&other: &u32| {
+            let y = axes.map(|a| (self.nodes[other as usize][a] - at[a]) / reach);
+            let q = y.iter().map(|y| y * y).sum::<f64>().sqrt();
+            let weight = -self.volumes[other as usize] * CubicSpline::slope_over_q(q);
+            (other as usize != node && q < 1.0 && weight > 0.0).then_some(Neighbour {
+                node: other,
+                y,
+                weight,
+            })
+        };
+        self.bins.near(at).iter().filter_map(of).collect()
+    }
+
+    /// Rows of the parts of a particle's cell.
+    fn rows<const D: usize, const M: usize>(
+        &self,
+        axes: [usize; D],
+        node: usize,
+        parts: &[Part],
+    ) -> Result<Vec<Vec<Value>>, Refused> {
+        let neighbours = self.neighbours(axes, node);
+        let few = || Refused::FewNeighbours {
+            at: self.nodes[node],
+            neighbours: neighbours.len(),
+            terms: D + M,
+            support: self.support,
+        };
+        let fits = fits::<D, M>(&neighbours).ok_or_else(few)?;
+        let of_part = |part: &Part| {
+            let offset = axes.map(|a| (part.at[a] - self.nodes[node][a]) / self.reach[node]);
+            let mut own = Value { node: node as u32, value: 1.0, gradient: [0.0; 3] };
+            let mut row = Vec::with_capacity(neighbours.len() + 1);
+            for (neighbour, fit) in neighbours.iter().zip(&fits) {
+                let (value, slope) = fit.at(offset);
+                let mut gradient = [0.0; 3];
+                axes.iter().zip(slope).for_each(|(&a, s)| gradient[a] = s / self.reach[node]);
+                own.value -= value;
+                (0..3).for_each(|a| own.gradient[a] -= gradient[a]);
+                row.push(Value { node: neighbour.node, value, gradient });
+            }
+            row.push(own);
+            row
+        };
+        Ok(parts.iter().map(of_part).collect())
+    }
+}
+
+/// What the displacement of a neighbour adds to the derivatives at a particle.
+struct Fit<const D: usize, const M: usize> {
+    first: [f64; D],
+    /// Factors of the [`quadratics`].
+    second: [f64; M],
+}
+
+impl<const D: usize, const M: usize> Fit<D, M> {
+    /// Value and gradient at an offset from the particle.
+    fn at(&self, y: [f64; D]) -> (f64, [f64; D]) {
+        let terms = quadratics::<D, M>(y);
+        let mut gradient = self.first;
+        let mut value = (0..D).map(|a| self.first[a] * y[a]).sum::<f64>();
+        for (k, (a, b)) in pairs::<D>().enumerate() {
+            value += self.second[k] * terms[k];
+            gradient[a] += self.second[k] * y[b];
+            if a != b {
+                gradient[b] += self.second[k] * y[a];
+            }
+        }
+        (value, gradient)
+    }
+}
+
+/// Part of a quadratic term that a linear fit has to leave over, as a square.
+const INDEPENDENT: f64 = 1e-9;
+
+/// Pairs of coordinates of the second derivatives.
+fn pairs<const D: usize>() -> impl Iterator<Item = (usize, usize)> {
+    (0..D).flat_map(|a| (a..D).map(move |b| (a, b)))
+}
+
+/// The quadratic terms of a Taylor series.
+fn quadratics<const D: usize, const M: usize>(y: [f64; D]) -> [f64; M] {
+    let mut terms = [0.0; M];
+    for (term, (a, b)) in terms.iter_mut().zip(pairs::<D>()) {
+        *term = if a == b { 0.5 * y[a] * y[a] } else { y[a] * y[b] };
+    }
+    terms
+}
+
+/// Least-squares fits of first derivatives to the displacements, and of second derivatives to what they leave over;
+/// `None` if the neighbours do not determine them.
+fn fits<const D: usize, const M: usize>(neighbours: &[Neighbour<D>]) -> Option<Vec<Fit<D, M>>> {
+    let linear = Factor::of(&moments(neighbours, |neighbour| neighbour.y))?;
+    let first: Vec<[f64; D]> =
+        neighbours.iter().map(|own| linear.solve(own.y.map(|y| own.weight * y))).collect();
+    // Gradients that the fit finds in the quadratic terms, near faces.
+    let mut found = [[0.0; D]; M];
+    for (own, gradient) in neighbours.iter().zip(&first) {
+        for (found, term) in found.iter_mut().zip(quadratics::<D, M>(own.y)) {
+            (0..D).for_each(|a| found[a] += term * gradient[a]);
+        }
+    }
+    let rest = |own: &Neighbour<D>| -> [f64; M] {
+        let mut rest = quadratics::<D, M>(own.y);
+        for (rest, found) in rest.iter_mut().zip(&found) {
+            *rest -= (0..D).map(|a| found[a] * own.y[a]).sum::<f64>();
+        }
+        rest
+    };
+    let left = moments(neighbours, rest);
+    let whole = moments(neighbours, |own| quadratics::<D, M>(own.y));
+    if (0..M).any(|k| left[k][k] <= INDEPENDENT * whole[k][k]) {
+        return None;
+    }
+    let quadratic = Factor::of(&left)?;
+    let second = |own: &Neighbour<D>| quadratic.solve(rest(own).map(|term| own.weight * term));
+    let fit = |(own, first): (&Neighbour<D>, &[f64; D])| Fit { first: *first, second: second(own) };
+    Some(neighbours.iter().zip(&first).map(fit).collect())
+}
+
+/// Lower triangle of `Σ w t tᵀ`.
+fn moments<const D: usize, const N: usize>(
+    neighbours: &[Neighbour<D>],
+    terms: impl Fn(&Neighbour<D>) -> [f64; N],
+) -> [[f64; N]; N] {
+    let mut sums = [[0.0; N]; N];
+    for neighbour in neighbours {
+        let own = terms(neighbour);
+        for i in 0..N {
+            (0..=i).for_each(|j| sums[i][j] += neighbour.weight * own[i] * own[j]);
+        }
+    }
+    sums
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn number(n: usize) -> f64 {
+        (n as f64 * 0.618_033_988_749_895).fract() - 0.5
+    }
+
+    /// A box whose inner nodes are moved at random by a part of the spacing.
+    fn uneven(form: Form, part: f64) -> Mesh {
+        let mut mesh = Mesh::of_box(form, [1.0, -1.0, -3.0], [3.0, 1.0, 0.0], [5, 4, 7]);
+        for (n, at) in mesh.nodes.iter_mut().enumerate() {
+            let inside =
+                [at[0] > 1.01 && at[0] < 2.99, at[1].abs() < 0.99, at[2] > -2.99 && at[2] < -0.01];
+            for &a in form.axes().iter().filter(|&&a| inside[a]) {
+                at[a] += part * 0.4 * number(3 * n + a);
+            }
+        }
+        mesh
+    }
+
+    #[test]
+    fn affine_fields_are_exact_and_volumes_add_up() {
+        for form in [Form::Plane, Form::Axisymmetric, Form::Solid] {
+            let mesh = uneven(form, 0.5);
+            let space = particles(&mesh, 2.5).unwrap();
+            let field = |at: [f64; 3]| 0.3 - 0.2 * at[0] + 0.5 * at[1] + 0.7 * at[2];
+            let slope = [-0.2, if form == Form::Solid { 0.5 } else { 0.0 }, 0.7];
+            for point in 0..space.volume.len() {
+                let (mut value, mut gradient) = (0.0, [0.0; 3]);
+                for own in space.volume.row(point) {
+                    let u = field(space.nodes[own.node as usize]);
+                    value += own.value * u;
+                    (0..3).for_each(|a| gradient[a] += own.gradient[a] * u);
+                }
+                assert!((value - field(space.volume.at[point])).abs() < 1e-12);
+                assert!((0..3).all(|a| (gradient[a] - slope[a]).abs() < 1e-11), "{gradient:?}");
+            }
+            let whole: f64 = space.shares.iter().sum();
+            let wanted = match form {
+                Form::Plane => 6.0,
+                Form::Axisymmetric => std::f64::consts::PI * 8.0 * 3.0,
+                Form::Solid => 12.0,
+            };
+            assert!((whole / wanted - 1.0).abs() < 1e-3, "{form:?} {whole}");
+        }
+    }
+
+    /// Second derivatives at the particles are exact, so gradients differ by a constant only near faces.
+    #[test]
+    fn quadratic_fields_are_exact_inside_of_regular_arrangements() {
+        let mesh = Mesh::of_box(Form::Solid, [1.0, -1.0, -2.5], [3.0, 1.0, -0.5], [10; 3]);
+        let space = particles(&mesh, 2.2).unwrap();
+        let field = |[x, y, z]: [f64; 3]| x * x - 0.5 * x * y + 0.3 * z * z + y * z;
+        let inside = |at: [f64; 3]| {
+            (at[0] - 2.0).abs() < 0.3 && at[1].abs() < 0.3 && (at[2] + 1.5).abs() < 0.3
+        };
+        let mut count = 0;
+        for point in (0..space.volume.len()).filter(|&point| inside(space.volume.at[point])) {
+            let [x, y, z] = space.volume.at[point];
+            let wanted = [2.0 * x - 0.5 * y, -0.5 * x + z, 0.6 * z + y];
+            let mut gradient = [0.0; 3];
+            for own in space.volume.row(point) {
+                let u = field(space.nodes[own.node as usize]);
+                (0..3).for_each(|a| gradient[a] += own.gradient[a] * u);
+            }
+            assert!(
+                (0..3).all(|a| (gradient[a] - wanted[a]).abs() < 1e-10),
+                "{gradient:?} {wanted:?}"
+            );
+            count += 1;
+        }
+        assert!(count > 4);
+    }
+
+    #[test]
+    fn too_few_neighbours_are_refused() {
+        let mesh = Mesh::of_box(Form::Plane, [0.0; 3], [1.0, 0.0, 1.0], [4, 1, 4]);
+        let refused = particles(&mesh, 1.1).unwrap_err();
+        assert!(matches!(refused, Refused::FewNeighbours { terms: 5, .. }), "{refused}");
+        let thin = Mesh::of_box(Form::Plane, [0.0; 3], [1.0, 0.0, 0.1], [8, 1, 1]);
+        assert!(particles(&thin, 2.5).is_err());
+    }
+}
