@@ -1,6 +1,8 @@
 //! Vibrations of free bodies: rigid motions are the only ones without energy, and none has too little.
 
-use impinge::space::{Form, Integration, Mesh, Reproducing, Space, finite_elements, reproducing};
+use impinge::space::{
+    Form, Integration, Mesh, Reproducing, Space, finite_elements, particles, reproducing,
+};
 
 use super::linear::{Elastic, System, displacements, elasticity, generalised, perturb};
 
@@ -53,4 +55,38 @@ fn no_modes_without_energy_but_rigid_ones() {
             }
         }
     }
+}
+
+/// One gradient a particle would leave dozens of modes without energy.
+#[test]
+fn particles_have_no_modes_without_energy_but_rigid_ones() {
+    for (mut mesh, rigid, support) in [
+        (Mesh::of_box(Form::Plane, [0.0; 3], [1.0, 0.0, 1.0], [6, 0, 6]), 3, 2.2),
+        (Mesh::of_ball(Form::Plane, 1.0, 3, 3, [false; 2]), 3, 2.2),
+        (Mesh::of_ball(Form::Axisymmetric, 1.0, 3, 3, [true, false]), 1, 2.2),
+        (Mesh::of_box(Form::Solid, [0.0; 3], [1.0; 3], [3, 3, 3]), 6, 2.6),
+    ] {
+        perturb(&mut mesh, 0.25);
+        let elements = finite_elements(&mesh);
+        let expected = frequencies(&elements, &elements)[rigid];
+        let found = frequencies(&particles(&mesh, support).unwrap(), &elements);
+        let zero = found.iter().filter(|&&x| x.abs() < 1e-8 * expected).count();
+        assert_eq!(zero, rigid, "{:?} {:?}", mesh.form, &found[..8]);
+        // Uneven particles are soft: none is beyond what they lose at a few across.
+        assert!(found[rigid] > 0.2 * expected, "{:?} {} {expected}", mesh.form, found[rigid]);
+    }
+}
+
+/// Regular particles are as far below as finite elements are above, and by the square of the distance.
+#[test]
+fn modes_of_particles_converge() {
+    let squares = [6, 12].map(|count| {
+        let box_of = Mesh::of_box(Form::Plane, [0.0; 3], [1.0, 0.0, 1.0], [count, 0, count]);
+        let elements = finite_elements(&box_of);
+        [&particles(&box_of, 2.2).unwrap(), &elements].map(|space| frequencies(space, &elements)[3])
+    });
+    let exact = (4.0 * squares[1][1] - squares[0][1]) / 3.0;
+    let errors = squares.map(|[own, _]| 1.0 - own / exact);
+    assert!(errors[1] > 0.0 && errors[1] < 0.025, "{errors:?}");
+    assert!(errors[0] / errors[1] > 3.4, "{errors:?}");
 }
