@@ -1,5 +1,6 @@
 //! Errors of bodies.
 
+use crate::limits::number;
 use crate::math::cholesky::SolverError;
 use crate::method::damage::DamageError;
 use crate::method::fem::NonlinearFailure;
@@ -18,7 +19,7 @@ pub enum BodyError {
     #[error("{message}")]
     Input { index: usize, message: String },
     /// An input leaves its limits during a step, after `after` seconds.
-    #[error("{message}, {after:e} s into the step")]
+    #[error("{message}, {} s into the step", number(*after))]
     Underway { index: usize, message: String, after: f64 },
     /// The results of a step are too large for numbers.
     #[error("the solution of {body} grows beyond what numbers can hold")]
