@@ -1,4 +1,4 @@
-"""Many runs of a unit or a scene: sweeps, Latin hypercubes, Sobol's indices.
+"""Many runs of a unit or a scene: sweeps, Latin hypercubes, Sobol's indices, paths of nozzles.
 
 Names are imported when they are first asked for: processes that run rows need few of them.
 """
@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from impinge.study.distributions import Levels, LogUniform, Normal, Uniform
     from impinge.study.outputs import Output, final, maximum, minimum, of_run, over_time
+    from impinge.study.paths import FoundPath, path
     from impinge.study.sampling import Grid, LatinHypercube, Paired, Sobol
     from impinge.study.sensitivity import sobol_indices
     from impinge.study.signals import Table
     from impinge.study.study import Study
 
 __all__ = [
+    "FoundPath",
     "Grid",
     "LatinHypercube",
     "Levels",
@@ -31,12 +33,14 @@ __all__ = [
     "minimum",
     "of_run",
     "over_time",
+    "path",
     "sobol_indices",
 ]
 
 _MODULES = {
     "distributions": ("Levels", "LogUniform", "Normal", "Uniform"),
     "outputs": ("Output", "final", "maximum", "minimum", "of_run", "over_time"),
+    "paths": ("FoundPath", "path"),
     "sampling": ("Grid", "LatinHypercube", "Paired", "Sobol"),
     "sensitivity": ("sobol_indices",),
     "signals": ("Table",),

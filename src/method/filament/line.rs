@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::cooling::{Column, Heat, LAYERS, SHARES, Surroundings};
 use super::footprint::{Footprint, Footprints};
 use super::laying::Arrival;
-use super::spreading::Spreading;
+use super::spreading::{PACKED, Spreading};
 use super::{Failure, LinePlan, Motion, Segment, Strand};
 use crate::port::{Domain, Surface};
 
@@ -37,6 +37,8 @@ pub struct LineTotals {
     pub last_height: f64,
     /// Distance between the nozzle's outlet, projected on the plate, and the touchdown of the strand [m].
     pub lag: f64,
+    /// Largest weight of what stands on a base over what the yield stress of its lowest layer bears.
+    pub bearing: f64,
     /// Hottest and coldest segment [K].
     pub hottest: f64,
     pub coldest: f64,
@@ -269,12 +271,36 @@ impl Line {
         } else {
             (totals.hottest, totals.coldest) = (self.plan.reference, self.plan.reference);
         }
+        totals.bearing = self.bearing(strand);
         let [x, y, _] = strand.nozzle;
         totals.lag = (x - strand.touch[0]).hypot(y - strand.touch[1]);
         totals.volume = volume;
         totals.heat_stored = heat - strand.supplied;
         totals.missing = totals.heat_stored + strand.given + strand.lost;
         totals
+    }
+
+    /// Largest `ρ g H/(√3 τ_y)` of a segment, with the height H of itself and all that is stacked on it: a layer yields
+    /// from 1 on (N. Roussel 2018, doi 10.1016/j.cemconres.2018.04.005). 0 without a yield stress; frozen segments bear all.
+    fn bearing(&self, strand: &Strand) -> f64 {
+        let fluid = &self.plan.fluid;
+        if fluid.viscosity.yield_stress() == 0.0 {
+            return 0.0;
+        }
+        let mut tops: Vec<f64> = strand.segments().map(|segment| segment.top()).collect();
+        let mut largest = 0.0_f64;
+        for n in (0..strand.len()).rev() {
+            let segment = strand.segment(n);
+            if let Some(below) = segment.below {
+                tops[below] = tops[below].max(tops[n]);
+            }
+            if self.frozen(&segment) < PACKED {
+                let curve = fluid.viscosity.at(self.temperature(&segment));
+                let weight = fluid.density * self.plan.gravity * (tops[n] - segment.base);
+                largest = largest.max(weight / (3.0_f64.sqrt() * curve.yield_stress()));
+            }
+        }
+        if largest.is_finite() { largest } else { 0.0 }
     }
 
     /// Returns true if part of the last segment lies beyond the edge of the plate.
