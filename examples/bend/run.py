@@ -58,10 +58,8 @@ def draw(fmu: Path, found: dict[str, FoundPath], out: Path) -> Path:
     with Unit(fmu) as unit:
         for column, (name, best) in enumerate(found.items()):
             drawing = DRAWINGS[name]
-            for row, (places, one, title) in enumerate(
-                [(best.along, best.naive, "along the drawing"), (best.places, best.best, "best path")]
-            ):
-                panel = axes[row, column]
+            tried = [(best.along, best.naive), (best.places, best.best)]
+            for panel, (places, one) in zip(axes[:, column], tried, strict=True):
                 width = 72 * 0.9 * DIAMETER / 4.0
                 style = {"solid_capstyle": "round", "solid_joinstyle": "round"}
                 touched = 1e3 * lay(unit, best, places)
@@ -69,11 +67,13 @@ def draw(fmu: Path, found: dict[str, FoundPath], out: Path) -> Path:
                 panel.plot(*touched.T, color=shared.COLOURS[0], linewidth=1.0)
                 panel.plot(*(1e3 * drawing.T), color="black", linewidth=1.2, linestyle=(0, (4, 3)))
                 panel.plot(*(1e3 * places.T), color=shared.COLOURS[1], linewidth=1.0)
-                far = f"{1e3 * one.largest / DIAMETER:.2f} D off at most"
-                panel.set(title=f"{name}, {title}: {far}" if row == 0 else f"{title}: {far}")
+                panel.set(title=f"{name}: {1e3 * one.largest / DIAMETER:.2f} D off at most")
                 panel.set_aspect("equal")
                 panel.set(xlim=(-1, 19), ylim=(-3, 13) if column != 1 else (-6.5, 9.5))
-    axes[1, 0].set(xlabel="x / mm", ylabel="y / mm")
+    for panel, title in zip(axes[:, 0], ["along the drawing", "best path"], strict=True):
+        panel.set_ylabel(f"{title}\ny / mm")
+    for panel in axes[1]:
+        panel.set_xlabel("x / mm")
     return shared.save(figure, out, NAME)
 
 
@@ -102,7 +102,7 @@ def main(given: list[str] | None = None) -> dict[str, FoundPath]:
             [name, *(f"{one:.2f} D" for one in diameters)]
             + [f"{best.ratio:.1f}", f"{best.simulations}", f"{seconds:.1f} s"]
         )
-    head = ["drawing", "off along it", "off on the best path", "objective over best", "runs", "time"]
+    head = ["drawing", "off along it", "best path", "objective over best", "runs", "time"]
     shared.print_table(head, rows)
     draw(options.fmu, found, options.out)
     return found

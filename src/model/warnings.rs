@@ -2,6 +2,7 @@
 
 use super::{Cache, Model, ModelError, State, tolerance};
 use crate::body::{Occasion, Reading};
+use crate::limits::{number, two_digits};
 use crate::scene::FidelityLevel;
 use crate::variables::{Output, Registry, Slot};
 use crate::warning::{self, Warning};
@@ -62,9 +63,8 @@ impl Model {
             return None;
         }
         let body = self.bodies.iter().find(|body| dt < SHORT * body.resolved_from())?;
-        let [step, resolved] = [dt, body.resolved_from()].map(|time| format!("{time:.1e}"));
-        let finding =
-            warning::step_shorter_than_mesh_resolves(step, resolved, format!("{asked:e}"));
+        let [step, resolved] = [dt, body.resolved_from()].map(two_digits);
+        let finding = warning::step_shorter_than_mesh_resolves(step, resolved, number(asked));
         Some(finding.at(body.name()))
     }
 

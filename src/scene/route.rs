@@ -38,7 +38,8 @@ impl Leg {
 }
 
 impl Route {
-    /// The even motion between the places of a table; `height` is that of a table without `z` [m].
+    /// The even motion between the places of a table, up to the end of its shortest list; `height` is that of a table
+    /// without `z` [m].
     pub fn of_table(table: &PathTable, height: f64) -> Self {
         let leg = |n: usize| {
             let duration = table.time[n + 1] - table.time[n];
@@ -52,7 +53,10 @@ impl Route {
                 flow: flow.map(|flow| [flow[n], slope(flow[n], flow[n + 1])]),
             }
         };
-        Self { legs: (0..table.time.len().saturating_sub(1)).map(leg).collect() }
+        let others = [&table.z, &table.flow].into_iter().flatten().map(Vec::len);
+        let lengths = others.chain([table.time.len(), table.x.len(), table.y.len()]);
+        let count = lengths.min().unwrap_or(0);
+        Self { legs: (1..count).map(|n| leg(n - 1)).collect() }
     }
 
     /// Time at which the last leg ends [s].

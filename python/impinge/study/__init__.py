@@ -6,6 +6,8 @@ Names are imported when they are first asked for: processes that run rows need f
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from impinge import errors
+
 if TYPE_CHECKING:
     from impinge.study.distributions import Levels, LogUniform, Normal, Uniform
     from impinge.study.outputs import Output, final, maximum, minimum, of_run, over_time
@@ -46,13 +48,20 @@ _MODULES = {
     "signals": ("Table",),
     "study": ("Study",),
 }
+_OF_PATHS = _MODULES["paths"]
 _PLACES = {name: module for module, names in _MODULES.items() for name in names}
 
 
 def __getattr__(name: str) -> Any:
     if name not in _PLACES:
         raise AttributeError(f"module 'impinge.study' has no attribute '{name}'")
-    return getattr(import_module(f"impinge.study.{_PLACES[name]}"), name)
+    try:
+        return getattr(import_module(f"impinge.study.{_PLACES[name]}"), name)
+    except ModuleNotFoundError as error:
+        if name not in _OF_PATHS or error.name is None or error.name.startswith("impinge"):
+            raise
+        message = f"impinge.study.{name} needs `{error.name}`, which is not installed"
+        raise ImportError(f"{message}: {errors.extra('path')}") from error
 
 
 def __dir__() -> list[str]:

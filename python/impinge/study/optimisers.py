@@ -8,6 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from impinge import errors
+
 Search = Generator[list[np.ndarray], list["Outcome"], None]
 
 # Constriction of M. Clerc & J. Kennedy 2002 (doi 10.1109/4235.985692).
@@ -37,8 +39,8 @@ def swarm(start: np.ndarray, *, size: int, spread: float, seed: int) -> Search:
         better = found < values
         own[better], values[better] = places[better], found[better]
         best = own[np.argmin(values)]
-        pulls = random.random((2, *places.shape))
-        speeds = _INERTIA * speeds + _PULL * (pulls[0] * (own - places) + pulls[1] * (best - places))
+        to_own, to_best = _PULL * random.random((2, *places.shape))
+        speeds = _INERTIA * speeds + to_own * (own - places) + to_best * (best - places)
         places = places + speeds
         outside = (places < 0.0) | (places > 1.0)
         speeds[outside] = 0.0
@@ -51,8 +53,8 @@ def cma(start: np.ndarray, *, size: int, spread: float, seed: int) -> Search:
         from cma import CMAEvolutionStrategy
     except ModuleNotFoundError:
         raise ImportError(
-            'by = "cma" needs `cma`, which is not installed: pip install "./python[path]", in the'
-            ' checkout of impinge (allowed without it: "swarm", "gauss-newton")'
+            f'by = "cma" needs `cma`, which is not installed: {errors.extra("path")} (allowed'
+            ' without it: "swarm", "gauss-newton")'
         ) from None
     options = {"bounds": [0.0, 1.0], "seed": seed + 1, "popsize": size, "verbose": -9}
     strategy = CMAEvolutionStrategy(np.clip(start, 0.01, 0.99), spread, options)

@@ -109,7 +109,7 @@ def path(
         offset along the normal to the left [m]. Between waypoints offsets are cubic and do not
         overshoot; outside of `region`, a range of s, the nozzle follows the target.
     spacing: of the places to which the nozzle moves evenly [m]; the segment length if left out.
-    run_out: how far the nozzle goes on beyond the target's end [m]; by the strand's lag if left out.
+    run_out: how far the nozzle goes on beyond the target's end [m]; by the lag if left out.
     simulations: how many runs there are at most. size: of a swarm or generation. spread: of the
         first one, in parts of the ranges. seed: of its random numbers.
     coarse: half of the runs have segments and steps that are longer by this factor; 1 for none.
@@ -132,7 +132,9 @@ def path(
         record = _Record(study, ranges, journal, processes)
         start = naive
         settings = {"size": size or 4 + int(3 * np.log(ranges.count)), "seed": seed}
-        stages = [(coarse, simulations // 2), (1.0, simulations)] if coarse > 1.0 else [(1.0, simulations)]
+        stages = [(1.0, simulations)]
+        if coarse > 1.0:
+            stages.insert(0, (coarse, simulations // 2))
         for factor, until in stages:
             with record.at(factor, run_out):
                 search = SEARCHES[by](start, spread=spread, **settings)
@@ -189,7 +191,7 @@ class _Study:
             self.changes[f"target.{places[0]}.line"] = line
         body = content["body"][name]
         if body.get("path") != "input":
-            raise StudyError(f"{scene}: the path of `{name}` is set (allowed: path = \"input\")")
+            raise StudyError(f'{scene}: the path of `{name}` is set (allowed: path = "input")')
         variables = package.description.modelVariables
         start = {v.name: v.start for v in variables if v.start is not None}
         self.height = float(start[f"{name}.nozzle_z"])
@@ -257,7 +259,7 @@ class _Record:
         assert self.best
         asked = next(search)
         while len(self.rows) < until:
-            asked = asked[: until - len(self.rows)] if len(asked) > until - len(self.rows) else asked
+            asked = asked[: until - len(self.rows)]
             give_up = _GIVE_UP * self.best[0] * self.job.diameter
             prints = self._runs([self._places(one) for one in asked], give_up)
             outcomes = []
@@ -308,7 +310,8 @@ class _Record:
         keys = [self._key_of(places, give_up) for places in paths]
         known = self.journal.rows if self.journal else {}
         missing = [n for n, key in enumerate(keys) if key not in known]
-        new = dict(zip(missing, self.workers.run([paths[n] for n in missing], give_up), strict=True))
+        ran = self.workers.run([paths[n] for n in missing], give_up)
+        new = dict(zip(missing, ran, strict=True))
         if self.journal:
             values = {n: [one.numbers(), one.distances] for n, one in new.items()}
             self.journal.append([(keys[n], Finished(values[n])) for n in missing])
@@ -381,4 +384,3 @@ def _begin(job: Job, trunk: np.ndarray | None) -> None:
 def _run_there(places: np.ndarray, give_up: float) -> Print:
     assert _THERE
     return _run(*_THERE, places, give_up)
-

@@ -53,9 +53,7 @@ class Print:
         return (self.mean + self.largest + self.gap) / diameter
 
     def numbers(self) -> np.ndarray:
-        return np.array(
-            [self.mean, self.largest, self.gap, self.lag, self.part, self.steps]
-        )
+        return np.array([self.mean, self.largest, self.gap, self.lag, self.part, self.steps])
 
     @classmethod
     def of(cls, numbers: np.ndarray, distances: np.ndarray) -> Print:

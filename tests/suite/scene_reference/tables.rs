@@ -43,6 +43,7 @@ pub const SECTIONS: [(&str, &str); 50] = [
     ("`[body.NAME]` of a filament", "/$defs/Body/oneOf/4"),
     ("`nozzle` of a filament", "/$defs/Nozzle"),
     ("`path` of a filament", "/$defs/PathTable"),
+    ("`path` of a filament by G-code", "/$defs/PathFile"),
     ("`[[target]]`", "/$defs/Target"),
     ("`[body.NAME]` of a reservoir", "/$defs/Body/oneOf/2"),
     ("`[[load]]`", "/$defs/Load"),
