@@ -20,10 +20,8 @@ pub fn review(reviewer: &mut Reviewer) {
     }
     for (i, target) in scene.target.iter().enumerate() {
         let coupling = scene.coupling_from(&target.of).map(|place| &scene.coupling[place]);
-        let solid = coupling.and_then(|coupling| coupling.solid());
-        let Some((name, solid)) = solid.and_then(|name| Some((name, scene.solid(name)?))) else {
-            continue;
-        };
+        let below = coupling.and_then(|coupling| scene.solid_below(coupling));
+        let Some((name, solid)) = below else { continue };
         let half = lateral_extents(&solid.shape).map(|extent| 0.5 * extent);
         let is_beyond = |place: &[f64; 2]| (0..2).any(|axis| place[axis].abs() > half[axis]);
         if target.line.iter().any(is_beyond) {

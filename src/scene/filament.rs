@@ -12,7 +12,7 @@ use super::lookup::BodyInput;
 use super::route::Route;
 use super::types::Convection;
 use crate::laws::Fluid;
-use crate::limits::{Limits, any, length, own_temperature, place, plausible, temperature, within};
+use crate::limits::{Limits, any, length, own_temperature, plausible, temperature, within};
 use crate::quantity::Quantity;
 
 /// A fluid that comes from a moving nozzle and is laid as a strand on the plane z = 0, the top of a solid.
@@ -105,15 +105,15 @@ pub struct PathTable {
     #[schemars(length(min = 2), transform = within(0.0, 1e12, "s", "the time of a place"))]
     pub time: Vec<f64>,
     /// x at each of them [m].
-    #[schemars(length(min = 2), transform = place())]
+    #[schemars(length(min = 2), transform = outlet_place())]
     pub x: Vec<f64>,
     /// y [m].
-    #[schemars(length(min = 2), transform = place())]
+    #[schemars(length(min = 2), transform = outlet_place())]
     pub y: Vec<f64>,
     /// Height above the plate [m].
     #[schemars(length(min = 2), transform = height().otherwise("`nozzle.height`"))]
     pub z: Option<Vec<f64>>,
-    /// Volume flow, which changes evenly between the times [m³/s].
+    /// Volume flow from each time to the next; the last one is not used [m³/s].
     #[schemars(length(min = 2), transform = flow().otherwise("the input `flow`, from the first time to the last"))]
     pub flow: Option<Vec<f64>>,
 }
@@ -123,7 +123,7 @@ pub struct PathTable {
 #[serde(deny_unknown_fields)]
 pub struct PathFile {
     /// Name of the file, beside the scene or in a folder below it; packing copies it into the unit.
-    #[schemars(extend("condition" = "G0 to G4, G20, G21, G90 to G92, M82, M83; see below"))]
+    #[schemars(extend("condition" = "G0 to G4, G20, G21, G90 to G92, M82, M83; see above"))]
     pub file: String,
     /// Acceleration of the nozzle along its path [m/s²].
     #[schemars(transform = within(1e-6, 1e6, "m/s²", "the acceleration of a nozzle").otherwise("none: speeds jump"))]
@@ -138,7 +138,7 @@ pub struct PathFile {
     pub filament_diameter: f64,
     /// Place on the plate of X0 Y0 [m].
     #[serde(default)]
-    #[schemars(transform = place())]
+    #[schemars(transform = outlet_place().otherwise("`[0.0, 0.0]`"))]
     pub origin: [f64; 2],
 }
 
@@ -152,6 +152,11 @@ pub struct Target {
     /// Places `[x, y]` of the line, which is straight between them [m].
     #[schemars(length(min = 2), transform = any("m").condition("each apart from the one before"))]
     pub line: Vec<[f64; 2]>,
+}
+
+/// Place of an outlet along x or y [m].
+const fn outlet_place() -> Limits {
+    within(-1e6, 1e6, "m", "the place of the nozzle")
 }
 
 /// Height of an outlet [m].
@@ -248,8 +253,8 @@ impl Filament {
             bounds: limits.bounds(),
         };
         let places = [
-            at("nozzle_x", "x of the outlet of the nozzle", 0.0, place()),
-            at("nozzle_y", "y of the outlet of the nozzle", 0.0, place()),
+            at("nozzle_x", "x of the outlet of the nozzle", 0.0, outlet_place()),
+            at("nozzle_y", "y of the outlet of the nozzle", 0.0, outlet_place()),
             at("nozzle_z", "height of the outlet of the nozzle above the plate", z, height()),
         ];
         let flow = BodyInput {

@@ -45,12 +45,12 @@ impl Route {
             let duration = table.time[n + 1] - table.time[n];
             let slope = |from: f64, to: f64| (to - from) / duration;
             let [from, to] = [n, n + 1].map(|n| table.knot(n, height));
-            let flow = table.flow.as_ref();
+            let flow = table.flow.as_ref().map(|flow| [flow[n], 0.0]);
             Leg {
                 start: table.time[n],
                 duration,
                 place: [from, [0, 1, 2].map(|axis| slope(from[axis], to[axis])), [0.0; 3]],
-                flow: flow.map(|flow| [flow[n], slope(flow[n], flow[n + 1])]),
+                flow,
             }
         };
         let others = [&table.z, &table.flow].into_iter().flatten().map(Vec::len);
