@@ -79,7 +79,7 @@ def draw(fmu: Path, found: dict[str, FoundPath], out: Path) -> Path:
 
 def main(given: list[str] | None = None) -> dict[str, FoundPath]:
     search = {"default": "gauss-newton", "choices": ["gauss-newton", "cma", "swarm"]}
-    count = {"type": int, "default": 200, "help": "runs for each bend [default: %(default)s]"}
+    count = {"type": int, "default": 100, "help": "runs for each bend [default: %(default)s]"}
     options = shared.arguments(NAME, __doc__, given, by=search, simulations=count)
     found, rows = {}, []
     for name, drawing in DRAWINGS.items():
