@@ -73,7 +73,7 @@ GRIDS = {
     "printed_line": {"grid = [48, 16]": "grid = [4, 2]"},
     "printer_control": {"grid = [40, 12]": "grid = [4, 2]"},
     "quench_cracks": {"grid = [144, 48]": "grid = [4, 2]"},
-    "wax_layers": {"grid = [48, 48]": "grid = [4, 3]"},
+    "wax_layers": {"grid = [24, 24]": "grid = [4, 3]"},
     "wax_line": {"grid = [60, 45]": "grid = [4, 3]"},
 }
 

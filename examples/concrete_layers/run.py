@@ -85,7 +85,7 @@ def main(given: list[str] | None = None) -> dict[str, np.ndarray]:
         ["layers", "height of one", "width", "wall", "load of the lowest"],
         [
             [
-                f"{len(np.unique(np.round(wall['base'], 4))):d}",
+                f"{np.max(wall['base'] / wall['height']) + 1:.0f}",
                 f"{1e3 * np.median(wall['height']):.1f} mm",
                 f"{1e3 * np.median(wall['width']):.1f} mm",
                 f"{1e3 * (wall['base'] + wall['height']).max():.0f} mm",

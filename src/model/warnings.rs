@@ -2,7 +2,7 @@
 
 use super::{Cache, Model, ModelError, State, tolerance};
 use crate::body::{Occasion, Reading};
-use crate::limits::{number, two_digits};
+use crate::limits::number;
 use crate::scene::FidelityLevel;
 use crate::variables::{Output, Registry, Slot};
 use crate::warning::{self, Warning};
@@ -35,7 +35,11 @@ impl Model {
 
     /// Warns of a state after a step; the tests are quick.
     pub fn warnings(&self, state: &State) -> Vec<Warning> {
-        self.warnings_on(state, Occasion::Step)
+        let bodies = self.bodies.iter().zip(&state.bodies).enumerate();
+        let set = bodies.filter_map(|(place, (body, unknowns))| {
+            self.warning_on_temperature(place, body.temperature_set(unknowns)?)
+        });
+        self.warnings_on(state, Occasion::Step).into_iter().chain(set).collect()
     }
 
     /// Warns of inputs that were set in response to the last step and contradict how it was computed; `before` are those
@@ -63,7 +67,7 @@ impl Model {
             return None;
         }
         let body = self.bodies.iter().find(|body| dt < SHORT * body.resolved_from())?;
-        let [step, resolved] = [dt, body.resolved_from()].map(two_digits);
+        let [step, resolved] = [dt, body.resolved_from()].map(|time| format!("{time:.1e}"));
         let finding = warning::step_shorter_than_mesh_resolves(step, resolved, number(asked));
         Some(finding.at(body.name()))
     }
