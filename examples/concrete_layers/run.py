@@ -16,6 +16,7 @@ NAME = "concrete_layers"
 STOP, STEP = 36.0, 0.5  # s
 DENSITY, GRAVITY, YIELD_STRESS = 2200.0, 9.81, 600.0  # as in scene.toml
 BEARS = np.sqrt(3.0) * YIELD_STRESS / (DENSITY * GRAVITY)  # m of wall that a layer bears
+LAYER = 12e-3  # m
 READ = {"ratio": "wall.bearing_ratio", "width": "wall.width", "volume": "wall.volume"}
 
 
@@ -66,8 +67,8 @@ def draw(run: dict, wall: dict, out: Path) -> Path:
     left.set(xlim=(-280, 280), ylim=(0, 90))
     right.plot(run["time"], run["ratio"], label="unit")
     layer = run["time"] // 6.0 + 1.0
-    height = np.minimum(layer, 6.0) * wall["height"].min() / BEARS
-    right.step(run["time"], height, **shared.CLOSED_FORM, label="ρ g H/(√3 τ)")
+    height = np.minimum(layer, 6.0) * LAYER / BEARS
+    right.step(run["time"], height, where="post", **shared.CLOSED_FORM, label="ρ g H/(√3 τ)")
     right.axhline(1.0, color=shared.COLOURS[1], linewidth=1.0)
     right.set(title="load of the lowest layer over what it bears", xlabel="t / s", ylim=(0, 2))
     right.legend(loc="upper left")
@@ -85,7 +86,7 @@ def main(given: list[str] | None = None) -> dict[str, np.ndarray]:
         ["layers", "height of one", "width", "wall", "load of the lowest"],
         [
             [
-                f"{np.max(wall['base'] / wall['height']) + 1:.0f}",
+                f"{(wall['base'] + wall['height']).max() / LAYER:.0f}",
                 f"{1e3 * np.median(wall['height']):.1f} mm",
                 f"{1e3 * np.median(wall['width']):.1f} mm",
                 f"{1e3 * (wall['base'] + wall['height']).max():.0f} mm",
