@@ -132,20 +132,21 @@ impl Machine<'_> {
     fn obey(&mut self, (letter, code): (char, f64), values: &Words) -> Result<(), Refusal> {
         let code = format!("{letter}{}", number(code));
         match code.as_str() {
-            "G0" | "G1" => self.go(values),
-            "G2" | "G3" => self.arc(values, code == "G2"),
-            "G4" => self.dwell(values),
-            "G20" => Ok(self.unit = INCH),
-            "G21" => Ok(self.unit = MILLIMETRE),
+            "G0" | "G1" => self.go(values)?,
+            "G2" | "G3" => self.arc(values, code == "G2")?,
+            "G4" => self.dwell(values)?,
+            "G20" => self.unit = INCH,
+            "G21" => self.unit = MILLIMETRE,
             // Home is where no fluid comes: the path begins afterwards.
-            "G28" if self.steps.is_empty() => Ok(()),
-            "G90" => Ok(self.is_relative = false),
-            "G91" => Ok(self.is_relative = true),
-            "G92" => self.rename(values),
-            "M82" => Ok(self.feeds_relative = false),
-            "M83" => Ok(self.feeds_relative = true),
-            _ => Err((format!("{code} is not understood"), UNDERSTOOD.to_owned())),
+            "G28" if self.steps.is_empty() => {}
+            "G90" => self.is_relative = false,
+            "G91" => self.is_relative = true,
+            "G92" => self.rename(values)?,
+            "M82" => self.feeds_relative = false,
+            "M83" => self.feeds_relative = true,
+            _ => return Err((format!("{code} is not understood"), UNDERSTOOD.to_owned())),
         }
+        Ok(())
     }
 
     /// Place at which the words of a line end [m].
