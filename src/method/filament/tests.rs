@@ -180,7 +180,8 @@ fn circles_are_laid_smaller() {
     let lag = rate * relaxation;
     let [x, y] = strand.touch;
     assert!((x.hypot(y) / (radius / (1.0 + lag * lag).sqrt()) - 1.0).abs() < 1e-3, "{x} {y}");
-    assert!((y.atan2(x) + lag.atan()).abs() < 1e-2, "{} {}", y.atan2(x), lag.atan());
+    let behind = 2.0 * PI * (turns - 1.0) - y.atan2(x);
+    assert!((behind - lag.atan()).abs() < 1e-2, "{} {}", y.atan2(x), lag.atan());
 }
 
 /// After a right angle the strand nears the new leg as `exp(−t/t_r)`, from the point before the corner at which it lagged.
