@@ -213,7 +213,12 @@ impl Model {
         // Jumps of inputs act before any heat has moved.
         self.note_peaks_here(&mut next, cache, When::Beginning).map_err(|(_, error)| error)?;
         cache.update(self, state);
-        self.advance(&mut next.bodies, cache, (path, dt), allowance)?;
+        let bodies = self.bodies.iter().zip(&mut next.bodies);
+        let approached: Vec<_> =
+            bodies.flat_map(|(body, unknowns)| body.approached(unknowns, path, dt)).collect();
+        let changed = (!approached.is_empty()).then(|| path.with(&approached));
+        let taken = changed.as_ref().unwrap_or(path);
+        self.advance(&mut next.bodies, cache, (taken, dt), allowance)?;
         next.time += dt;
         if path.is_held() {
             next.derivatives.clear();

@@ -4,6 +4,7 @@ import fcntl
 import hashlib
 import os
 import re
+import shutil
 import subprocess
 from pathlib import Path
 
@@ -62,6 +63,7 @@ COARSE = {
     "quench_cracks": {"strength = 180e6": "strength = 80e6"},
     "remelting": {"\nspacing = 80e-6": "\nspacing = 200e-6"},
     "tin_drop": {"\nspacing = 60e-6": "\nspacing = 200e-6"},
+    "wax_layers": {"mesh = { spacing = 0.4e-3 }": "mesh = { spacing = 1.5e-3, order = 1 }"},
     "wax_line": {"mesh = { spacing = 0.8e-3 }": "mesh = { spacing = 1e-3, order = 1 }"},
 }
 # Fields of examples that have hundreds of points.
@@ -72,6 +74,7 @@ GRIDS = {
     "printed_line": {"grid = [48, 16]": "grid = [4, 2]"},
     "printer_control": {"grid = [40, 12]": "grid = [4, 2]"},
     "quench_cracks": {"grid = [144, 48]": "grid = [4, 2]"},
+    "wax_layers": {"grid = [24, 24]": "grid = [4, 3]"},
     "wax_line": {"grid = [60, 45]": "grid = [4, 3]"},
 }
 
@@ -123,6 +126,8 @@ def pack(programs, units):
             fcntl.flock(lock, fcntl.LOCK_EX)
             if not unit.is_file():
                 (folder / "scene.toml").write_text(text)
+                for code in path.parent.glob("*.gcode"):
+                    shutil.copy(code, folder)
                 build(programs, folder / "scene.toml", unit, "--fmi", str(fmi), *options)
         return unit
 

@@ -13,6 +13,7 @@ mod phases;
 mod power;
 mod relations;
 mod resolution;
+mod strands;
 mod substances;
 mod values;
 mod viscosity;
@@ -60,6 +61,7 @@ fn found(scene: &Scene, (source, names_lines): (&Source, bool), schema: &Schema)
     flaws::review(&mut reviewer);
     cracks::review(&mut reviewer);
     freezing::review(&mut reviewer);
+    strands::review(&mut reviewer);
     reviewer.found.sort_by_key(|(line, _)| *line);
     reviewer.found.into_iter().map(|(_, warning)| warning).collect()
 }

@@ -1,11 +1,16 @@
 //! Checks every number of a scene against its plausible range.
 
 use super::{Reviewer, implausible};
-use crate::limits::plausible::Cold;
+use crate::limits::plausible::{Cold, STRAND_VISCOSITY};
+use crate::scene::locate::Path;
 use crate::scene::schema::Schema;
 
 pub fn review(reviewer: &mut Reviewer, schema: &Schema, cold: Cold) {
     let copies = reviewer.scene.copied_materials();
+    // Pastes are thicker than any drop.
+    let of_strand = |name| Path::default().key("body").key(name).at("fluid.viscosity");
+    let of_strands: Vec<Path> =
+        reviewer.scene.filaments().map(|(name, _)| of_strand(name)).collect();
     let mut warned_list = None;
     schema.numbers(reviewer.source, &mut |place, limits, value| {
         // In a list, only the first number out of range is reported: the others are hardly better.
@@ -18,7 +23,8 @@ pub fn review(reviewer: &mut Reviewer, schema: &Schema, cold: Cold) {
             return;
         };
         let path = place.path();
-        if !copies.iter().any(|copy| path.is_within(copy)) {
+        let is_thick = of_strands.contains(&path) && STRAND_VISCOSITY.holds(value);
+        if !is_thick && !copies.iter().any(|copy| path.is_within(copy)) {
             warned_list = place.list();
             reviewer.warn(&path, finding);
         }

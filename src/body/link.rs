@@ -6,6 +6,7 @@ use super::filament;
 use super::large_strain::contact_interval;
 use super::solid::plan;
 use crate::laws::Constants;
+use crate::limits::two_digits;
 use crate::method::fem::Plan;
 use crate::method::sph::DropletSph;
 use crate::port::{CommonCells, LateralModes};
@@ -246,7 +247,7 @@ pub fn interval(coupling: &Coupling, droplet: &Droplet, plan: &Plan) -> f64 {
 
 /// Returns a note on the chosen interval.
 pub fn note(interval: f64) -> String {
-    format!("heat and momentum pass to the solid below at least every {interval:.3e} s")
+    format!("heat and momentum pass to the solid below at least every {} s", two_digits(interval))
 }
 
 /// Length of the shortest element along the surface [m].

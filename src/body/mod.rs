@@ -25,7 +25,7 @@ pub use droplet::{
     to_be_recorded, wall_quantities, warnings_on_landing,
 };
 pub use error::BodyError;
-pub use filament::FilamentForecast;
+pub use filament::{FilamentForecast, warnings_on_strands};
 pub use forecast::{BodyForecast, DropletForecast, Forecast, ParticleForecast, forecast};
 pub use large_strain::LargeStrainForecast;
 pub use link::{Joint, Link, MOST_PARTS, Side};

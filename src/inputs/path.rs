@@ -19,6 +19,20 @@ impl InputPath {
         Self { derivatives: first.chain(higher.iter().cloned()).collect() }
     }
 
+    /// The path with other values at its beginning, and constant slopes, of some inputs.
+    pub fn with(&self, changes: &[(usize, [f64; 2])]) -> Self {
+        let mut derivatives = self.derivatives.clone();
+        if derivatives.len() == 1 {
+            derivatives.push(vec![0.0; derivatives[0].len()]);
+        }
+        for (place, numbers) in changes {
+            for (order, list) in derivatives.iter_mut().enumerate() {
+                list[*place] = numbers.get(order).copied().unwrap_or(0.0);
+            }
+        }
+        Self { derivatives }
+    }
+
     pub fn is_held(&self) -> bool {
         self.derivatives.len() == 1
     }
@@ -77,6 +91,16 @@ mod tests {
             pairs.for_each(|(a, b)| assert!((a - b).abs() < 1e-15));
         }
         assert_eq!(path.turns(1.0), [0.75]);
+    }
+
+    #[test]
+    fn changed_inputs_have_constant_slopes() {
+        for derivatives in [vec![], vec![vec![3.0, 0.5], vec![-4.0, 2.0]]] {
+            let path = InputPath::new(&[1.0, -2.0], &derivatives);
+            let changed = path.with(&[(1, [5.0, -1.0])]);
+            assert_eq!(changed.at(0, 0.5)[0], path.at(0, 0.5)[0]);
+            assert_eq!(changed.at(0, 0.5)[1], 4.5);
+        }
     }
 
     #[test]

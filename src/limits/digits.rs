@@ -11,6 +11,11 @@ pub fn number(value: f64) -> String {
     }
 }
 
+/// Formats a number with two digits in readable notation.
+pub fn two_digits(value: f64) -> String {
+    number(format!("{value:.1e}").parse().unwrap_or(value))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -22,5 +27,6 @@ mod tests {
         assert_eq!(number(-2e9), "-2e9");
         assert_eq!(number(0.0), "0");
         assert_eq!(number(f64::INFINITY), "inf");
+        assert_eq!([3.52, 0.0449, 1.26e-5].map(two_digits), ["3.5", "0.045", "1.3e-5"]);
     }
 }

@@ -12,7 +12,7 @@ use schemars::{Schema, transform::Transform};
 use serde_json::{Map, Value, json};
 
 pub use bounds::{Bounds, End, Side};
-pub use digits::number;
+pub use digits::{number, two_digits};
 use plausible::Range;
 
 /// Keywords in addition to those of JSON Schema.

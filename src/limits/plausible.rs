@@ -261,6 +261,13 @@ pub static DIAMETER: Range<'static> = Range {
     highest: 2e-2, // rain breaks up at 6 mm
     mistakes: LENGTHS,
 };
+pub static NOZZLE: Range<'static> = Range {
+    what: "the diameter of a nozzle",
+    unit: "m",
+    lowest: 1e-6, // inks 1e-6
+    highest: 0.3, // concrete 0.06
+    mistakes: LENGTHS,
+};
 pub static SPEED: Range<'static> = Range {
     what: "the speed of a drop",
     unit: "m/s",
@@ -303,6 +310,13 @@ pub static VISCOSITY: Range<'static> = Range {
     unit: "Pa s",
     lowest: 1e-6,   // helium 3e-6
     highest: 100.0, // honey 10, glass at its working point 1000
+    mistakes: Cow::Borrowed(&[scaled("mPa s", 1e-3)]),
+};
+pub static STRAND_VISCOSITY: Range<'static> = Range {
+    what: "the viscosity of a fluid that is laid",
+    unit: "Pa s",
+    lowest: 1e-6,
+    highest: 1e7, // polymer melts and pastes 1e6
     mistakes: Cow::Borrowed(&[scaled("mPa s", 1e-3)]),
 };
 /// Viscosity of a fluid at rest, which thins when a drop moves.

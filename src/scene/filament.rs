@@ -1,15 +1,18 @@
 //! Filaments that a moving nozzle lays on plates, and the lines that they are meant to follow.
 
+use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_4;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::droplet::or_substance;
+use super::gcode::{self, BadLine};
 use super::lookup::BodyInput;
+use super::route::Route;
 use super::types::Convection;
 use crate::laws::Fluid;
-use crate::limits::{Limits, any, length, own_temperature, place, plausible, temperature, within};
+use crate::limits::{Limits, any, length, own_temperature, plausible, temperature, within};
 use crate::quantity::Quantity;
 
 /// A fluid that comes from a moving nozzle and is laid as a strand on the plane z = 0, the top of a solid.
@@ -24,10 +27,10 @@ pub struct Filament {
     pub fluid: Fluid,
     /// The nozzle.
     pub nozzle: Nozzle,
-    /// Motion of the outlet: `input`, or a table of places over the time.
-    #[schemars(extend("condition" = "`input`, or `{ time, x, y }` with `z` if the height changes"))]
+    /// Motion of the outlet: `input`, a table of places over the time, or a file of G-code.
+    #[schemars(extend("condition" = "`input`, `{ time, x, y }` with `z` and `flow` if they change, or `{ file }`"))]
     pub path: NozzlePath,
-    /// Largest volume that may come in a run, which fixes the size of the state [m³].
+    /// Largest volume that may come in a run [m³].
     #[schemars(transform = within(1e-24, 1e6, "m³", "the largest volume")
         .condition("at most a million segments"))]
     pub most: f64,
@@ -60,7 +63,7 @@ pub enum FilamentMethod {
 #[serde(deny_unknown_fields)]
 pub struct Nozzle {
     /// Inner diameter of its outlet [m].
-    #[schemars(transform = within(1e-9, 1e2, "m", "the diameter of a nozzle").plausible(&plausible::DIAMETER))]
+    #[schemars(transform = within(1e-9, 1e2, "m", "the diameter of a nozzle").plausible(&plausible::NOZZLE))]
     pub diameter: f64,
     /// Height of the outlet above the plate, where `path` does not set it; of an input its start value [m].
     #[schemars(transform = length("the height of the nozzle"))]
@@ -70,17 +73,18 @@ pub struct Nozzle {
     pub temperature: f64,
     /// Volume flow; the start value of an input [m³/s].
     #[serde(default)]
-    #[schemars(transform = flow().condition("times the stop time at most `most`"))]
+    #[schemars(transform = flow().condition("times the stop time at most `most`; 0 where `path` sets the flow"))]
     pub flow: f64,
 }
 
 /// Motion of a nozzle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged, expecting = "\"input\" or a table of `time`, `x` and `y`")]
+#[serde(untagged, expecting = "\"input\" or a table of `time`, `x` and `y`, or of `file`")]
 #[schemars(inline)]
 pub enum NozzlePath {
     Input(ByInput),
     Table(PathTable),
+    File(PathFile),
 }
 
 /// Motion by inputs.
@@ -92,7 +96,8 @@ pub enum ByInput {
     Input,
 }
 
-/// Places of a nozzle's outlet over the time; it moves evenly between them, and rests before and after.
+/// Places of a nozzle's outlet over the time; it moves evenly between them. Before the first and after the last it rests,
+/// and no fluid comes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PathTable {
@@ -100,14 +105,41 @@ pub struct PathTable {
     #[schemars(length(min = 2), transform = within(0.0, 1e12, "s", "the time of a place"))]
     pub time: Vec<f64>,
     /// x at each of them [m].
-    #[schemars(length(min = 2), transform = place())]
+    #[schemars(length(min = 2), transform = outlet_place())]
     pub x: Vec<f64>,
     /// y [m].
-    #[schemars(length(min = 2), transform = place())]
+    #[schemars(length(min = 2), transform = outlet_place())]
     pub y: Vec<f64>,
     /// Height above the plate [m].
     #[schemars(length(min = 2), transform = height().otherwise("`nozzle.height`"))]
     pub z: Option<Vec<f64>>,
+    /// Volume flow from each time to the next; the last one is not used [m³/s].
+    #[schemars(length(min = 2), transform = flow().otherwise("the input `flow`, from the first time to the last"))]
+    pub flow: Option<Vec<f64>>,
+}
+
+/// Motion and flow by G-code in a file. Nothing moves and no fluid comes after its end.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PathFile {
+    /// Name of the file, beside the scene or in a folder below it; packing copies it into the unit.
+    #[schemars(extend("condition" = "G0 to G4, G20, G21, G90 to G92, M82, M83; see above"))]
+    pub file: String,
+    /// Acceleration of the nozzle along its path [m/s²].
+    #[schemars(transform = within(1e-6, 1e6, "m/s²", "the acceleration of a nozzle").otherwise("none: speeds jump"))]
+    pub acceleration: Option<f64>,
+    /// Speed at which a right angle is passed, where `acceleration` is set [m/s].
+    #[serde(default = "corner_speed")]
+    #[schemars(transform = within(0.0, 1e3, "m/s", "the speed at corners"))]
+    pub corner_speed: f64,
+    /// Diameter of the filament whose length E counts [m].
+    #[serde(default = "filament_diameter")]
+    #[schemars(transform = within(1e-6, 1.0, "m", "the diameter of the filament"))]
+    pub filament_diameter: f64,
+    /// Place on the plate of X0 Y0 [m].
+    #[serde(default)]
+    #[schemars(transform = outlet_place().otherwise("`[0.0, 0.0]`"))]
+    pub origin: [f64; 2],
 }
 
 /// A line that a strand is meant to follow, for outputs.
@@ -122,6 +154,11 @@ pub struct Target {
     pub line: Vec<[f64; 2]>,
 }
 
+/// Place of an outlet along x or y [m].
+const fn outlet_place() -> Limits {
+    within(-1e6, 1e6, "m", "the place of the nozzle")
+}
+
 /// Height of an outlet [m].
 const fn height() -> Limits {
     within(0.0, 1e3, "m", "the height of the nozzle")
@@ -130,6 +167,16 @@ const fn height() -> Limits {
 /// Volume flow of a nozzle [m³/s].
 const fn flow() -> Limits {
     within(0.0, 1e3, "m³/s", "the flow of the nozzle")
+}
+
+/// Speed at a right angle of common firmware [m/s].
+fn corner_speed() -> f64 {
+    5e-3
+}
+
+/// Diameter of common filament [m].
+fn filament_diameter() -> f64 {
+    1.75e-3
 }
 
 /// Acceleration of free fall [m/s²].
@@ -148,15 +195,54 @@ impl Filament {
         self.spacing.unwrap_or(0.5 * self.nozzle.diameter)
     }
 
-    /// The table of its path, unless inputs move the nozzle.
-    pub fn table(&self) -> Option<&PathTable> {
+    /// Returns true if inputs move the nozzle.
+    pub fn moves_by_inputs(&self) -> bool {
+        matches!(self.path, NozzlePath::Input(_))
+    }
+
+    /// Returns true if the path sets the flow, too.
+    pub fn path_sets_flow(&self) -> bool {
         match &self.path {
-            NozzlePath::Input(_) => None,
-            NozzlePath::Table(table) => Some(table),
+            NozzlePath::Input(_) => false,
+            NozzlePath::Table(table) => table.flow.is_some(),
+            NozzlePath::File(_) => true,
         }
     }
 
-    /// Inputs: the place of the outlet if inputs move it, flow and temperature, and the temperature of the air.
+    /// The route that its path describes, with the texts of the scene's files; `None` if inputs move the nozzle.
+    ///
+    /// # Errors
+    /// If a line of its file is not understood.
+    pub fn route(&self, files: &BTreeMap<String, String>) -> Result<Option<Route>, BadLine> {
+        let height = self.nozzle.height;
+        Ok(match &self.path {
+            NozzlePath::Input(_) => None,
+            NozzlePath::Table(table) => Some(Route::of_table(table, height)),
+            NozzlePath::File(own) => {
+                let text = files.get(&own.file).map_or("", String::as_str);
+                Some(gcode::route(text, own, height)?)
+            }
+        })
+    }
+
+    /// The file that its path names.
+    pub fn file(&self) -> Option<&PathFile> {
+        match &self.path {
+            NozzlePath::File(file) => Some(file),
+            _ => None,
+        }
+    }
+
+    /// The table of its path.
+    pub fn table(&self) -> Option<&PathTable> {
+        match &self.path {
+            NozzlePath::Table(table) => Some(table),
+            _ => None,
+        }
+    }
+
+    /// Inputs: the place of the outlet if inputs move it, the flow if the path does not set it, the temperature of the fluid
+    /// and that of the air.
     pub fn inputs(&self) -> Vec<BodyInput> {
         let Nozzle { height: z, temperature: hot, flow: start, .. } = self.nozzle;
         let at = |key, words, start, limits: Limits| BodyInput {
@@ -167,8 +253,8 @@ impl Filament {
             bounds: limits.bounds(),
         };
         let places = [
-            at("nozzle_x", "x of the outlet of the nozzle", 0.0, place()),
-            at("nozzle_y", "y of the outlet of the nozzle", 0.0, place()),
+            at("nozzle_x", "x of the outlet of the nozzle", 0.0, outlet_place()),
+            at("nozzle_y", "y of the outlet of the nozzle", 0.0, outlet_place()),
             at("nozzle_z", "height of the outlet of the nozzle above the plate", z, height()),
         ];
         let flow = BodyInput {
@@ -189,8 +275,9 @@ impl Filament {
         let air = self.convection.map(|convection| {
             warm("ambient", "temperature of the air around the strand", convection.ambient)
         });
-        let places = places.into_iter().filter(|_| self.table().is_none());
-        places.chain([flow, hot]).chain(air).collect()
+        let places = places.into_iter().filter(|_| self.moves_by_inputs());
+        let flow = (!self.path_sets_flow()).then_some(flow);
+        places.chain(flow).chain([hot]).chain(air).collect()
     }
 }
 
@@ -207,13 +294,5 @@ impl PathTable {
     /// Place of a knot [m]; `height` is that of a path without `z`.
     pub fn knot(&self, n: usize, height: f64) -> [f64; 3] {
         [self.x[n], self.y[n], self.z.as_ref().map_or(height, |z| z[n])]
-    }
-
-    /// Ranges of x and y [m].
-    pub fn ranges(&self) -> [[f64; 2]; 2] {
-        [&self.x, &self.y].map(|places| {
-            let low = places.iter().copied().fold(f64::INFINITY, f64::min);
-            [low, places.iter().copied().fold(f64::NEG_INFINITY, f64::max)]
-        })
     }
 }

@@ -4,6 +4,7 @@ use super::droplet::{Coupling, Droplet};
 use super::filament::{Filament, Target};
 use super::large_strain::LargeStrain;
 use super::reservoir::Reservoir;
+use super::route::Route;
 use super::types::*;
 use crate::limits::Bounds;
 use crate::quantity::Quantity;
@@ -71,6 +72,11 @@ impl Scene {
             Body::Filament(filament) => Some(filament),
             _ => None,
         }
+    }
+
+    /// The route of a filament's nozzle; `None` if inputs move it, or for a file that has been refused.
+    pub fn route(&self, filament: &Filament) -> Option<Route> {
+        filament.route(&self.files).ok().flatten()
     }
 
     /// Returns true if a strand is laid on the body.

@@ -14,9 +14,11 @@ mod error;
 mod excerpt;
 mod filament;
 mod file;
+mod files;
 mod flaw;
 mod footprint;
 mod freezing;
+mod gcode;
 mod grid;
 mod kinds;
 mod large_strain;
@@ -29,6 +31,7 @@ mod recording;
 mod reduction;
 mod refinement;
 mod reservoir;
+mod route;
 mod sampling;
 pub(crate) mod schema;
 mod shorthand;
@@ -51,7 +54,9 @@ pub use droplet::{
     ReleaseBy, ViscousAdvance, Wall, WallStart, velocity,
 };
 pub use error::{Problem, SceneError};
-pub use filament::{ByInput, Filament, FilamentMethod, Nozzle, NozzlePath, PathTable, Target};
+pub use filament::{
+    ByInput, Filament, FilamentMethod, Nozzle, NozzlePath, PathFile, PathTable, Target,
+};
 pub use file::{bytes_of, open_file};
 pub use flaw::{Flaw, FlawDepth, FlawGives, FlawShape, Worst};
 pub use footprint::Profile;
@@ -66,6 +71,7 @@ pub use recording::Recording;
 pub use reduction::footprints_along;
 pub use refinement::MeshFactors;
 pub use reservoir::Reservoir;
+pub use route::{Leg, Route};
 pub use sampling::{FieldCells, Sampling};
 pub use schema::{SCHEMA, derived_schema};
 pub use shorthand::{NamedSubstance, quantity};
@@ -84,7 +90,8 @@ pub fn read(path: &Path) -> Result<Scene, SceneError> {
 /// Largest size of a scene's file in bytes: hundreds of thousands of lines.
 pub const LARGEST_FILE: u64 = 16_000_000;
 
-/// Reads the text of the scene in a file, unchecked; `file` is the name in messages.
+/// Reads the text of the scene in a file, unchecked, with the texts of the files that it names; `file` is the name in
+/// messages.
 pub fn text_of(path: &Path, file: &str) -> Result<String, SceneError> {
     let problem = |message: String, allowed: String| Problem {
         file: file.to_owned(),
@@ -106,7 +113,9 @@ pub fn text_of(path: &Path, file: &str) -> Result<String, SceneError> {
         read => read.map_err(unreadable)?,
     };
     let text = String::from_utf8(bytes);
-    Ok(text.map_err(|error| unreadable(io::Error::new(io::ErrorKind::InvalidData, error)))?)
+    let text =
+        text.map_err(|error| unreadable(io::Error::new(io::ErrorKind::InvalidData, error)))?;
+    files::with_files(text, path, file)
 }
 
 /// Number of bytes of a text that takes noticeable time to read.

@@ -55,13 +55,31 @@ rules! {
     "fluid lies beyond the edge of the solid: it transfers no heat there, and its force, which does not act on the \
      solid, is counted apart as `force_outside`"; "enlarge the solid if its edge is not meant to be hit"
 
+    Build mesh_below_strand_is_large(strand, nodes, spacing)
+    "the mesh below the strand of `{strand}` has {nodes} nodes: a run takes minutes or hours";
+    "limit where the strand is laid by a `[[target]]` or the `radius` of the coupling, or set a `mesh.spacing` of \
+     {spacing} m"
+
+    Build mesh_below_strand_is_coarse(strand, error, spacing)
+    "the mesh is coarse below the strand of `{strand}`: its heat may be {error} % too high";
+    "set a `mesh.spacing` of {spacing} m or less"
+
+    Build strand_freezes_at_contact(solid, contact, low, high)
+    "first contact with `{solid}` is at {contact} K, near the freezing range from {low} to {high} K: how much freezes \
+     depends on the mesh below"; "compare the frozen part with that on a finer mesh before relying on it"
+
     Step strand_beyond_edge()
     "the strand lies beyond the edge of the solid, where it transfers neither heat nor force";
     "enlarge the solid, or keep the nozzle above it"
 
     Step nozzle_jumps(jump, segment)
-    "the nozzle jumps by {jump} m between two steps while fluid comes, more than a segment of {segment} m: the fluid \
-     of a step is laid at one place"; "send derivatives of the inputs with the steps, or take shorter steps"
+    "the nozzle jumps by {jump} m between two steps while fluid comes, more than a segment of {segment} m: a straight \
+     piece is laid across the jump at once"; "send places and derivatives of one motion"
+
+    Step nozzle_is_late()
+    "places of the nozzle came without derivatives: it moves evenly over each step to the place set at the beginning of \
+     the step, which it reaches a step late";
+    "send the derivatives of the places with each step (`SetRealInputDerivatives`), or take shorter steps"
 
     Step particles_lack_neighbours(fallback, particles, support)
     "{fallback} of {particles} particles conduct by the plain operator, as they have too few neighbours for the \

@@ -55,6 +55,17 @@ rules! {
     "this flux would cool the surface by {drop} K by the stop time, below absolute zero";
     "check the flux and the stop time"
 
+    Check nozzle_height_unusual(height, ratio)
+    "the outlet is {height} m above the plate while fluid comes, {ratio} diameters of the nozzle; 0.1 to 10 are usual";
+    "check the height of the nozzle and its unit"
+
+    Check target_beyond_plate(solid)
+    "the target leaves the top of `{solid}`"; "move the target, or enlarge the solid"
+
+    Check no_fluid_comes()
+    "no fluid comes in the default experiment: the flow of the nozzle is zero";
+    "set `nozzle.flow`, or the input `flow` in a run"
+
     Check droplet_meets_no_wall(solid, drop)
     "the droplet falls through `{solid}`: nothing joins them";
     "did you mean `[[coupling]]` with from = \"{drop}\", to = \"{solid}.top\"?"

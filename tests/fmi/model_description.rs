@@ -141,8 +141,9 @@ fn checked_in_copies_of_the_examples_are_up_to_date() {
         .collect();
     assert!(!scenes.is_empty(), "examples holds no scene");
     for path in scenes {
-        let text = fs::read_to_string(&path).unwrap();
-        let scene = scene::parse(&text, &path.display().to_string()).unwrap();
+        let file = path.display().to_string();
+        let text = scene::text_of(&path, &file).unwrap();
+        let scene = scene::parse(&text, &file).unwrap();
         let copy = root.join("modelDescription").join(format!("{}.xml", scene.name));
         let found = fs::read_to_string(&copy).unwrap_or_default();
         let remedy = format!("build-fmu {} --xml {}", path.display(), copy.display());

@@ -10,11 +10,13 @@ import pytest
 from conftest import EXAMPLES, ROOT, name_of
 
 FEWER = {
+    "bend": ["--simulations", "12"],
     "moving_spot": ["--frames", "8"],
     "printer_control": ["--drops", "1", "--after", "0.15"],
     "quench_cracks": ["--steps", "6"],
     "thermal_fatigue": ["--drops", "2"],
     "stress_study": ["--samples", "4", "--levels", "3"],
+    "wax_layers": ["--stop", "4"],
 }
 # Examples that draw the points of the grid that their scene has.
 GRIDDED = ["moving_spot", "printed_line"]

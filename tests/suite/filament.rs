@@ -1,5 +1,6 @@
 //! Filaments that a moving nozzle lays on solids.
 
+use impinge::advice::parse_with_warnings;
 use impinge::model::State;
 
 use crate::common::Trial;
@@ -160,12 +161,129 @@ fn outputs_describe_the_strand_and_its_target() {
     assert!(trial.get("ink.largest_deviation") < 2e-4 && trial.get("ink.deviation") < 1e-5);
     let bare = 3e-3 - 0.5 * trial.get("ink.last_width");
     assert!((trial.get("ink.gap") - bare).abs() < 1e-6, "{}", trial.get("ink.gap"));
-    let width = trial.get("ink.width");
     trial.set("ink.flow", 2e-9);
-    // The nozzle rests since the end of its table.
+    // The table has ended, and with it the flow.
     trial.step(1.0);
-    assert!(trial.get("ink.last_width") > width);
-    assert!((trial.get("ink.volume") / 1e-8 - 1.0).abs() < 1e-12);
+    assert!((trial.get("ink.volume") / 8e-9 - 1.0).abs() < 1e-12);
+}
+
+/// Places that are set without derivatives are reached evenly by the end of the step: the same strand as of the table, a
+/// step late, and a warning says so once.
+#[test]
+fn places_without_derivatives_are_approached_evenly() {
+    let path = "{ time = [0.0, 0.5, 1.0], x = [-5e-3, 5e-3, 5e-3], y = [-2e-3, -2e-3, 3e-3] }";
+    let table = line(WAX, 343.0, "soda-lime-glass", "");
+    let mut expected = run(&table, 10);
+    let mut trial = Trial::new(&table.replace(path, "\"input\""));
+    trial.set("ink.flow", 0.0);
+    trial.set("ink.nozzle_x", -5e-3);
+    trial.set("ink.nozzle_y", -2e-3);
+    trial.step(0.1);
+    trial.set("ink.flow", 8e-9);
+    // The first step has no way yet.
+    trial.step(1e-6);
+    for n in 1..=10 {
+        let part = 0.2 * f64::from(n);
+        trial.set("ink.nozzle_x", -5e-3 + 10e-3 * part.min(1.0));
+        trial.set("ink.nozzle_y", -2e-3 + 5e-3 * (part - 1.0).max(0.0));
+        trial.step(0.1);
+    }
+    for (key, most) in [("length", 3e-3), ("width", 5e-3), ("heat", 0.02), ("volume", 1e-4)] {
+        let [found, wanted] = [&mut trial, &mut expected].map(|one| one.get(&format!("ink.{key}")));
+        assert!((found / wanted - 1.0).abs() < most, "{key}: {found} {wanted}");
+    }
+    assert!((trial.get("ink.touchdown_y") - 3e-3).abs() < 1e-5);
+    let told = trial.model.warnings(&trial.state);
+    assert_eq!(
+        told.iter().filter(|one| one.finding().id == "nozzle_is_late").count(),
+        1,
+        "{told:?}"
+    );
+}
+
+/// G-code lays what the table of the same motion does, and brings its own flow.
+#[test]
+fn code_moves_the_nozzle_as_a_table_does() {
+    let table = line(WAX, 343.0, "soda-lime-glass", "");
+    let path = "{ time = [0.0, 0.5, 1.0], x = [-5e-3, 5e-3, 5e-3], y = [-2e-3, -2e-3, 3e-3] }";
+    let mut expected = run(&table, 10);
+    // 4e-9 m³ of filament of 1 mm on each leg.
+    let length = 4.0 / (0.25 * std::f64::consts::PI);
+    let code = format!(
+        "M83\\nG0 X-5 Y-2 Z0.7 F6000\\nG1 X5 E{length} F1200\\nG1 Y3 E{length} F600\\nG1 E-1 F600"
+    );
+    let by_code = table
+        .replace(path, "{ file = \"a.gcode\", filament_diameter = 1e-3 }")
+        .replace(", flow = 8e-9", "")
+        + &format!("[files]\n\"a.gcode\" = \"{code}\"\n");
+    let mut trial = run(&by_code, 10);
+    for key in ["length", "width", "heat", "min_temperature", "solid_fraction", "volume"] {
+        let [found, wanted] = [&mut trial, &mut expected].map(|one| one.get(&format!("ink.{key}")));
+        assert!((found / wanted - 1.0).abs() < 1e-9, "{key}: {found} {wanted}");
+    }
+    trial.step(0.3);
+    assert!((trial.get("ink.volume") / 8e-9 - 1.0).abs() < 1e-9);
+}
+
+/// A scene on disk gets the texts of the files that it names, and refuses names that lead elsewhere.
+#[test]
+fn scenes_bring_the_files_that_they_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = "{ time = [0.0, 0.5, 1.0], x = [-5e-3, 5e-3, 5e-3], y = [-2e-3, -2e-3, 3e-3] }";
+    let of = |name: &str| {
+        let text = line(WAX, 343.0, "soda-lime-glass", "").replace(", flow = 8e-9", "");
+        text.replace(path, &format!("{{ file = \"{name}\" }}"))
+    };
+    let code = "G0 X0 Y0 ; \"quoted\" 'and' \\ more\nG1 X3 E0.1 F600\n";
+    std::fs::create_dir(folder.path().join("paths")).unwrap();
+    std::fs::write(folder.path().join("paths/a.gcode"), code).unwrap();
+    let place = folder.path().join("scene.toml");
+    std::fs::write(&place, of("paths/a.gcode")).unwrap();
+    let scene = impinge::scene::read(&place).unwrap();
+    assert_eq!(scene.files["paths/a.gcode"], code);
+    let text = impinge::scene::text_of(&place, "scene.toml").unwrap();
+    assert!(text.starts_with(&of("paths/a.gcode")));
+    // A text that has them needs no files.
+    std::fs::remove_dir_all(folder.path().join("paths")).unwrap();
+    std::fs::write(&place, &text).unwrap();
+    assert_eq!(impinge::scene::read(&place).unwrap().files, scene.files);
+    for (name, words) in [
+        ("paths/a.gcode", "cannot be read"),
+        ("../a.gcode", "not below the folder"),
+        ("/etc/passwd", "not below the folder"),
+        ("", "not below the folder"),
+    ] {
+        std::fs::write(&place, of(name)).unwrap();
+        let refused = impinge::scene::read(&place).unwrap_err().to_string();
+        assert!(refused.contains(words) && refused.contains("scene.toml:9:"), "{refused}");
+    }
+}
+
+/// What `check` warns of: unusual heights, targets beyond the plate, strands without fluid; large and coarse meshes, and
+/// contacts near the freezing point.
+#[test]
+fn doubtful_strands_are_warned_of() {
+    let target = "[[target]]\nof = \"ink\"\nline = [[0.0, 0.0], [5e-3, 0.0]]\n";
+    let fine = line(WAX, 343.0, "copper", "") + target;
+    let told = |text: &str| -> Vec<&'static str> {
+        let (scene, warnings) = parse_with_warnings(text, "scene.toml").unwrap();
+        let of_meshes = impinge::model::tolerance::warnings(&scene, &[]);
+        warnings.into_iter().chain(of_meshes).map(|warning| warning.finding().id).collect()
+    };
+    assert_eq!(told(&fine), [""; 0]);
+    let path = "{ time = [0.0, 0.5, 1.0], x = [-5e-3, 5e-3, 5e-3], y = [-2e-3, -2e-3, 3e-3] }";
+    let wide = fine.replace("[14e-3, 10e-3, 1e-3]", "[0.1, 0.1, 1e-3]");
+    let wide = wide.replace("spacing = 1e-3, order = 1", "spacing = 1e-4, growth = 1.0");
+    for (changed, id) in [
+        (fine.replace("height = 0.7e-3", "height = 9e-3"), "nozzle_height_unusual"),
+        (fine.replace("[5e-3, 0.0]]", "[8e-3, 0.0]]"), "target_beyond_plate"),
+        (fine.replace("flow = 8e-9", "flow = 0.0"), "no_fluid_comes"),
+        (fine.replace("copper", "soda-lime-glass"), "strand_freezes_at_contact"),
+        (fine.replace("copper", "soda-lime-glass"), "mesh_below_strand_is_coarse"),
+        (wide.replace(path, "\"input\""), "mesh_below_strand_is_large"),
+    ] {
+        assert!(told(&changed).contains(&id), "{id}: {:?}", told(&changed));
+    }
 }
 
 #[test]

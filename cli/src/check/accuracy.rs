@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use impinge::advice::{HeatError, Resolution};
+use impinge::model::forecast;
 use impinge::model::tolerance::{BodyEstimate, percent, warned_from};
 use impinge::scene::Scene;
 
@@ -52,8 +53,17 @@ pub fn accuracy(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<String> {
     text.extend(scene.droplets().filter_map(|(name, droplet)| {
         Some(of_drop(name, &Resolution::of(scene, (name, droplet))?, tolerance))
     }));
+    text.extend(forecast(scene).filaments.iter().filter_map(|strand| {
+        let error = strand.heat_error?;
+        let mark = if error <= tolerance { '✓' } else { '≈' };
+        Some(format!(
+            "{mark} {}, by the mesh below: heat within {:.0} %",
+            strand.name,
+            100.0 * error
+        ))
+    }));
     if text.iter().any(|line| line.starts_with('≈')) {
-        text.push("≈ near the tolerance, or beyond it by measurements of other drops".to_owned());
+        text.push("≈ near the tolerance, or beyond it by measurements of others".to_owned());
     }
     let notes = |estimate: &BodyEstimate| {
         let is_gap = |note: &&String| note.starts_with(GAP[0]) || note.contains(GAP[1]);

@@ -23,7 +23,7 @@ import tomli_w
 from impinge.errors import UnitError
 from impinge.reading import LARGEST_SCENE, read_bytes, reading
 from impinge.unit import Package
-from impinge.unit.build import find_program
+from impinge.unit.build import files_of, find_program
 from impinge.unit.temporary import temporary_folder
 
 # What the study itself decides, or what names the library.
@@ -59,6 +59,8 @@ class Scene:
         with reading(path, UnitError):
             self.text = read_bytes(path, LARGEST_SCENE).decode()
             self.content = tomllib.loads(self.text)
+        if files := files_of(self.text.encode(), path.parent):
+            self.content["files"] = {name: file.decode() for name, file in files.items()}
 
     def has(self, key: str) -> bool:
         """Whether the scene has this key, or a table below its top in which it may stand."""

@@ -82,7 +82,9 @@ def build(scene: str | Path, *, fmi: int | None = None, text: str | None = None)
         raise UnitError(f"fmi is {fmi}; it may be 2 or 3")
     with reading(scene, UnitError):
         content = read_bytes(scene, LARGEST_SCENE) if text is None else text.encode()
+    files = files_of(content, scene.parent)
     program = find_program()
+    content += b"".join(b"\0" + name.encode() + b"\0" + file for name, file in files.items())
     unit = cache_folder() / "units" / _key(content, program, fmi) / "unit.fmu"
     if unit.is_file():
         return unit
@@ -92,6 +94,10 @@ def build(scene: str | Path, *, fmi: int | None = None, text: str | None = None)
         if text is not None:
             source = folder.path / scene.name
             source.write_text(text)
+            for name, file in files.items():
+                place = folder.path / name
+                place.parent.mkdir(parents=True, exist_ok=True)
+                place.write_bytes(file)
         made = folder.path / "unit.fmu"
         command = [program, source, "-o", made, "--fmi", str(fmi)]
         ran = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -99,6 +105,28 @@ def build(scene: str | Path, *, fmi: int | None = None, text: str | None = None)
             raise UnitError(f"{scene} makes no unit", ran.stderr.strip().splitlines())
         os.replace(made, unit)  # whole or not at all, however many processes build it
     return unit
+
+
+def files_of(content: bytes, folder: Path) -> dict[str, bytes]:
+    """The files that a scene names and has not in its text, by name: the G-code of filaments.
+
+    Those that `build-fmu` refuses are left out.
+    """
+    try:
+        scene = tomllib.loads(content.decode())
+        bodies = list(scene.get("body", {}).values())
+    except (ValueError, AttributeError):
+        return {}
+    paths = [body.get("path") for body in bodies if isinstance(body, dict)]
+    names = [path.get("file") for path in paths if isinstance(path, dict)]
+    found = {}
+    for name in names:
+        if not isinstance(name, str) or "files" in scene or ".." in Path(name).parts:
+            continue
+        if not Path(name).is_absolute() and (folder / name).is_file():
+            with reading(folder / name, UnitError):
+                found[name] = read_bytes(folder / name, LARGEST_SCENE)
+    return found
 
 
 # The prebuilt libraries by the folder of their platform.

@@ -52,6 +52,17 @@ pub trait Body: Giver + Maxima + Advice + Resources + Send + Sync {
     /// Discards the parts that follow from the state; those of the loads remain.
     fn forget_state(&self, _memo: &mut Memo) {}
 
+    /// Returns the inputs that the body approaches over a step of a duration [s] instead of jumping to them: the place of
+    /// each, with its value at the beginning and its slope. Marks the state if there are any.
+    fn approached(
+        &self,
+        _: &mut Vec<f64>,
+        _: &InputPath,
+        _duration: f64,
+    ) -> Vec<(usize, [f64; 2])> {
+        Vec::new()
+    }
+
     /// Advances a state and returns the transfer through the port below, if there is one. `memo` is that of the inputs
     /// at the beginning, unless these change. After a failure the state is unchanged or unusable: the caller keeps a
     /// copy.

@@ -1,5 +1,6 @@
 //! Cost of filaments, and notes on their model.
 
+use super::warnings::heat_error;
 use super::{interval, plan};
 use crate::body::droplet::exchange_time;
 use crate::body::link;
@@ -16,6 +17,8 @@ pub struct FilamentForecast {
     pub memory: f64,
     /// Time of all steps of the default experiment [s].
     pub run_time: f64,
+    /// Expected error of the heat to the solid below, by its mesh.
+    pub heat_error: Option<f64>,
     /// Notes on choices and simplifications.
     pub notes: Vec<String>,
 }
@@ -29,12 +32,20 @@ impl FilamentForecast {
     pub fn of(scene: &Scene, name: &str, filament: &Filament) -> Self {
         let plan = plan::plan_of(filament, None, None);
         let segments = plan.capacity();
-        let volume = (filament.nozzle.flow * scene.stop_time).min(filament.most);
-        let volume = if volume > 0.0 { volume } else { filament.most };
+        let route = scene.route(filament).filter(|_| filament.path_sets_flow());
+        let of_flow = || filament.nozzle.flow * scene.stop_time;
+        let volume = route.map_or_else(of_flow, |route| route.volume_until(scene.stop_time));
+        let volume = if volume > 0.0 { volume.min(filament.most) } else { filament.most };
         // Half of them in the mean.
         let laid = 0.5 * volume / plan.segment_volume();
         let steps = (scene.stop_time / scene.step).ceil();
         let below = contact(scene, name, filament);
+        let solid = scene.coupling_from(name).and_then(|place| scene.coupling[place].solid());
+        let solid = solid.and_then(|name| scene.solid(name));
+        let heat_error = below
+            .as_ref()
+            .zip(solid)
+            .and_then(|((_, plan), solid)| heat_error(filament, solid, plan));
         let parts = below.as_ref().map_or(1, |(interval, _)| link::parts(*interval, scene.step));
         let exchanges = steps * parts as f64;
         let exchange = scene.step / parts as f64;
@@ -44,6 +55,7 @@ impl FilamentForecast {
             segments,
             memory: SEGMENT * segments as f64,
             run_time: STEP * exchanges * laid + of_solid,
+            heat_error,
             notes: notes(scene, (name, filament)),
         }
     }

@@ -4,17 +4,19 @@ mod forecast;
 mod motions;
 mod plan;
 mod totals;
+mod warnings;
 
 pub use forecast::FilamentForecast;
 pub use plan::refinement;
 pub use totals::offered_totals;
+pub use warnings::warnings_on_strands;
 
 use crate::body::droplet::Watch;
 use crate::body::{
     Acts, Advice, Body, BodyError, Fields, Given, Giver, Link, Maxima, Memo, Occasion, Reading,
     Received, Resources,
 };
-use crate::inputs::InputLayout;
+use crate::inputs::{InputLayout, InputPath};
 use crate::laws::Constants;
 use crate::method::fem::Plan;
 use crate::method::filament::{
@@ -24,7 +26,7 @@ use crate::method::sph::{ParticleFields, WarmPlace};
 use crate::port::{Surface, WallCells};
 use crate::runtime::allowance::{Allowance, cost};
 use crate::scene::{Coupling, Filament, Scene};
-use crate::state::{Layout, expect_like, layout_like, load, store, stored};
+use crate::state::{Layout, expect_like, layout_like, load, stored};
 use crate::warning::{self, Warning};
 
 use motions::NozzleInputs;
@@ -63,7 +65,7 @@ impl FilamentBody {
         let conductance = scene.conductance_below(name);
         let traction = on.as_ref().map(|(_, link)| link.traction);
         let line = Line::new(plan::plan_of(filament, on.map(|(cells, _)| cells), conductance));
-        let nozzle = NozzleInputs::new(filament, layout.of_body(name));
+        let nozzle = NozzleInputs::new(filament, scene.route(filament), layout.of_body(name));
         Self {
             name: name.to_owned(),
             start: line.start(nozzle.start(start)),
@@ -76,8 +78,9 @@ impl FilamentBody {
         }
     }
 
+    /// The strand of a state of this body.
     fn strand(&self, state: &[f64]) -> Strand {
-        let mut strand = self.start.clone();
+        let mut strand = self.start.of_length(state.len()).unwrap_or_default();
         load(&mut strand, state);
         strand
     }
@@ -118,12 +121,14 @@ impl Body for FilamentBody {
     }
 
     fn layout(&self, state: &[f64]) -> Option<Layout> {
-        layout_like(&self.start, state)
+        layout_like(&self.start.of_length(state.len())?, state)
     }
 
     fn check_state(&self, state: &[f64], _: &[f64]) -> Result<(), String> {
         let name = &self.name;
-        expect_like(&self.start, state, name)?;
+        if self.start.of_length(state.len()).is_none() {
+            return expect_like(&self.start, state, name);
+        }
         self.line.check(&self.strand(state)).map_err(|reason| format!("{name}: {reason}"))
     }
 
@@ -150,6 +155,22 @@ impl Body for FilamentBody {
         *memo = Box::new(FilamentMemo::default());
     }
 
+    fn approached(
+        &self,
+        state: &mut Vec<f64>,
+        path: &InputPath,
+        duration: f64,
+    ) -> Vec<(usize, [f64; 2])> {
+        let mut strand = self.strand(state);
+        let approached = self.nozzle.approached(path, strand.nozzle, duration);
+        if strand.flowing == 0.0 || approached.is_empty() {
+            return Vec::new();
+        }
+        strand.late = 1.0;
+        *state = stored(&strand);
+        approached
+    }
+
     fn advance(
         &self,
         state: &mut Vec<f64>,
@@ -168,7 +189,7 @@ impl Body for FilamentBody {
         };
         let advanced = self.line.advance(&mut strand, &motions, &around);
         advanced.map_err(|failure| self.error(failure))?;
-        store(&mut strand, state);
+        *state = stored(&strand);
         if !state.iter().all(|value| value.is_finite()) {
             return Err(BodyError::Overflow { body: self.name.clone() });
         }
@@ -226,8 +247,9 @@ impl Advice for FilamentBody {
         let jumped = (strand.jump > spacing).then(|| {
             warning::nozzle_jumps(format!("{:.2e}", strand.jump), format!("{spacing:.2e}"))
         });
+        let late = (strand.late == 1.0).then(warning::nozzle_is_late);
         let beyond = self.line.reaches_beyond(&strand).then(warning::strand_beyond_edge);
-        jumped.into_iter().chain(beyond).map(|finding| finding.at(&self.name)).collect()
+        jumped.into_iter().chain(late).chain(beyond).map(|finding| finding.at(&self.name)).collect()
     }
 
     fn watch(&self) -> Option<&Watch> {
@@ -255,7 +277,7 @@ impl Resources for FilamentBody {
     }
 
     fn updates(&self, _: f64) -> f64 {
-        cost(1.0, WORK * self.start.capacity())
+        cost(1.0, WORK * self.line.plan().capacity())
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::method::fem::Refinement;
 use crate::method::filament::{LinePlan, Target};
 use crate::port::WallCells;
-use crate::scene::{Coupling, Filament, Scene, lateral_extents};
+use crate::scene::{Coupling, Filament, Scene, Solid, lateral_extents};
 
 /// Returns the plan of a filament, above the cells of a solid or above an insulated plane.
 pub fn plan_of(
@@ -29,6 +29,15 @@ pub fn target_of(scene: &Scene, name: &str) -> Option<Target> {
     scene.target_of(name).map(|target| Target::new(target.line.clone()))
 }
 
+/// Part `e_f/(e + e_f)` of the difference of temperature by which a strand warms the solid below it, with the effusivities
+/// e of the solid's top and e_f of the fluid. The error that cells beside the edge of the strand cause is in proportion to
+/// it (`tests/verification/strands.py`).
+pub fn share_of_rise(filament: &Filament, solid: &Solid) -> f64 {
+    let top = solid.strata().last().map_or(f64::INFINITY, |layer| layer.constants.effusivity());
+    let own = filament.fluid.effusivity();
+    if own > 0.0 { own / (own + top) } else { 0.0 }
+}
+
 /// Margin of the fine mesh around a path, in diameters of the nozzle.
 const MARGIN: f64 = 2.0;
 
@@ -38,9 +47,10 @@ pub fn refinement(scene: &Scene, (coupling, filament): (&Coupling, &Filament)) -
     let margin = MARGIN * filament.nozzle.diameter;
     let around = |[low, high]: [f64; 2]| [low - margin, high + margin];
     let target = scene.target_of(&coupling.from);
-    let [x, y] = match (coupling.radius, filament.table(), target) {
+    let route = scene.route(filament).filter(|route| route.laid().next().is_some());
+    let [x, y] = match (coupling.radius, &route, target) {
         (Some(radius), ..) => [[-radius, radius]; 2],
-        (None, Some(table), _) => table.ranges().map(around),
+        (None, Some(route), _) => route.ranges().map(around),
         (None, None, Some(target)) => [0, 1].map(|axis| {
             let along = || target.line.iter().map(|place| place[axis]);
             around([along().fold(f64::INFINITY, f64::min), along().fold(f64::MIN, f64::max)])
@@ -51,6 +61,8 @@ pub fn refinement(scene: &Scene, (coupling, filament): (&Coupling, &Filament)) -
             extents.map(|extent| [-0.5 * extent, 0.5 * extent])
         }
     };
-    let feature = 0.5 * filament.nozzle.diameter;
+    let solid = coupling.solid().and_then(|name| scene.solid(name));
+    let share = solid.map_or(1.0, |solid| share_of_rise(filament, solid));
+    let feature = filament.nozzle.diameter / (1.0 + share);
     Refinement { x, y, top: true, feature, heats: true, edges: [None; 2] }
 }

@@ -18,6 +18,7 @@ enum Offered {
     All,
     OfHeat,
     Freezing,
+    Yielding,
     InAir,
     OnASolid,
     WithATarget,
@@ -38,7 +39,7 @@ impl Seen<'_> {
     }
 }
 
-const TOTALS: [Total; 26] = [
+const TOTALS: [Total; 29] = [
     total("volume", "volume that has come so far", Quantity::Volume, |seen| seen.strand.volume),
     total(
         "volume_drift",
@@ -72,6 +73,21 @@ const TOTALS: [Total; 26] = [
         "distance along the plate between the nozzle and the touchdown of the strand",
         Quantity::Length,
         |seen| seen.totals.lag,
+    ),
+    total("touchdown_x", "x at which the strand touches down", Quantity::Length, |seen| {
+        seen.strand.touch[0]
+    }),
+    total("touchdown_y", "y at which the strand touches down", Quantity::Length, |seen| {
+        seen.strand.touch[1]
+    }),
+    of(
+        Offered::Yielding,
+        total(
+            "bearing_ratio",
+            "largest weight of a stack over what the yield stress of its lowest layer bears: from 1 on it yields",
+            Quantity::Ratio,
+            |seen| seen.totals.bearing,
+        ),
     ),
     total("segments", "number of segments", Quantity::Count, |seen| seen.strand.len() as f64),
     total(
@@ -225,6 +241,7 @@ pub fn offered_totals(
         Offered::All => true,
         Offered::OfHeat => filament.fluid.conductivity > 0.0,
         Offered::Freezing => filament.fluid.melting.is_some(),
+        Offered::Yielding => filament.fluid.viscosity.yield_stress() > 0.0,
         Offered::InAir => filament.convection.is_some(),
         Offered::OnASolid => scene.coupling_from(name).is_some(),
         Offered::WithATarget => scene.target_of(name).is_some(),

@@ -4,7 +4,10 @@
 //! partition unity: one of its size if it lies along an axis, otherwise one for each of nearly square parts, with the
 //! same second moments along both axes.
 
-use super::Segment;
+use std::mem::take;
+use std::sync::{Arc, Mutex};
+
+use super::{Segment, Strand};
 use crate::port::WallCells;
 
 /// Parts of the shorter side of a segment that lies across the axes, and the largest numbers along and across it.
@@ -18,6 +21,40 @@ const ALIGNED: f64 = 1e-6;
 pub struct Footprint {
     pub cells: Vec<(usize, f64)>,
     pub outside: f64,
+}
+
+/// Footprints of segments that have been found, with what they follow from. Most segments do not change any more.
+#[derive(Debug, Default)]
+pub struct Footprints(Mutex<Vec<(Outline, Arc<Footprint>)>>);
+
+/// Place and extent of the lower side of a segment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Outline {
+    ends: [[f64; 2]; 2],
+    extent: [f64; 2],
+}
+
+impl Footprints {
+    /// The footprints of all segments of a strand; `cells` has none for a plane that does not conduct.
+    pub fn of(&self, strand: &Strand, cells: Option<&WallCells>) -> Vec<Arc<Footprint>> {
+        let Some(cells) = cells else { return vec![Arc::default(); strand.len()] };
+        let mut known = self.0.lock().map(|mut known| take(&mut *known)).unwrap_or_default();
+        known.truncate(strand.len());
+        for (n, segment) in strand.segments().enumerate() {
+            let extent = [segment.length(), segment.width()];
+            let outline = Outline { ends: [segment.start, segment.end], extent };
+            match known.get_mut(n) {
+                Some((own, _)) if *own == outline => {}
+                Some(own) => *own = (outline, Arc::new(Footprint::of(&segment, cells))),
+                None => known.push((outline, Arc::new(Footprint::of(&segment, cells)))),
+            }
+        }
+        let feet = known.iter().map(|(_, foot)| Arc::clone(foot)).collect();
+        if let Ok(mut kept) = self.0.lock() {
+            *kept = known;
+        }
+        feet
+    }
 }
 
 impl Footprint {

@@ -6,6 +6,7 @@
 //! height H − h and the mean speed u in the nozzle. Under a nozzle of steady velocity v the strand touches down at the
 //! distance `v t_r` behind it. Threads that swing, coil or buckle are not modelled.
 
+use super::beneath::Beneath;
 use super::cooling::{LAYERS, SHARES};
 use super::line::Line;
 use super::{Failure, Segment, Strand};
@@ -120,8 +121,10 @@ impl Line {
         strand.flowing = if comes { 1.0 } else { 0.0 };
         let mut arrivals = Vec::new();
         if comes {
+            let complete = strand.len() - usize::from(strand.open == 1.0);
+            let mut beneath = Beneath::of(strand, complete);
             for piece in self.pieces(strand.volume, motion) {
-                arrivals.push(self.lay_piece(strand, motion, &piece)?);
+                arrivals.push(self.lay_piece((strand, &mut beneath), motion, &piece)?);
             }
         }
         strand.nozzle = motion.outlet(motion.duration);
@@ -153,7 +156,7 @@ impl Line {
 
     fn lay_piece(
         &self,
-        strand: &mut Strand,
+        (strand, beneath): (&mut Strand, &mut Beneath),
         motion: &Motion,
         piece: &Piece,
     ) -> Result<Arrival, Failure> {
@@ -164,11 +167,11 @@ impl Line {
         let speed = piece.volume / (duration * self.plan.outlet());
         let velocity = [0, 1, 2].map(|axis| (end[axis] - begin[axis]) / duration);
         let last = (strand.open == 1.0).then(|| strand.segment(strand.len() - 1));
-        let next = || {
+        let mut next = || {
             let start = Segment { start: strand.touch, end: strand.touch, ..Segment::default() };
-            self.settled(strand, start, (strand.len(), begin[2]))
+            self.settled((strand, beneath), start, (strand.len(), begin[2]))
         };
-        let open = last.unwrap_or_else(next);
+        let open = last.unwrap_or_else(&mut next);
         let thickness = self.thickness(strand, velocity[0].hypot(velocity[1]), speed);
         let free = (end[2] - open.base - thickness).max(0.0);
         let touch = touchdown(strand.touch, [begin, end], (duration, 0.5 * free / speed));
@@ -194,10 +197,12 @@ impl Line {
         let is_long = !segment.is_heap || segment.path >= segment.width();
         let is_complete = piece.is_full && is_long && segment.volume >= whole;
         strand.open = if is_complete { 0.0 } else { 1.0 };
-        strand.count += if is_new { 1.0 } else { 0.0 };
+        if is_new {
+            strand.push(&segment);
+        }
         let index = strand.len() - 1;
         if is_complete {
-            segment = self.settled(strand, segment, (index, end[2]));
+            segment = self.settled((strand, beneath), segment, (index, end[2]));
         }
         strand.set(index, &segment);
         let mass = self.plan.fluid.density * piece.volume;
@@ -222,7 +227,7 @@ impl Line {
         if temperature <= 0.0 {
             return Err(Failure::BelowAbsoluteZero { temperature });
         }
-        match strand.open == 0.0 && strand.len() == strand.capacity() {
+        match strand.open == 0.0 && strand.len() >= self.plan.capacity() {
             true => Err(Failure::Full { segments: strand.len() }),
             false => Ok(()),
         }
@@ -230,22 +235,23 @@ impl Line {
 
     /// Finds on what a segment lies: the highest of the `older` ones under its middle that the outlet clears, or the plate.
     /// Neighbours along the strand, closer than its width, are not below it.
-    fn settled(&self, strand: &Strand, segment: Segment, (older, outlet): (usize, f64)) -> Segment {
+    fn settled(
+        &self,
+        (strand, beneath): (&Strand, &mut Beneath),
+        segment: Segment,
+        (older, outlet): (usize, f64),
+    ) -> Segment {
+        beneath.extend(strand, older);
         let place = segment.middle();
         let mut settled = Segment { base: 0.0, below: None, ..segment };
-        let (mut next, mut apart) = (segment, 0.0);
-        for n in (0..older).rev() {
+        for n in beneath.near(place) {
             let older = strand.segment(n);
-            if older.end != next.start {
-                apart = f64::INFINITY;
-            }
+            let apart = beneath.apart(n, (strand, segment.start));
             let clears = outlet - older.top() > CLEARANCE * self.plan.diameter;
             let is_under = older.distance(place) <= older.half_width;
             if apart > older.width() && clears && is_under && older.top() > settled.base {
                 (settled.base, settled.below) = (older.top(), Some(n));
             }
-            apart += older.path;
-            next = older;
         }
         settled
     }

@@ -1,9 +1,11 @@
 //! Steps of a strand: fluid is laid, then every segment spreads and exchanges heat.
 
+use std::sync::Arc;
+
 use super::cooling::{Column, Heat, LAYERS, SHARES, Surroundings};
-use super::footprint::Footprint;
+use super::footprint::{Footprint, Footprints};
 use super::laying::Arrival;
-use super::spreading::Spreading;
+use super::spreading::{PACKED, Spreading};
 use super::{Failure, LinePlan, Motion, Segment, Strand};
 use crate::port::{Domain, Surface};
 
@@ -12,6 +14,7 @@ pub struct Line {
     pub(super) plan: LinePlan,
     pub(super) heat: Heat,
     areas: Vec<f64>,
+    footprints: Footprints,
 }
 
 /// The surroundings of a strand over a step.
@@ -34,6 +37,8 @@ pub struct LineTotals {
     pub last_height: f64,
     /// Distance between the nozzle's outlet, projected on the plate, and the touchdown of the strand [m].
     pub lag: f64,
+    /// Largest weight of what stands on a base over what the yield stress of its lowest layer bears.
+    pub bearing: f64,
     /// Hottest and coldest segment [K].
     pub hottest: f64,
     pub coldest: f64,
@@ -56,6 +61,8 @@ const MOST_STEPS: f64 = 64.0;
 const FIRST_STEPS: f64 = 12.0;
 /// Difference of a segment's temperatures from those around it that is worth an inner step [K].
 const LEAST_APART: f64 = 0.1;
+/// The same below which it exchanges no heat [K].
+const ASLEEP: f64 = 1e-2;
 /// Relative error of the heat balance of a state that runs never reach.
 const BALANCE: f64 = 1e-6;
 
@@ -69,7 +76,7 @@ impl Line {
             phases: plan.phases(),
         };
         let areas = plan.cells.as_ref().map_or(Vec::new(), |cells| cells.areas(Domain::whole(3)));
-        Self { plan, heat, areas }
+        Self { plan, heat, areas, footprints: Footprints::default() }
     }
 
     pub fn plan(&self) -> &LinePlan {
@@ -78,7 +85,7 @@ impl Line {
 
     /// The state before time starts, with the place of the nozzle's outlet.
     pub fn start(&self, nozzle: [f64; 3]) -> Strand {
-        Strand::new(self.plan.capacity(), self.areas.len(), nozzle)
+        Strand::new(self.areas.len(), nozzle)
     }
 
     /// Temperatures of the layers of a segment [K], from below.
@@ -116,11 +123,7 @@ impl Line {
         strand.duration = duration;
         strand.cell_heat.fill(0.0);
         strand.cell_impulse.fill([0.0; 3]);
-        let cells = self.plan.cells.as_ref();
-        let feet: Vec<Footprint> = strand
-            .segments()
-            .map(|segment| cells.map_or_else(Footprint::default, |c| Footprint::of(&segment, c)))
-            .collect();
+        let feet = self.footprints.of(strand, self.plan.cells.as_ref());
         self.exchange_heat(strand, (begin, duration), around, &feet);
         self.exchange_impulse(strand, &arrivals, duration, &feet);
         Ok(())
@@ -131,7 +134,7 @@ impl Line {
         strand: &mut Strand,
         (begin, duration): (f64, f64),
         around: &Around,
-        feet: &[Footprint],
+        feet: &[Arc<Footprint>],
     ) {
         let free = match self.areas.is_empty() || duration == 0.0 {
             true => [Vec::new(), Vec::new()],
@@ -149,7 +152,7 @@ impl Line {
                 Some(lower) => Below::Segment(strand.segment(lower)),
                 None => {
                     let parts = [(from - begin) / duration, 1.0];
-                    let foot = (&feet[n], segment.area());
+                    let foot = (&*feet[n], segment.area());
                     self.below_on_plate((around.surface, &free), foot, &covered, parts)
                 }
             };
@@ -186,7 +189,7 @@ impl Line {
     }
 
     /// Covered part of each cell of the plate, and whether a segment lies on each segment.
-    fn coverage(&self, strand: &Strand, feet: &[Footprint]) -> (Vec<f64>, Vec<bool>) {
+    fn coverage(&self, strand: &Strand, feet: &[Arc<Footprint>]) -> (Vec<f64>, Vec<bool>) {
         let mut covered = vec![0.0; self.areas.len()];
         let mut on_top = vec![false; strand.len()];
         for (segment, foot) in strand.segments().zip(feet) {
@@ -223,7 +226,7 @@ impl Line {
         strand: &mut Strand,
         arrivals: &[Arrival],
         duration: f64,
-        feet: &[Footprint],
+        feet: &[Arc<Footprint>],
     ) {
         let weight = -self.plan.fluid.density * self.plan.gravity * duration;
         let mut loads: Vec<[f64; 3]> =
@@ -268,12 +271,36 @@ impl Line {
         } else {
             (totals.hottest, totals.coldest) = (self.plan.reference, self.plan.reference);
         }
+        totals.bearing = self.bearing(strand);
         let [x, y, _] = strand.nozzle;
         totals.lag = (x - strand.touch[0]).hypot(y - strand.touch[1]);
         totals.volume = volume;
         totals.heat_stored = heat - strand.supplied;
         totals.missing = totals.heat_stored + strand.given + strand.lost;
         totals
+    }
+
+    /// Largest `ρ g H/(√3 τ_y)` of a segment, with the height H of itself and all that is stacked on it: a layer yields
+    /// from 1 on (N. Roussel 2018, doi 10.1016/j.cemconres.2018.04.005). 0 without a yield stress; frozen segments bear all.
+    fn bearing(&self, strand: &Strand) -> f64 {
+        let fluid = &self.plan.fluid;
+        if fluid.viscosity.yield_stress() == 0.0 {
+            return 0.0;
+        }
+        let mut tops: Vec<f64> = strand.segments().map(|segment| segment.top()).collect();
+        let mut largest = 0.0_f64;
+        for n in (0..strand.len()).rev() {
+            let segment = strand.segment(n);
+            if let Some(below) = segment.below {
+                tops[below] = tops[below].max(tops[n]);
+            }
+            if self.frozen(&segment) < PACKED {
+                let curve = fluid.viscosity.at(self.temperature(&segment));
+                let weight = fluid.density * self.plan.gravity * (tops[n] - segment.base);
+                largest = largest.max(weight / (3.0_f64.sqrt() * curve.yield_stress()));
+            }
+        }
+        if largest.is_finite() { largest } else { 0.0 }
     }
 
     /// Returns true if part of the last segment lies beyond the edge of the plate.
@@ -337,7 +364,9 @@ impl SegmentStep<'_> {
     /// Advances the segment; returns the heat that passed down and to the air [J].
     fn advance(&self, segment: &mut Segment) -> [f64; 2] {
         let [first, last] = self.ages;
-        let count = self.steps(segment);
+        let apart = self.apart(segment);
+        let conducts = self.line.heat.conductivity > 0.0 && apart > ASLEEP;
+        let count = self.steps(segment, apart);
         // Equal steps of the root of the age, as heat passes at first.
         let [low, high] = [first.sqrt(), last.sqrt()];
         let age = |n: usize| match n == count {
@@ -350,7 +379,7 @@ impl SegmentStep<'_> {
             if ages[1] <= ages[0] {
                 continue;
             }
-            if self.line.heat.conductivity > 0.0 {
+            if conducts {
                 let column = Column { volume: segment.volume, height: segment.height() };
                 let around = self.surroundings(segment, ages, sums[0]);
                 let heat = &self.line.heat;
@@ -373,20 +402,27 @@ impl SegmentStep<'_> {
         }
     }
 
-    /// Number of inner steps, by what a step changes.
-    fn steps(&self, segment: &Segment) -> usize {
-        let duration = self.ages[1] - self.ages[0];
-        let heat = &self.line.heat;
-        let cooling = heat.cooling(segment.height(), self.ages);
-        // A segment that is as warm as its surroundings has nothing to resolve.
+    /// Largest difference between the temperatures of the layers and those around the segment [K].
+    fn apart(&self, segment: &Segment) -> f64 {
         let around = self.surroundings(segment, self.ages, 0.0);
         let apart = self.line.temperatures(segment).map(|temperature| {
             let to_air = if self.line.plan.air > 0.0 { temperature - around.air } else { 0.0 };
             (temperature - around.below).abs().max(to_air.abs())
         });
-        let apart = apart.into_iter().fold(0.0, f64::max);
-        let cooling = cooling.min(apart / LEAST_APART);
-        let cooling = cooling + self.air_ratio(segment, duration);
+        apart.into_iter().fold(0.0, f64::max)
+    }
+
+    /// Number of inner steps, by what a step changes; `apart` is the difference of temperatures [K].
+    fn steps(&self, segment: &Segment, apart: f64) -> usize {
+        let duration = self.ages[1] - self.ages[0];
+        // A segment that is as warm as its surroundings has nothing to resolve.
+        let cooling = match apart > ASLEEP {
+            true => {
+                let released = self.line.heat.cooling(segment.height(), self.ages);
+                released.min(apart / LEAST_APART) + self.air_ratio(segment, duration)
+            }
+            false => 0.0,
+        };
         let growth = self.spreading(segment).speed(segment.half_width) * duration;
         let growth = (growth / segment.half_width).min(1.0);
         let least = if self.ages[0] == 0.0 && apart > LEAST_APART { FIRST_STEPS } else { 1.0 };

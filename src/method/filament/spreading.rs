@@ -28,7 +28,7 @@ const RESISTANCE: f64 = 1.865_622_203_212_338_6;
 /// `(4/3) ln(x/λ)/J`: resistance of the contact lines over that of the flow.
 const CONTACT_LINES: f64 = 4.0 / 3.0 * 10.0 / RESISTANCE;
 /// f_m and its exponent.
-const PACKED: f64 = 0.64;
+pub const PACKED: f64 = 0.64;
 const THICKENING: f64 = 1.6;
 /// Largest number of iterations for a width, and the relative change that ends them.
 const MOST_ITERATIONS: usize = 200;

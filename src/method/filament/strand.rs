@@ -4,7 +4,7 @@ use std::slice::from_mut;
 
 use super::Segment;
 use super::cooling::LAYERS;
-use crate::state::{Field, Fields, Per};
+use crate::state::{Field, Fields, Layout, Per};
 
 /// A strand, with the sums over the run and the exchange of the last step.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -29,8 +29,8 @@ pub struct Strand {
     pub flowing: f64,
     /// 1 if the last segment is still growing, 0 otherwise.
     pub open: f64,
-    /// Number of segments.
-    pub count: f64,
+    /// 1 if the nozzle has approached a place that an input set without derivatives, 0 otherwise.
+    pub late: f64,
     /// Exchange with the cells of the plate in the last step: its duration [s], heat [J] and impulse [N s].
     pub duration: f64,
     pub cell_heat: Vec<f64>,
@@ -50,40 +50,54 @@ pub struct Strand {
 }
 
 impl Strand {
-    /// A strand before time starts, with room for segments, above a number of cells.
-    pub fn new(capacity: usize, cells: usize, nozzle: [f64; 3]) -> Self {
-        let numbers = vec![0.0; capacity];
+    /// A strand before time starts, above a number of cells.
+    pub fn new(cells: usize, nozzle: [f64; 3]) -> Self {
         Self {
             nozzle,
             touch: [nozzle[0], nozzle[1]],
             cell_heat: vec![0.0; cells],
             cell_impulse: vec![[0.0; 3]; cells],
-            start: vec![[0.0; 2]; capacity],
-            end: vec![[0.0; 2]; capacity],
+            ..Self::default()
+        }
+    }
+
+    /// Numbers of a segment in the state.
+    pub const PER_SEGMENT: usize = 2 + 2 + 1 + 1 + LAYERS + 5;
+
+    /// An empty strand with room for the segments of a state of this length; `None` if no strand above the same cells
+    /// has it.
+    pub fn of_length(&self, numbers: usize) -> Option<Self> {
+        let own = Self { duration: 0.0, ..Self::new(self.cell_heat.len(), self.nozzle) };
+        let fixed = Layout::of(&mut own.clone()).len();
+        let rest = numbers.checked_sub(fixed)?;
+        let count = rest / Self::PER_SEGMENT;
+        (rest % Self::PER_SEGMENT == 0).then(|| own.with_room(count))
+    }
+
+    fn with_room(self, count: usize) -> Self {
+        let numbers = vec![0.0; count];
+        Self {
+            start: vec![[0.0; 2]; count],
+            end: vec![[0.0; 2]; count],
             base: numbers.clone(),
             volumes: numbers.clone(),
-            heats: vec![[0.0; LAYERS]; capacity],
+            heats: vec![[0.0; LAYERS]; count],
             half_width: numbers.clone(),
             born: numbers.clone(),
             path: numbers.clone(),
             heap: numbers.clone(),
             below: numbers,
-            ..Self::default()
+            ..self
         }
-    }
-
-    /// Number of segments that the state holds.
-    pub fn capacity(&self) -> usize {
-        self.volumes.len()
     }
 
     /// Number of segments.
     pub fn len(&self) -> usize {
-        self.count as usize
+        self.volumes.len()
     }
 
     pub fn is_empty(&self) -> bool {
-        self.len() == 0
+        self.volumes.is_empty()
     }
 
     pub fn segment(&self, n: usize) -> Segment {
@@ -100,6 +114,24 @@ impl Strand {
             is_heap: self.heap[n] != 0.0,
             below: (below > 0.0).then(|| below as usize - 1),
         }
+    }
+
+    /// Adds a segment at the end.
+    pub fn push(&mut self, segment: &Segment) {
+        self.start.push(segment.start);
+        self.end.push(segment.end);
+        self.heats.push(segment.heats);
+        let numbers = [
+            &mut self.base,
+            &mut self.volumes,
+            &mut self.half_width,
+            &mut self.born,
+            &mut self.path,
+            &mut self.heap,
+            &mut self.below,
+        ];
+        numbers.into_iter().for_each(|list| list.push(0.0));
+        self.set(self.len() - 1, segment);
     }
 
     pub fn set(&mut self, n: usize, segment: &Segment) {
@@ -122,29 +154,17 @@ impl Strand {
     /// Refuses numbers that no run produces, with the reason.
     pub fn check(&self) -> Result<(), String> {
         let is_flag = |value: f64| value == 0.0 || value == 1.0;
-        let count = self.count;
-        if count < 0.0 || count.fract() != 0.0 || count > self.capacity() as f64 {
-            return Err(format!("{count} segments, of at most {}", self.capacity()));
-        }
-        if !is_flag(self.flowing) || !is_flag(self.open) || (self.open == 1.0 && count == 0.0) {
+        if ![self.flowing, self.open, self.late].into_iter().all(is_flag) {
             return Err("a flag of the strand is neither 0 nor 1".to_owned());
+        }
+        if self.open == 1.0 && self.is_empty() {
+            return Err("a segment grows, but there is none".to_owned());
         }
         let sums = [self.time, self.volume, self.duration, self.jump];
         if sums.iter().any(|&sum| sum < 0.0 || !sum.is_finite()) {
             return Err("time, volume, duration and jump are not negative".to_owned());
         }
-        for n in 0..self.len() {
-            self.check_segment(n)?;
-        }
-        let unused = self.len()..self.capacity();
-        let is_used = |n: usize| {
-            let below = self.below[n];
-            self.segment(n) != Segment::default() || below != 0.0
-        };
-        match unused.into_iter().find(|&n| is_used(n)) {
-            Some(n) => Err(format!("segment {n} is beyond the last, but not empty")),
-            None => Ok(()),
-        }
+        (0..self.len()).try_for_each(|n| self.check_segment(n))
     }
 
     fn check_segment(&self, n: usize) -> Result<(), String> {
@@ -191,7 +211,7 @@ impl Fields for Strand {
             (body("jump", "largest jump of the nozzle [m]"), from_mut(&mut self.jump)),
             (body("flowing", "1 while fluid comes"), from_mut(&mut self.flowing)),
             (body("open", "1 if the last segment grows"), from_mut(&mut self.open)),
-            (body("count", "number of segments"), from_mut(&mut self.count)),
+            (body("late", "1 if an input moved the nozzle evenly"), from_mut(&mut self.late)),
             (body("duration", "duration of the last exchange [s]"), from_mut(&mut self.duration)),
             (cell("cell_heat", "heat to cells of the plate [J]", 1), &mut self.cell_heat),
             (

@@ -151,6 +151,88 @@ fn a_strand_trails_behind_a_high_nozzle() {
     assert!(line.totals(&low).lag < 1e-12);
 }
 
+/// Under a nozzle on a circle of radius R with the angular velocity ω the strand is laid on one of the radius `R/√(1 +
+/// (ω t_r)²)`, an angle `arctan(ω t_r)` behind.
+#[test]
+fn circles_are_laid_smaller() {
+    let line = Line::new(LinePlan { spacing: 0.002, most: 1e-2, ..plan(CONCRETE, 0.02) });
+    let (radius, rate, height) = (0.2, 0.5, 0.12);
+    let speed = radius * rate;
+    let flow = speed * line.plan().outlet();
+    let mut strand = line.start([radius, 0.0, height]);
+    let around = Around { surface: &Surface::default(), air: 300.0 };
+    let (turns, parts) = (0.9, 400);
+    let step = 2.0 * PI * turns / rate / f64::from(parts);
+    for n in 0..parts {
+        let (sine, cosine) = (rate * step * f64::from(n)).sin_cos();
+        let motion = Motion {
+            place: [
+                [radius * cosine, radius * sine, height],
+                [-speed * sine, speed * cosine, 0.0],
+                [-speed * rate * cosine, -speed * rate * sine, 0.0],
+            ],
+            ..along(step, (0.0, 0.0), 0.0, flow)
+        };
+        line.advance(&mut strand, &[motion], &around).unwrap();
+    }
+    // The strand is as wide as high where it touches down.
+    let relaxation = 0.5 * (height - line.plan().outlet().sqrt()) / speed;
+    let lag = rate * relaxation;
+    let [x, y] = strand.touch;
+    assert!((x.hypot(y) / (radius / (1.0 + lag * lag).sqrt()) - 1.0).abs() < 1e-3, "{x} {y}");
+    let behind = 2.0 * PI * (turns - 1.0) - y.atan2(x);
+    assert!((behind - lag.atan()).abs() < 1e-2, "{} {}", y.atan2(x), lag.atan());
+}
+
+/// After a right angle the strand nears the new leg as `exp(−t/t_r)`, from the point before the corner at which it lagged.
+#[test]
+fn corners_are_cut_exponentially() {
+    let line = Line::new(LinePlan { spacing: 0.002, most: 1e-2, ..plan(CONCRETE, 0.02) });
+    let (speed, height) = (0.1, 0.12);
+    let flow = speed * line.plan().outlet();
+    let relaxation = 0.5 * (height - line.plan().outlet().sqrt()) / speed;
+    let mut strand = line.start([-1.0, 0.0, height]);
+    let around = Around { surface: &Surface::default(), air: 300.0 };
+    line.advance(&mut strand, &[along(10.0, (-1.0, height), speed, flow)], &around).unwrap();
+    assert!((strand.touch[0] / (-speed * relaxation) - 1.0).abs() < 1e-3, "{:?}", strand.touch);
+    let mut since = 0.0;
+    for duration in [0.1, 0.2, 0.4, 0.8] {
+        let mut turned = along(duration, (0.0, height), 0.0, flow);
+        (turned.place[0][1], turned.place[1][1]) = (speed * since, speed);
+        line.advance(&mut strand, &[turned], &around).unwrap();
+        since += duration;
+        let decay = (-since / relaxation).exp();
+        let expected = [-speed * relaxation * decay, speed * (since - relaxation * (1.0 - decay))];
+        let apart = [0, 1].map(|axis| (strand.touch[axis] - expected[axis]).abs());
+        assert!(
+            apart.iter().all(|&apart| apart < 1e-4),
+            "{since}: {:?} {expected:?}",
+            strand.touch
+        );
+    }
+}
+
+/// The load of stacked layers is that of their height, over √3 times the yield stress.
+#[test]
+fn stacks_load_their_lowest_layer() {
+    let line = Line::new(LinePlan { most: 1e-2, ..plan(CONCRETE, 0.02) });
+    let flow = 0.1 * line.plan().outlet();
+    let around = Around { surface: &Surface::default(), air: 300.0 };
+    let mut strand = line.start([0.0, 0.0, 0.015]);
+    let mut height = 0.015;
+    for layers in 1..=3 {
+        line.advance(&mut strand, &[along(4.0, (0.0, height), 0.1, flow)], &around).unwrap();
+        let travel = Motion { flow: [0.0; 3], ..along(0.1, (0.0, height), 0.0, 0.0) };
+        line.advance(&mut strand, &[travel], &around).unwrap();
+        let top = strand.segments().map(|segment| segment.top()).fold(0.0, f64::max);
+        let expected = 2300.0 * 9.81 * top / (3.0_f64.sqrt() * 800.0);
+        let found = line.totals(&strand).bearing;
+        assert!((found / expected - 1.0).abs() < 1e-9, "{layers}: {found} {expected}");
+        assert!(top > 0.9 * f64::from(layers) * strand.segment(9).height(), "{layers}: {top}");
+        height = top + 0.015;
+    }
+}
+
 /// Heat that leaves the segments reaches the plate or the air, and the plate's cells get all of it.
 #[test]
 fn heat_and_volume_balance() {

@@ -8,7 +8,7 @@ use super::choice::{COARSEST_TRIED, Levels, Trials, factors, open, search};
 use super::estimate::{Estimate, OutputError};
 use super::resolve;
 use super::twin::{Physics, Twin};
-use crate::body::{forecast, warnings_on_landing};
+use crate::body::{forecast, warnings_on_landing, warnings_on_strands};
 use crate::quantity::{Quantity, percent};
 use crate::scene::{
     Footprint, Load, MeshFactors, Scene, Shape, Solid, SolidLevel, Stratum, lateral_extents,
@@ -256,11 +256,12 @@ fn finest(scene: &Scene, name: &str, factors: [f64; 2]) -> [f64; 2] {
     [lateral.map(|[least, _]| *least).fold(f64::INFINITY, f64::min), spacing[2][0]]
 }
 
-/// Warns of bodies whose mesh does not keep the tolerance of a scene, with the spacing that would, and of drops that
-/// may land where the mesh below is coarse.
+/// Warns of bodies whose mesh does not keep the tolerance of a scene, with the spacing that would, of drops that may
+/// land where the mesh below is coarse, and of large and coarse meshes below strands.
 pub fn warnings(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<Warning> {
     let of_meshes = estimates.iter().filter_map(|estimate| beyond_tolerance(scene, estimate));
-    of_meshes.chain(warnings_on_landing(scene)).collect()
+    let of_strands = warnings_on_strands(scene);
+    of_meshes.chain(warnings_on_landing(scene)).chain(of_strands).collect()
 }
 
 /// Estimate of an output's error from which on the mesh of a body causes a warning; `None` for bodies without a mesh.

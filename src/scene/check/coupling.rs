@@ -102,11 +102,12 @@ fn check_filament(
     let is_box = matches!(below.shape, Shape::Box(_));
     let message = "a disc is modelled axisymmetric, and a strand is not";
     checker.require(is_box, &path.at("from"), message, "a box below");
-    if let Some(table) = filament.table().filter(|_| checker.is_fine(&path.at("from"))) {
+    if let Some(route) = checker.scene.route(filament).filter(|_| checker.is_fine(&path.at("from")))
+    {
         let half = lateral_extents(&below.shape).map(|extent| 0.5 * extent);
         let beyond = (0..2).any(|axis| {
-            let [low, high] = table.ranges()[axis];
-            !fits(high, half[axis]) || !fits(-low, half[axis])
+            let [low, high] = route.ranges()[axis];
+            low <= high && (!fits(high, half[axis]) || !fits(-low, half[axis]))
         });
         let message = "the path of the nozzle leaves the face";
         let [x, y] = half.map(number);

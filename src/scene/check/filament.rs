@@ -2,7 +2,8 @@
 
 use super::{Checker, fits, material, number};
 use crate::laws::Viscosity;
-use crate::scene::filament::{Filament, PathTable};
+use crate::scene::filament::{Filament, PathFile, PathTable};
+use crate::scene::gcode::BadLine;
 use crate::scene::locate::Path;
 
 /// Largest number of segments.
@@ -17,6 +18,17 @@ pub fn check(checker: &mut Checker) {
         if let Some(table) = filament.table() {
             places(checker, &path.key("path"), table);
         }
+        if let Some(file) = filament.file() {
+            code(checker, &path.at("path.file"), (filament, file));
+        }
+        let message = "the path sets the flow";
+        let fine = filament.nozzle.flow == 0.0 || !filament.path_sets_flow();
+        checker.require(
+            fine,
+            &path.at("nozzle.flow"),
+            message,
+            "no `nozzle.flow`, or a `path` without flow",
+        );
         if checker.is_fine(&path) {
             segments(checker, &path, filament);
             volume(checker, &path, filament);
@@ -49,7 +61,7 @@ fn fluid(checker: &mut Checker, path: &Path, filament: &Filament) {
     checker.require(fluid.conductivity > 0.0, &at, message, allowed);
     if checker.is_fine(&at) {
         let shown = number(melting.liquidus);
-        let message = format!("the fluid comes molten, and its liquidus is {shown} K");
+        let message = format!("the fluid would come frozen: its liquidus is {shown} K");
         let is_molten = filament.nozzle.temperature > melting.liquidus;
         let path = path.at("nozzle.temperature");
         checker.require(is_molten, &path, message, format!("> {shown}"));
@@ -60,14 +72,36 @@ fn places(checker: &mut Checker, path: &Path, table: &PathTable) {
     let count = table.len();
     let message = format!("{count} times are no motion");
     checker.require(count >= 2, &path.key("time"), message, "two or more times");
-    let heights = table.z.as_ref().map(|z| ("z", z.len()));
-    for (key, own) in [("x", table.x.len()), ("y", table.y.len())].into_iter().chain(heights) {
+    let others = [("z", &table.z), ("flow", &table.flow)];
+    let others = others.into_iter().filter_map(|(key, list)| Some((key, list.as_ref()?.len())));
+    for (key, own) in [("x", table.x.len()), ("y", table.y.len())].into_iter().chain(others) {
         let message = format!("{own} places at {count} times");
         checker.require(own == count, &path.key(key), message, format!("{count} numbers"));
     }
     let ascends = table.time.windows(2).all(|times| times[0] < times[1]);
     let message = "the times do not ascend";
     checker.require(ascends, &path.key("time"), message, "each time later than the one before");
+}
+
+/// Refuses G-code that is missing or not understood, at its line.
+fn code(checker: &mut Checker, path: &Path, (filament, own): (&Filament, &PathFile)) {
+    let scene = checker.scene;
+    if !scene.files.contains_key(&own.file) {
+        let message = format!("the scene has no text of the file `{}`", own.file);
+        checker.refuse(path, message, "a scene that is read from a file, or the text in `[files]`");
+        return;
+    }
+    match filament.route(&scene.files) {
+        Err(bad) => {
+            let BadLine { line, text, message, allowed } = bad;
+            checker.refuse(path, format!("{}:{line}: {text}: {message}", own.file), allowed);
+        }
+        Ok(route) => {
+            let has_legs = route.is_some_and(|route| route.laid().next().is_some());
+            let message = "no fluid comes on this path";
+            checker.require(has_legs, path, message, "moves G1 with words E");
+        }
+    }
 }
 
 fn segments(checker: &mut Checker, path: &Path, filament: &Filament) {
@@ -88,10 +122,15 @@ fn segments(checker: &mut Checker, path: &Path, filament: &Filament) {
 
 /// Refuses a flow that would exceed the largest volume in the default experiment.
 fn volume(checker: &mut Checker, path: &Path, filament: &Filament) {
-    let volume = filament.nozzle.flow * checker.scene.stop_time;
-    let message =
-        format!("{} m³ come until the stop time at the flow of the nozzle", number(volume));
-    let allowed = format!(">= {}, or less `nozzle.flow`", number(volume));
+    let stop = checker.scene.stop_time;
+    let route = checker.scene.route(filament);
+    let time = route.as_ref().map_or(stop, |route| route.time_until(stop));
+    let (volume, by, less) = match route.filter(|_| filament.path_sets_flow()) {
+        Some(route) => (route.volume_until(stop), "on the path", "less flow"),
+        None => (filament.nozzle.flow * time, "at the flow of the nozzle", "less `nozzle.flow`"),
+    };
+    let message = format!("{} m³ come until the stop time {by}", number(volume));
+    let allowed = format!(">= {}, or {less}", number(volume));
     checker.require(fits(volume, filament.most), &path.key("most"), message, allowed);
 }
 

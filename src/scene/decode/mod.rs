@@ -18,7 +18,7 @@ use toml::de::{DeFloat, DeValue};
 
 use super::droplet::Droplet;
 use super::error::{Problem, SceneError};
-use super::filament::Filament;
+use super::filament::{Filament, PathFile, PathTable};
 use super::large_strain::{KIND, LargeStrain};
 use super::locate::{Path, Source};
 use super::reservoir::Reservoir;
@@ -122,8 +122,21 @@ impl Decoder<'_> {
             self.read_if::<Solid>(&body, "kind", "solid");
             self.read_if::<Droplet>(&body, "kind", "droplet");
             self.read_if::<Reservoir>(&body, "kind", "reservoir");
+            self.read_path(&body);
             self.read_if::<Filament>(&body, "kind", "filament");
             self.read_if::<LargeStrain>(&body, "kind", KIND);
+        }
+    }
+
+    /// Reads the path of a filament's nozzle if it is a table, of places or of a file.
+    fn read_path(&mut self, body: &Path) {
+        let kind = self.source.value(&body.key("kind")).and_then(DeValue::as_str);
+        let path = body.key("path");
+        let Some(DeValue::Table(table)) = self.source.value(&path) else { return };
+        match table.contains_key("file") {
+            _ if kind != Some("filament") => {}
+            true => drop(self.read::<PathFile>(&path, Keys::All)),
+            false => drop(self.read::<PathTable>(&path, Keys::All)),
         }
     }
 

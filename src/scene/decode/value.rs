@@ -115,6 +115,8 @@ impl<'a> Node<'a> {
     fn visit<V: Visitor<'a>>(&self, visitor: V) -> Result<V::Value, Failure> {
         match self.value {
             None if shown(&visitor) == "variant identifier" => visitor.visit_str(""),
+            // Of an enum without tags, which describes itself when no variant fits.
+            None if shown(&visitor) == "any value" => visitor.visit_unit(),
             None => Err(Failure::invalid_type(Unexpected::Unit, &visitor)),
             Some(DeValue::String(text)) => match self.view.numbers.get(&self.path) {
                 Some(number) => visitor.visit_f64(*number),

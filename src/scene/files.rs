@@ -1,0 +1,70 @@
+//! Texts of the files that a scene names, added to its own: the scene is whole wherever its text goes.
+
+use std::collections::BTreeMap;
+use std::io;
+use std::path::{self, Component};
+
+use toml::de::DeValue;
+
+use super::LARGEST_FILE;
+use super::error::SceneError;
+use super::file::bytes_of;
+use super::locate::{Path, Source};
+
+/// Comment above the texts.
+const HEADING: &str = "\n# The texts of the files named above.\n";
+
+/// Adds the texts of the files that a scene's text names to it; `path` is the place of the scene, `file` its name in
+/// messages. Text that is no scene is left as it is.
+pub fn with_files(text: String, path: &path::Path, file: &str) -> Result<String, SceneError> {
+    let Ok(source) = Source::parse(&text, file) else { return Ok(text) };
+    let folder = path.parent().unwrap_or_else(|| path::Path::new(""));
+    let (mut found, mut problems) = (BTreeMap::new(), Vec::new());
+    if source.value(&Path::default().key("files")).is_some() {
+        return Ok(text);
+    }
+    for place in places(&source) {
+        let name = source.value(&place).and_then(DeValue::as_str).unwrap_or_default();
+        match read(folder, name) {
+            Ok(content) => drop(found.insert(name.to_owned(), content)),
+            Err([message, allowed]) => problems.push(source.problem(&place, message, allowed)),
+        }
+    }
+    SceneError::unless_empty(problems)?;
+    if found.is_empty() {
+        return Ok(text);
+    }
+    let table = BTreeMap::from([("files", found)]);
+    let Ok(added) = toml::to_string_pretty(&table) else { return Ok(text) };
+    Ok(format!("{text}\n{HEADING}{added}"))
+}
+
+/// Places of the names of files: the G-code of filaments.
+fn places(source: &Source) -> Vec<Path> {
+    let bodies = Path::default().key("body");
+    let Some(DeValue::Table(table)) = source.value(&bodies) else { return Vec::new() };
+    let file = |name: &str| bodies.key(name).key("path").key("file");
+    let places = table.keys().map(|name| file(name.get_ref()));
+    places
+        .filter(|place| source.value(place).is_some_and(|value| value.as_str().is_some()))
+        .collect()
+}
+
+/// Reads a file below a folder; the error is what is wrong and what is allowed.
+fn read(folder: &path::Path, name: &str) -> Result<String, [String; 2]> {
+    let is_plain = |part: Component| matches!(part, Component::Normal(_));
+    let relative = path::Path::new(name);
+    if name.is_empty() || name.contains('\\') || !relative.components().all(is_plain) {
+        let message = "the file is not below the folder of the scene".to_owned();
+        return Err([message, "a file beside the scene, or in a folder below it".to_owned()]);
+    }
+    let bytes = bytes_of(&folder.join(relative), LARGEST_FILE / 2);
+    let text = bytes.and_then(|bytes| {
+        String::from_utf8(bytes).map_err(|error| io::Error::new(io::ErrorKind::InvalidData, error))
+    });
+    text.map_err(|error| {
+        let place = folder.join(relative);
+        let message = format!("{} cannot be read: {error}", place.display());
+        [message, "a readable text file in UTF-8".to_owned()]
+    })
+}

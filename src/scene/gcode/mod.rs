@@ -1,0 +1,209 @@
+//! G-code as the route of a nozzle: the moves that its lines describe, and the motion through them.
+//!
+//! Understood are G0 and G1, arcs G2 and G3 by their centre, G4, units G20 and G21, places G90 and G91, lengths of filament
+//! M82 and M83, and G92. Codes of temperatures, fans, motors and messages change no motion and are passed over. All
+//! others are refused with their line: a path of which a part is guessed is no path.
+//!
+//! A retraction takes time; fluid comes again when all that was drawn back has been fed.
+
+mod machine;
+mod motion;
+
+use super::filament::PathFile;
+use super::route::Route;
+
+/// A move between two places, or a rest at one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Step {
+    /// To a place [m] with a speed [m/s], while a volume comes [m³].
+    Move { from: [f64; 3], to: [f64; 3], volume: f64, speed: f64 },
+    /// At a place [m] for a time [s], while a volume comes [m³].
+    Rest { at: [f64; 3], duration: f64, volume: f64 },
+}
+
+/// A line that is not understood.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct BadLine {
+    /// Counted from 1.
+    pub line: usize,
+    /// Text of the line.
+    pub text: String,
+    pub message: String,
+    pub allowed: String,
+}
+
+/// Returns the route that a text describes; `height` is that of the outlet before Z is set [m].
+pub fn route(text: &str, settings: &PathFile, height: f64) -> Result<Route, BadLine> {
+    let steps = machine::steps(text, settings, height)?;
+    Ok(motion::route(&steps, settings))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn settings(keys: &str) -> PathFile {
+        toml::from_str(&format!("file = \"a.gcode\"\n{keys}")).unwrap()
+    }
+
+    fn of(text: &str, keys: &str) -> Route {
+        route(text, &settings(keys), 1e-3).unwrap()
+    }
+
+    fn close(found: [f64; 3], wanted: [f64; 3]) -> bool {
+        found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12)
+    }
+
+    const LINE: &str =
+        "G21 ; mm\nG90\nM82\nG92 E0\nG0 X10 Y5 Z0.5 F6000\nG1 X30 E2 F1200 (20 mm/s)\ng1 y15 e3\n";
+
+    #[test]
+    fn moves_take_their_time_and_volume() {
+        let route = of(LINE, "");
+        let ends: Vec<_> = route.legs.iter().map(|leg| leg.at(leg.duration)).collect();
+        assert_eq!(ends.len(), 2, "{route:?}");
+        assert!(close(route.legs[0].place[0], [10e-3, 5e-3, 0.5e-3]));
+        assert!(close(ends[0], [30e-3, 5e-3, 0.5e-3]) && close(ends[1], [30e-3, 15e-3, 0.5e-3]));
+        assert!((route.stop() - 1.5).abs() < 1e-12);
+        let section = std::f64::consts::FRAC_PI_4 * 1.75e-3_f64.powi(2);
+        assert!((route.volume_until(9.0) / (3e-3 * section) - 1.0).abs() < 1e-12);
+        assert!((route.volume_until(1.0) / (2e-3 * section) - 1.0).abs() < 1e-12);
+    }
+
+    /// Relative places and lengths, inches, an origin and line numbers with checksums describe the same route.
+    #[test]
+    fn other_notations_describe_the_same_route() {
+        let expected = of(LINE, "");
+        let relative = "N1 G91*3\nM83\nG90\nG0 X10 Y5 Z0.5 F1200\nG91\nN5 G1 X20 E2*71\nG1 Y10 E1";
+        let inches = "G20\nG0 X0.39370078740157477 Y0.19685039370078738 Z0.019685039370078738 F47.2440944881889\n\
+                      G1 X1.1811023622047243 E0.07874015748031496\nG1 Y0.5905511811023622 E0.11811023622047244";
+        let shifted = LINE.replace("X10", "X110").replace("X30", "X130");
+        let moved = LINE.replace("G0 X10 Y5 Z0.5 F6000", "G0 X0 Y5 Z0.5 F6000\nG92 X-10\nG0 X0");
+        for (text, keys) in [
+            (relative, ""),
+            (inches, ""),
+            (&shifted, "origin = [-0.1, 0.0]"),
+            (&moved.replace("X30", "X20"), ""),
+        ] {
+            let route = of(text, keys);
+            let [found, wanted] = [&route, &expected].map(|route| {
+                let last = route.legs.len() - 2;
+                &route.legs[last..]
+            });
+            for (a, b) in found.iter().zip(wanted) {
+                assert!(
+                    close(a.place[0], b.place[0]) && close(a.place[1], b.place[1]),
+                    "{text}: {a:?}"
+                );
+                let [a, b] = [a, b].map(|leg| leg.flow.unwrap()[0]);
+                assert!((a / b - 1.0).abs() < 1e-9, "{text}: {a} {b}");
+            }
+        }
+    }
+
+    /// What was drawn back comes first; then fluid comes again.
+    #[test]
+    fn retractions_bring_no_fluid() {
+        let text = "M83\nG0 X0 Y0\nG1 X10 E1 F600\nG1 E-2 F1200\nG0 X20 F6000\nG1 E2 F1200\nG4 P500\nG1 X30 E1 F600";
+        let route = of(text, "filament_diameter = 1e-3");
+        let volume = |time| route.volume_until(time) / (std::f64::consts::FRAC_PI_4 * 1e-9);
+        assert!((volume(1.0) - 1.0).abs() < 1e-12);
+        let resumes = 1.0 + 0.1 + 0.1 + 0.1 + 0.5;
+        assert!((volume(resumes) - 1.0).abs() < 1e-12 && (volume(9.0) - 2.0).abs() < 1e-12);
+        assert!((route.stop() - resumes - 1.0).abs() < 1e-12);
+    }
+
+    /// A full circle by G2 and half of one by G3 keep their distance from the centre, and their length.
+    #[test]
+    fn arcs_keep_their_radius() {
+        for (text, angle, end) in [
+            ("G0 X10 Y0\nG2 X10 Y0 I-10 J0 E1 F600", 2.0, [10e-3, 0.0]),
+            ("G0 X10 Y0\nG3 X-10 Y0 I-10 J0 E1 F600", 1.0, [-10e-3, 0.0]),
+        ] {
+            let route = of(text, "");
+            let length = angle * std::f64::consts::PI * 10e-3;
+            assert!((route.stop() / (length / 10e-3) - 1.0).abs() < 1e-3, "{}", route.stop());
+            for leg in &route.legs {
+                let [x, y, _] = leg.at(leg.duration);
+                assert!((x.hypot(y) / 10e-3 - 1.0).abs() < 1e-12);
+                let [x, y, _] = leg.at(0.5 * leg.duration);
+                assert!(x.hypot(y) > 10e-3 - 6e-6);
+            }
+            let last = route.legs.last().unwrap();
+            let [x, y, _] = last.at(last.duration);
+            assert!((x - end[0]).abs() < 1e-12 && (y - end[1]).abs() < 1e-12);
+            let upper = route.legs[route.legs.len() / 3].place[0][1];
+            assert!(if angle > 1.0 { upper < 0.0 } else { upper > 0.0 });
+        }
+    }
+
+    /// A straight move from rest to rest takes `L/v + v/a`; one too short for its speed `2 √(L/a)`. The flow follows the
+    /// speed, and all comes.
+    #[test]
+    fn acceleration_makes_trapezoids() {
+        for (length, speed, time) in
+            [(20.0, 20.0, 1.0 + 0.04), (0.2, 20.0, 2.0 * 0.4e-3_f64.sqrt())]
+        {
+            let text = format!("M83\nG0 X0 Y0\nG1 X{length} E1 F{}", 60.0 * speed);
+            let route = of(&text, "acceleration = 0.5");
+            assert!((route.stop() / time - 1.0).abs() < 1e-9, "{length}: {}", route.stop());
+            let whole = std::f64::consts::FRAC_PI_4 * 1.75e-3_f64.powi(2) * 1e-3;
+            assert!((route.volume_until(9.0) / whole - 1.0).abs() < 1e-9);
+            for leg in &route.legs {
+                let [value, slope] = leg.flow.unwrap();
+                let [speed, rate] = [leg.place[1][0], leg.place[2][0]];
+                assert!((value * 1e-3 * length - whole * speed).abs() < 1e-9 * whole);
+                assert!((slope * 1e-3 * length - whole * rate).abs() < 1e-6 * whole);
+            }
+            let last = route.legs.last().unwrap();
+            assert!((last.at(last.duration)[0] - 1e-3 * length).abs() < 1e-12);
+        }
+    }
+
+    /// A right angle is passed with the corner speed, a straight joint with the whole speed.
+    #[test]
+    fn corners_slow_the_nozzle() {
+        let text = "M83\nG0 X0 Y0\nG1 X20 E1 F1200\nG1 X40 E1\nG1 Y20 E1\nG1 Y40 E1";
+        let route = of(text, "acceleration = 1.0\ncorner_speed = 4e-3");
+        let speed_at = |place: [f64; 2]| {
+            let at = |leg: &&super::super::route::Leg| {
+                (leg.place[0][0] - place[0]).hypot(leg.place[0][1] - place[1]) < 1e-9
+            };
+            let leg = route.legs.iter().find(at).unwrap();
+            leg.place[1][0].hypot(leg.place[1][1])
+        };
+        assert!((speed_at([20e-3, 0.0]) - 20e-3).abs() < 1e-9);
+        assert!((speed_at([40e-3, 0.0]) - 4e-3).abs() < 1e-9);
+        assert_eq!(speed_at([0.0, 0.0]), 0.0);
+        let joints = route.legs.windows(2).all(|legs| {
+            let end =
+                [0, 1, 2].map(|a| legs[0].place[1][a] + legs[0].duration * legs[0].place[2][a]);
+            let [end, start] = [end, legs[1].place[1]].map(|v| v[0].hypot(v[1]));
+            (end - start).abs() < 1e-9 && (legs[0].stop() - legs[1].start).abs() < 1e-12
+        });
+        assert!(joints, "{route:?}");
+    }
+
+    #[test]
+    fn lines_that_are_not_understood_are_refused() {
+        for (text, line, words) in [
+            ("G0 X0 Y0\nG5 X1", 2, "G5"),
+            ("G0 X0 Y0\nG1 X1 E1", 2, "speed"),
+            ("G1 E1 F600", 1, "before"),
+            ("\n\nM600", 3, "M600"),
+            ("G1 X1 Y", 1, "`Y`"),
+            ("G0 X0 Y0\nG2 X1 R4 F60", 2, "I and J"),
+            ("G0 X0 Y0\nG2 X9 Y0 I1 J0 F60", 2, "radius"),
+            ("G0 X0 Y0\nG1 X1 A3 F60", 2, "`A`"),
+            ("G0 X0 Y0\nG1 X1 F0", 2, "speed"),
+            ("hello", 1, "`h`"),
+            ("X1 Y2", 1, "no command"),
+        ] {
+            let refused = route(text, &settings(""), 1e-3).unwrap_err();
+            assert!(refused.line == line && refused.message.contains(words), "{text}: {refused:?}");
+        }
+        let passed =
+            "M104 S200\nM107\nG28\nM117 Hello (world) X1\nT0\n; only a comment\n%\nG0 X0 Y0";
+        assert!(route(passed, &settings(""), 1e-3).is_ok());
+    }
+}

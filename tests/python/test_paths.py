@@ -1,0 +1,211 @@
+"""Paths of nozzles: geometry, runs that branch off, searches, what is kept, G-code."""
+
+import numpy as np
+import pytest
+from impinge import StudyError, Unit, gcode
+from impinge.study import path
+from impinge.study.corrections import Line, Waypoints, nozzle
+from impinge.study.optimisers import Outcome, gauss_newton, swarm
+from impinge.study.printing import Printer
+
+SCENE = """
+name = "Hairpin"
+stop_time = 1.0
+step = 0.02
+[body.ink]
+kind = "filament"
+fluid = { density = 800.0, viscosity = 0.1, specific_heat = 2e3, conductivity = 0.0 }
+nozzle = { diameter = 0.7e-3, height = 4.5e-3, temperature = 293.15, flow = 7.7e-9 }
+path = "input"
+most = 2e-8
+spacing = 0.5e-3
+[[target]]
+of = "ink"
+line = HAIRPIN
+"""
+ANGLES = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 17)
+BEND = np.c_[8e-3 + 1.5e-3 * np.cos(ANGLES), 1.5e-3 + 1.5e-3 * np.sin(ANGLES)]
+HAIRPIN = [[0.0, 0.0], *BEND.tolist(), [0.0, 3e-3]]
+SCENE = SCENE.replace("HAIRPIN", str(HAIRPIN))
+SPEED = 20e-3
+WHERE = {"region": (0.3, 0.8), "speed": SPEED}
+
+
+@pytest.fixture(scope="module")
+def scene(tmp_path_factory):
+    path = tmp_path_factory.mktemp("paths") / "hairpin.toml"
+    path.write_text(SCENE)
+    return path
+
+
+@pytest.fixture(scope="module")
+def found(scene, tmp_path_factory):
+    """A path by Gauss–Newton, and the folder of its runs."""
+    folder = tmp_path_factory.mktemp("runs")
+    found = path(scene, by="gauss-newton", simulations=60, waypoints=4, folder=folder, **WHERE)
+    return found, folder
+
+
+def test_offsets_move_a_path_along_its_normal():
+    """Between waypoints they are monotone; at a corner the path connects both normals."""
+    line = Line([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]])
+    ranges = Waypoints(((0.25, 0.25), (0.75, 0.75)), ((-0.2, 0.2), (-0.2, 0.2)), (0.1, 0.9))
+    assert np.array_equal(nozzle(line, ranges, ranges.naive(), 0.1, 0.0)[:11, 1], np.zeros(11))
+    places = nozzle(line, ranges, np.array([0.5, 0.5, 1.0, 0.5]), 0.01, 0.0)
+    on_first = places[places[:, 0] < 0.94]
+    assert np.isclose(on_first[:, 1].max(), 0.2, atol=1e-3) and (places[:20, 1] == 0.0).all()
+    rises = np.diff(on_first[on_first[:, 0] < 0.5, 1])
+    assert (rises >= 0.0).all()
+    steps = np.hypot(*np.diff(places, axis=0).T)
+    assert (steps[:-1] <= 0.01 + 1e-12).all() and np.allclose(places[-1], [1.0, 1.0])
+    beyond = nozzle(line, ranges, ranges.naive(), 0.01, 0.3)
+    assert np.allclose(beyond[-1], [1.0, 1.3])
+
+
+def test_distances_are_signed_and_those_of_the_nearest_part():
+    line = Line([[0.0, 0.0], [2.0, 0.0], [2.0, 2.0]])
+    way, distance = line.beside(np.array([[1.0, 0.3], [1.0, -0.3], [2.5, 1.0], [2.3, -0.4]]))
+    assert np.allclose(way, [1.0, 1.0, 3.0, 2.0])
+    assert np.allclose(distance, [0.3, -0.3, -0.5, -0.5])
+
+
+def test_a_run_from_a_saved_state_is_that_from_the_start(scene):
+    from impinge.study.paths import _Study
+
+    study = _Study(scene, None, SPEED, None, None)
+    ranges = Waypoints(((0.5, 0.5),), ((-1e-3, 1e-3),), (0.4, 0.9))
+    naive, other = (
+        nozzle(study.line, ranges, np.array([0.5, offset]), study.spacing, 0.0)
+        for offset in (0.5, 0.9)
+    )
+    printers = [Printer(study.job(1.0)) for _ in range(2)]
+    try:
+        printers[0].run(naive, keep=True)
+        branched, whole = (printer.run(other) for printer in printers)
+        again = printers[0].run(naive)
+    finally:
+        for printer in printers:
+            printer.close()
+    assert branched.steps < 0.7 * whole.steps
+    assert np.array_equal(branched.numbers()[:-1], whole.numbers()[:-1])
+    assert np.array_equal(branched.distances, whole.distances)
+    assert again.steps < 5 and again.part == 1.0
+
+
+def test_few_runs_find_the_path_of_a_hairpin(found, scene):
+    best, _ = found
+    assert best.simulations <= 60 and best.ratio > 7.3
+    assert best.best.largest < 0.15 * best.diameter and best.best.gap < 0.1 * best.diameter
+    # What is reported is what the unit says of that path.
+    steps = np.diff(best.times)
+    with Unit(scene) as unit:
+        unit["ink.nozzle_z"] = best.height
+        for place, after, step in zip(best.places, best.places[1:], steps, strict=False):
+            unit["ink.nozzle_x"], unit["ink.nozzle_y"] = place
+            rates = dict(zip(["ink.nozzle_x", "ink.nozzle_y"], (after - place) / step, strict=True))
+            unit.set_input_derivatives({name: [rate] for name, rate in rates.items()})
+            unit.step(step)
+        assert np.isclose(unit["ink.largest_deviation"], best.best.largest, rtol=1e-6)
+        assert np.isclose(unit["ink.gap"], best.best.gap, rtol=1e-6)
+
+
+def test_finished_runs_are_not_repeated(found, scene, monkeypatch):
+    best, folder = found
+
+    def refuse(*_, **__):
+        raise AssertionError("a run is repeated")
+
+    monkeypatch.setattr(Printer, "run", refuse)
+    again = path(scene, by="gauss-newton", simulations=60, waypoints=4, folder=folder, **WHERE)
+    assert np.array_equal(again.places, best.places) and again.best.mean == best.best.mean
+    assert again.history.equals(best.history)
+
+
+def test_processes_change_nothing(scene):
+    settings = {"by": "swarm", "simulations": 14, "size": 4, "coarse": 1.0, **WHERE}
+    one, two = (path(scene, processes=n, **settings) for n in (1, 2))
+    assert np.array_equal(one.history.objective, two.history.objective)
+
+
+def test_a_generation_of_cma_improves_the_path(scene):
+    pytest.importorskip("cma")
+    best = path(scene, by="cma", simulations=60, waypoints=2, **WHERE)
+    assert best.ratio > 1.5
+
+
+def test_another_target_takes_the_place_of_the_scenes(scene):
+    line = [[0.0, 0.0], [8e-3, 0.0], [8e-3, 5e-3]]
+    best = path(scene, line, by="gauss-newton", simulations=40, speed=SPEED, region=(0.3, 0.9))
+    assert np.allclose(best.along[0], [0.0, 0.0]) and np.isclose(best.along[-1, 0], 8e-3)
+    assert best.ratio > 2.0
+
+
+def test_searches_minimise_a_bowl():
+    """A swarm of Clerc and Kennedy contracts; Gauss–Newton solves a linear problem in one step."""
+    goal = np.array([0.3, 0.8])
+
+    def outcome(unknowns):
+        return Outcome(float(np.sum((unknowns - goal) ** 2)), unknowns - goal)
+
+    for search, rounds, most in [
+        (swarm(np.full(2, 0.5), size=8, spread=0.3, seed=1), 60, 1e-8),
+        (gauss_newton(np.full(2, 0.5), size=3, spread=0.0, seed=0), 6, 1e-7),
+    ]:
+        asked, best = next(search), np.inf
+        for _ in range(rounds):
+            outcomes = [outcome(unknowns) for unknowns in asked]
+            best = min(best, *(one.objective for one in outcomes), best)
+            asked = search.send(outcomes)
+        assert best < most
+
+
+def test_code_that_is_written_lays_the_same_strand(found, scene, tmp_path):
+    best, _ = found
+    best.write_gcode(tmp_path / "best.gcode")
+    text = scene.read_text().replace('path = "input"', 'path = { file = "best.gcode" }')
+    by_code = tmp_path / "code.toml"
+    by_code.write_text(text.replace(", flow = 7.7e-9", ""))
+    table = ", ".join(f"{key} = {values}" for key, values in best.table().items())
+    by_table = tmp_path / "table.toml"
+    text = scene.read_text().replace('path = "input"', f"path = {{ {table} }}")
+    by_table.write_text(text.replace(", flow = 7.7e-9", ""))
+    for source in (by_code, by_table):
+        with Unit(source) as unit:
+            for _ in range(10):
+                unit.step(0.1 * best.times[-1] * (1 + 1e-9))
+            largest = unit["ink.largest_deviation"]
+            assert np.isclose(largest, best.best.largest, rtol=1e-3, atol=1e-7)
+            assert np.isclose(unit["ink.volume"], best.flow * best.times[-1], rtol=1e-6)
+    # A changed file makes another unit.
+    code = (tmp_path / "best.gcode").read_text()
+    (tmp_path / "best.gcode").write_text(code.rsplit("G1", 1)[0])
+    with Unit(by_code) as unit:
+        unit.step(1.1 * best.times[-1])
+        assert unit["ink.volume"] < 0.999 * best.flow * best.times[-1]
+
+
+def test_what_makes_no_sense_is_refused(scene, tmp_path):
+    for settings, error, words in [
+        ({"by": "luck"}, ValueError, "allowed: 'cma', 'swarm', 'gauss-newton'"),
+        ({"target": "glue"}, StudyError, "no filament glue"),
+        ({"region": (0.5, 0.2)}, ValueError, "0 <= low < high <= 1"),
+        ({"waypoints": [((0.0, 0.1), (0.0, 1e-3))]}, ValueError, "parts within"),
+        ({"waypoints": 0}, ValueError, "one or more"),
+        ({"simulations": 2}, ValueError, "3 or more"),
+        ({"processes": 0}, ValueError, "at least 1"),
+        ({"flow": 0.0}, ValueError, "above 0"),
+    ]:
+        with pytest.raises(error, match=words):
+            path(scene, **{"by": "swarm", **WHERE, **settings})
+    other = tmp_path / "other.toml"
+    other.write_text(SCENE.split("[[target]]")[0])
+    with pytest.raises(StudyError, match=r"no \[\[target\]\]"):
+        path(other, by="swarm", **WHERE)
+    places, times = np.zeros((3, 3)), np.arange(3.0)
+    for wrong, words in [
+        ((places[:, :2], times, times), "shapes"),
+        ((places, -times, times), "ascend"),
+        ((places, times, -times), "negative"),
+    ]:
+        with pytest.raises(ValueError, match=words):
+            gcode.write(tmp_path / "a.gcode", *wrong)
