@@ -6,10 +6,13 @@
 //! total-Lagrangian SPH.
 //!
 //! One gradient for each particle does not see motion that alternates between neighbours. So second derivatives are
-//! fitted, with the same weights, to what F_a leaves over of the neighbours' displacements. They correct F_a where
-//! neighbours lie on one side, and give the gradient in each quarter (eighth) of a particle's cell, where the stress
-//! is taken: quadratic motion is exact, no mode but rigid ones is without energy, and there is no constant to be chosen.
-//! The points of a particle share one dilatation.
+//! fitted, with the same weights, to what F_a leaves over of the neighbours' displacements. They give the gradient in each
+//! quarter (eighth) of a particle's cell, where the stress is taken: no mode but rigid ones is without energy, and there is
+//! no constant to be chosen. The points of a particle share one dilatation. Gradients are then made [`consistent`].
+
+mod consistent;
+
+use consistent::balance;
 
 use super::bins::Bins;
 use super::factor::Factor;
@@ -17,6 +20,13 @@ use super::finite_elements::{boundary, sample};
 use super::reproducing::{Refused, Shape, spacings};
 use super::{Form, Mesh, Samples, Space, Value};
 use crate::kernel::{CubicSpline, Shape as Kernel};
+
+/// A point at which the stress is taken.
+struct Point {
+    at: [f64; 3],
+    weight: f64,
+    row: Vec<Value>,
+}
 
 /// Part of a particle's cell: place and volume.
 struct Part {
@@ -27,25 +37,26 @@ struct Part {
 /// Coordinates of the centres of both halves of a cell.
 const HALVES: [f64; 2] = [0.25, 0.75];
 
-/// Creates the space of particles at a mesh's nodes, with supports of a radius in spacings of nodes.
-///
-/// Forces of a constant stress cancel in the interior of regular arrangements, but for an error of the order of the
-/// spacing near faces and on uneven ones: their modes converge with the square of the spacing, those of uneven
-/// particles with the first power, from below.
+/// Creates the space of particles at a mesh's nodes, with supports of a radius in spacings of nodes. Affine motion is
+/// exact, and the nodal forces of a constant stress are its tractions.
 pub fn particles(mesh: &Mesh, support: f64) -> Result<Space, Refused> {
     let parts = parts(mesh);
     let around = Around::new(mesh, &parts, support);
+    let rows_of = |(node, parts): (usize, &Vec<Part>)| match mesh.form {
+        Form::Solid => around.rows::<3, 6>([0, 1, 2], node, parts),
+        Form::Plane | Form::Axisymmetric => around.rows::<2, 3>([0, 2], node, parts),
+    };
+    let mut points: Vec<Vec<Point>> =
+        parts.iter().enumerate().map(rows_of).collect::<Result<_, _>>()?;
+    match mesh.form {
+        Form::Solid => balance::<4>(mesh, &mut points)?,
+        Form::Plane | Form::Axisymmetric => balance::<3>(mesh, &mut points)?,
+    }
     let mut volume = Samples::default();
     let mut groups = Vec::new();
-    for (node, parts) in parts.iter().enumerate() {
+    for points in points {
         let first = volume.len();
-        let rows = match mesh.form {
-            Form::Solid => around.rows::<3, 6>([0, 1, 2], node, parts)?,
-            Form::Plane | Form::Axisymmetric => around.rows::<2, 3>([0, 2], node, parts)?,
-        };
-        for (part, row) in parts.iter().zip(rows) {
-            volume.push(part.at, part.weight, row);
-        }
+        points.into_iter().for_each(|point| volume.push(point.at, point.weight, point.row));
         groups.push(first..volume.len());
     }
     let shares = parts.iter().map(|parts| parts.iter().map(|part| part.weight).sum()).collect();
@@ -133,7 +144,7 @@ impl<'a> Around<'a> {
         axes: [usize; D],
         node: usize,
         parts: &[Part],
-    ) -> Result<Vec<Vec<Value>>, Refused> {
+    ) -> Result<Vec<Point>, Refused> {
         let neighbours = self.neighbours(axes, node);
         let few = || Refused::FewNeighbours {
             at: self.nodes[node],
@@ -155,7 +166,7 @@ impl<'a> Around<'a> {
                 row.push(Value { node: neighbour.node, value, gradient });
             }
             row.push(own);
-            row
+            Point { at: part.at, weight: part.weight, row }
         };
         Ok(parts.iter().map(of_part).collect())
     }
@@ -302,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn quadratic_fields_are_exact() {
+    fn quadratic_fields_are_near() {
         let space = particles(&uneven(Form::Solid, 0.5), 2.6).unwrap();
         let field = |[x, y, z]: [f64; 3]| x * x - 0.5 * x * y + 0.3 * z * z + y * z;
         for point in 0..space.volume.len() {
@@ -314,9 +325,49 @@ mod tests {
                 (0..3).for_each(|a| gradient[a] += own.gradient[a] * u);
             }
             assert!(
-                (0..3).all(|a| (gradient[a] - wanted[a]).abs() < 1e-9),
+                (0..3).all(|a| (gradient[a] - wanted[a]).abs() < 0.1),
                 "{gradient:?} {wanted:?}"
             );
+        }
+    }
+
+    /// Nodal forces of a constant stress are its tractions, also on the axis and on planes of symmetry.
+    #[test]
+    fn constant_stress_balances() {
+        for mesh in [
+            uneven(Form::Plane, 0.5),
+            uneven(Form::Axisymmetric, 0.5),
+            uneven(Form::Solid, 0.5),
+            Mesh::of_box(Form::Axisymmetric, [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [5, 1, 6]),
+            Mesh::of_ball(Form::Plane, 1.0, 3, 3, [true, false]),
+        ] {
+            let space = particles(&mesh, 2.5).unwrap();
+            let mut forces = vec![[0.0; 3]; space.nodes.len()];
+            for (n, normal) in space.boundary.normals.iter().enumerate() {
+                for own in space.boundary.samples.row(n) {
+                    let part = space.boundary.samples.weights[n] * own.value;
+                    (0..3).for_each(|a| forces[own.node as usize][a] += part * normal[a]);
+                }
+            }
+            for point in 0..space.volume.len() {
+                let weight = space.volume.weights[point];
+                for own in space.volume.row(point) {
+                    let hoop = match mesh.form {
+                        Form::Axisymmetric => own.value / space.volume.at[point][0],
+                        _ => 0.0,
+                    };
+                    let force = &mut forces[own.node as usize];
+                    (0..3).for_each(|a| force[a] -= weight * own.gradient[a]);
+                    force[0] -= weight * hoop;
+                }
+            }
+            let held = |at: f64| at == 0.0 && mesh.nodes.iter().all(|node| node[0] >= 0.0);
+            for (force, at) in forces.iter().zip(&space.nodes) {
+                let is_free = |&&a: &&usize| a != 0 || !held(at[0]);
+                for &a in mesh.form.axes().iter().filter(is_free) {
+                    assert!(force[a].abs() < 1e-3, "{:?} {at:?} {force:?}", mesh.form);
+                }
+            }
         }
     }
 

@@ -3,7 +3,7 @@
 mod basis;
 mod cell_map;
 mod cells;
-mod facets;
+pub(super) mod facets;
 mod functions;
 mod kernel;
 mod nodal_cells;

@@ -59,6 +59,7 @@ fn a_free_body_falls_as_a_point() {
 fn a_gel_bounces_and_all_balances_close() {
     for keys in [
         "dimension = 2",
+        "mechanics = \"sph\"\ndimension = 2",
         "",
         "symmetry = \"quarter\"",
         "mechanics = \"rkpm\"",
@@ -153,9 +154,12 @@ fn drawn_blocks_follow_the_closed_form() {
         (Sides::Free, ""),
     ] {
         let comma = if faces.is_empty() { "" } else { "," };
-        for keys in
-            ["", "mechanics = \"rkpm\"", "mechanics = \"efg\"\nrkpm = { integration = \"scni\" }"]
-        {
+        for keys in [
+            "",
+            "mechanics = \"sph\"",
+            "mechanics = \"rkpm\"",
+            "mechanics = \"efg\"\nrkpm = { integration = \"scni\" }",
+        ] {
             let mut trial =
                 Trial::new(&block(&format!("faces = {{ {ends}{comma} {faces} }}"), keys));
             for stretch in [1.1, 2.0, 0.6] {

@@ -49,7 +49,9 @@ fn temperatures_beyond_a_substance_are_warned_of() {
 
 #[test]
 fn free_blocks_expand_without_stress() {
-    for keys in ["", "mechanics = \"rkpm\"", "mechanics = \"efg\"", "dimension = 2"] {
+    for keys in
+        ["", "mechanics = \"rkpm\"", "mechanics = \"efg\"", "mechanics = \"sph\"", "dimension = 2"]
+    {
         let mut trial =
             Trial::new(&format!("{}\n{keys}", block(RUBBER, "bottom = { roller = true }")));
         trial.set("pad.temperature", 400.0);

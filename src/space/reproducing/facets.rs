@@ -7,7 +7,7 @@ use super::Sides;
 
 /// A facet of a cell on the surface of the mesh.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Facet {
+pub(in crate::space) struct Facet {
     /// Coordinate of the cell that is constant on it, and whether it is 1 there rather than 0.
     pub axis: usize,
     pub upper: bool,
@@ -24,7 +24,7 @@ pub(super) fn corner_bits(form: Form, corner: usize) -> [bool; 3] {
 }
 
 /// Facets of each cell on the surface.
-pub(super) fn surface(mesh: &Mesh) -> Vec<Vec<Facet>> {
+pub(in crate::space) fn surface(mesh: &Mesh) -> Vec<Vec<Facet>> {
     let known: HashMap<Vec<u32>, Side> =
         mesh.faces.iter().map(|(side, face)| (sorted(face.clone()), *side)).collect();
     let mut uses: HashMap<Vec<u32>, usize> = HashMap::new();
@@ -73,7 +73,7 @@ pub(super) fn planes(mesh: &Mesh, surface: &[Vec<Facet>], held: Sides) -> Vec<(u
     planes
 }
 
-fn corners(form: Form, cell: &[u32], axis: usize, upper: bool) -> Vec<u32> {
+pub(in crate::space) fn corners(form: Form, cell: &[u32], axis: usize, upper: bool) -> Vec<u32> {
     let on = |&n: &usize| corner_bits(form, n)[axis] == upper;
     (0..cell.len()).filter(on).map(|n| cell[n]).collect()
 }
