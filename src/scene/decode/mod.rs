@@ -20,6 +20,7 @@ use super::droplet::Droplet;
 use super::error::{Problem, SceneError};
 use super::filament::Filament;
 use super::large_strain::{KIND, LargeStrain};
+use super::lattice::Lattice;
 use super::locate::{Path, Source};
 use super::reservoir::Reservoir;
 use super::schema::Schema;
@@ -123,6 +124,7 @@ impl Decoder<'_> {
             self.read_if::<Droplet>(&body, "kind", "droplet");
             self.read_if::<Reservoir>(&body, "kind", "reservoir");
             self.read_if::<Filament>(&body, "kind", "filament");
+            self.read_if::<Lattice>(&body, "kind", "lattice");
             self.read_if::<LargeStrain>(&body, "kind", KIND);
         }
     }
