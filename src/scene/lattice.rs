@@ -106,7 +106,7 @@ pub enum LatticeSupport {
     /// Three-point bending: on two supports at the lower face, loaded downwards in the middle of the upper face.
     ThreePoint(ThreePoint),
     /// Uniaxial tension: both ends in rigid platens, which do not turn; the right one moves along x.
-    Ends(Platens),
+    Ends,
 }
 
 /// Three-point bending.
@@ -117,11 +117,6 @@ pub struct ThreePoint {
     #[schemars(transform = length("the span").condition("within the length of the strip"))]
     pub span: f64,
 }
-
-/// Rigid platens.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Platens {}
 
 /// What the input of a lattice prescribes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

@@ -29,7 +29,7 @@ pub fn plan_of(lattice: &Lattice) -> LatticePlan {
         },
         support: match lattice.support {
             LatticeSupport::ThreePoint(own) => Support::ThreePoint { span: own.span },
-            LatticeSupport::Ends(_) => Support::Ends,
+            LatticeSupport::Ends => Support::Ends,
         },
         control: match lattice.control {
             LatticeControl::Displacement => Control::Displacement,

@@ -36,6 +36,8 @@ pub struct Frame {
 
 /// Depth of the rows at a face that supports and loads act on, over the spacing.
 const FACE: f64 = 0.9;
+/// Depth of the columns that platens hold, over the spacing: one of links across, two of links along.
+const END: f64 = 0.6;
 
 impl Frame {
     pub fn new(particles: &Particles, strip: &Strip, support: Support) -> Self {
@@ -67,7 +69,7 @@ impl Frame {
     fn ends(faces: &Faces, strip: &Strip) -> Self {
         let particles = faces.particles;
         let most = particles.places.iter().fold(0.0_f64, |most, place| most.max(place[0].abs()));
-        let is_end = |x: f64| x.abs() > most - FACE * particles.spacing;
+        let is_end = |x: f64| x.abs() > most - END * particles.spacing;
         let mut unknown = Vec::with_capacity(COMPONENTS * particles.places.len());
         let mut loaded = Vec::new();
         // The right platen moves along x.

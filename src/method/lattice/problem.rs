@@ -45,6 +45,9 @@ pub struct Lattice {
     longest: f64,
 }
 
+/// Least flexural stiffness over the axial one and the length squared: at ν = 1/3 links do not bend, and nothing else would
+/// hold the rotation of particles.
+const SPIN: f64 = 1e-9;
 /// Distance from supports and loads within which links stay intact, over the spacing.
 const PROTECTED: f64 = 2.0;
 /// Longest step over the opening of a link at the knee of its law, and shortest step over the longest.
@@ -291,6 +294,7 @@ fn links(plan: &LatticePlan, particles: &Particles, frame: &Frame) -> Vec<Link> 
         let [axial, flexural] = plan.sheet.stiffness(length, pair.facet);
         let strength =
             crate::laws::fracture::scattered(plan.scatter, plan.seed, [number as u64, 0]);
+        let flexural = flexural.max(SPIN * axial * length * length);
         Link {
             ends: pair.ends,
             length,

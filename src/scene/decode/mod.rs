@@ -110,7 +110,11 @@ impl Decoder<'_> {
         let Some(DeValue::Table(bodies)) = self.source.value(&path) else { return };
         for name in bodies.keys() {
             let body = path.key(name.get_ref());
-            self.read_material(&body.key("material"));
+            let kind = self.source.value(&body.key("kind")).and_then(DeValue::as_str);
+            // That of a lattice is no material of solids.
+            if kind != Some("lattice") {
+                self.read_material(&body.key("material"));
+            }
             let layers = body.key("layers");
             let count = match self.source.value(&layers) {
                 Some(DeValue::Array(list)) => list.len(),

@@ -4,7 +4,7 @@ use impinge::limits::keyword;
 use serde_json::Value;
 
 /// Headings of `docs/scene.md` with a table, and where in the schema the table that they describe stands.
-pub const SECTIONS: [(&str, &str); 50] = [
+pub const SECTIONS: [(&str, &str); 55] = [
     ("The whole", ""),
     ("`fidelity`", "/$defs/Fidelity"),
     ("`solver`", "/$defs/Solver"),
@@ -43,6 +43,11 @@ pub const SECTIONS: [(&str, &str); 50] = [
     ("`[body.NAME]` of a filament", "/$defs/Body/oneOf/4"),
     ("`nozzle` of a filament", "/$defs/Nozzle"),
     ("`path` of a filament", "/$defs/PathTable"),
+    ("`[body.NAME]` of a lattice", "/$defs/Body/oneOf/5"),
+    ("`material` of a lattice", "/$defs/QuasiBrittle"),
+    ("`softening` of a lattice", "/$defs/SofteningKeys"),
+    ("`notch` of a lattice", "/$defs/LatticeNotch"),
+    ("`support.three_point` of a lattice", "/$defs/ThreePoint"),
     ("`[[target]]`", "/$defs/Target"),
     ("`[body.NAME]` of a reservoir", "/$defs/Body/oneOf/2"),
     ("`[[load]]`", "/$defs/Load"),
