@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::lookup::BodyInput;
 use crate::laws::fracture::QuasiBrittle;
-use crate::limits::{length, own_temperature, place, plausible, whole, within};
+use crate::limits::{length, own_temperature, place, plausible, within};
 use crate::quantity::Quantity;
 
 /// A strip of concrete or another quasi-brittle material in plane stress: particles joined by links that soften and break.
@@ -34,7 +34,8 @@ pub struct Lattice {
     /// A cut from the lower face.
     #[schemars(extend("otherwise" = "none"))]
     pub notch: Option<LatticeNotch>,
-    /// How the strip is held and loaded.
+    /// How the strip is held and loaded: `ends`, pulled between rigid platens, or three-point bending.
+    #[schemars(extend("condition" = "or `{ three_point = { span = L } }`"))]
     pub support: LatticeSupport,
     /// What the input prescribes: the displacement of the load, or the opening of the notch at the lower face. The opening
     /// passes points at which the displacement would go back.
@@ -51,7 +52,6 @@ pub struct Lattice {
     pub scatter: f64,
     /// Number of the sample of that distribution.
     #[serde(default)]
-    #[schemars(transform = whole(0, u32::MAX, "no sample of this number", "a whole number from 0"))]
     pub seed: u32,
     /// Uniform temperature, of which nothing depends [K].
     #[serde(default = "room")]

@@ -19,7 +19,7 @@ pub struct QuasiBrittle {
     /// Poisson's ratio ν [1]; links bend only up to a third.
     #[schemars(transform = within(-1.0 + LEAST_ABOVE, THIRD, "1", "")
         .low("Poisson's ratio must stay above minus one", ALLOWED)
-        .high("links would have no stiffness in bending above a third", ALLOWED))]
+        .high("above a third links would need a negative stiffness in bending", ALLOWED))]
     pub poisson: f64,
     /// Law of softening of links.
     pub softening: SofteningKeys,

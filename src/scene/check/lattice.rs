@@ -16,6 +16,8 @@ pub fn check(checker: &mut Checker) {
         softening(checker, &path.at("material.softening"), &lattice.material.softening);
         if checker.is_fine(&path) {
             spacing(checker, &path, lattice);
+        }
+        if checker.is_fine(&path) {
             notch(checker, &path, lattice);
             support(checker, &path, lattice);
         }
@@ -100,7 +102,8 @@ fn support(checker: &mut Checker, path: &Path, lattice: &Lattice) {
     let least = 8.0 * lattice.spacing;
     let message = "links near supports and load stay intact, and nothing is left between them";
     checker.require(fits(least, own.span), &path, message, format!(">= {}", number(least)));
-    if let Some(notch) = lattice.notch {
+    let notch = lattice.notch.filter(|_| checker.is_fine(&body.key("notch")));
+    if let Some(notch) = notch {
         let reach = 0.5 * own.span - 0.5 * notch.width - 3.0 * lattice.spacing;
         let message = "the notch is at a support";
         let allowed = format!("between {} and {}", number(-reach), number(reach));
