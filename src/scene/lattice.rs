@@ -89,7 +89,8 @@ pub struct LatticeNotch {
     /// Depth of its tip [m].
     #[schemars(transform = length("the depth of a notch").condition("below that of the strip"))]
     pub depth: f64,
-    /// Width [m]; particles within it are left out, and no link crosses its middle.
+    /// Width [m]: zero is a cut between two columns of particles, of a wider notch those within it are left out. No link
+    /// crosses the middle.
     #[serde(default)]
     #[schemars(transform = within(0.0, 1e3, "m", "the width of a notch"))]
     pub width: f64,

@@ -81,7 +81,7 @@ impl Strip {
 
     /// Number of particles, a notch not counted.
     pub fn count(&self) -> usize {
-        let columns = 2 * self.columns_aside() as usize + 1;
+        let columns = self.columns().count();
         match self.arrangement {
             Arrangement::Across => columns * self.layers(),
             Arrangement::Along => columns * self.layers() / 2,
@@ -97,9 +97,18 @@ impl Strip {
             }
     }
 
-    /// Number of columns on each side of x = 0.
-    fn columns_aside(&self) -> i64 {
-        (0.5 * self.length / self.column() - 0.5 + ROUNDING).floor().max(0.0) as i64
+    /// True if the strip is cut between two columns.
+    fn has_saw_cut(&self) -> bool {
+        self.notch.is_some_and(|notch| notch.width <= 0.0)
+    }
+
+    /// Numbers of the columns with their places x [m], symmetric about x = 0: one is there, unless a cut without width is.
+    fn columns(&self) -> impl Iterator<Item = (i64, f64)> {
+        let column = self.column();
+        let shift = if self.has_saw_cut() { 0.5 } else { 0.0 };
+        let most = (0.5 * self.length / column - 0.5 + shift + ROUNDING).floor().max(1.0) as i64;
+        let last = if self.has_saw_cut() { most - 1 } else { most };
+        (-most..=last).map(move |j| (j, (j as f64 + shift) * column))
     }
 
     /// Places the particles, the outer rows half a row inside the faces, and joins neighbours except across the notch.
@@ -118,13 +127,13 @@ impl Strip {
     /// Hexagons, column by column, symmetric about x = 0. With links along, one is across x = 0 in the first row above the
     /// notch.
     fn hexagons(&self, spacing: f64) -> Vec<[f64; 2]> {
-        let (column, aside, layers) = (self.column(), self.columns_aside(), self.layers());
+        let layers = self.layers();
         let cut = self.notch.map_or(0.0, |notch| notch.depth / (COLUMN * spacing));
         let parity = cut.round() as i64 + 1;
         let heights = |j: i64| -> Vec<f64> {
             match self.arrangement {
                 Arrangement::Across => {
-                    let first = if j % 2 == 0 { 0.25 } else { 0.75 };
+                    let first = if j.rem_euclid(2) == 0 { 0.25 } else { 0.75 };
                     (0..layers).map(|k| (first + k as f64) * spacing).collect()
                 }
                 Arrangement::Along => {
@@ -133,8 +142,8 @@ impl Strip {
                 }
             }
         };
-        let of_column = |j: i64| heights(j).into_iter().map(move |y| [j as f64 * column, y]);
-        (-aside..=aside).flat_map(of_column).collect()
+        let of_column = |(j, x): (i64, f64)| heights(j).into_iter().map(move |y| [x, y]);
+        self.columns().flat_map(of_column).collect()
     }
 
     fn is_in_notch(&self, [x, y]: [f64; 2]) -> bool {

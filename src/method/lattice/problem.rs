@@ -221,7 +221,8 @@ impl Lattice {
             elastic_energy: self.elastic_energy(state),
             max_damage: state.damage.iter().copied().fold(0.0, f64::max),
             broken_links: broken.clone().count(),
-            crack_length: broken.sum(),
+            // From zero: a sum of nothing is negative zero.
+            crack_length: broken.fold(0.0, |sum, facet| sum + facet),
         }
     }
 
