@@ -17,12 +17,11 @@ NAME = "notched_beam"
 SCENE = Path(__file__).parent / "scene.toml"
 STEP = 0.02  # s, as in the scene
 WIDTH, STRENGTH = 152.4e-3, 4.5e6  # m, Pa
-SPACING = 9.525e-3  # m
-# Depth, length, span and depth of the notch [m]
+# Depth, length, span, depth of the notch and distance of particles [m]
 SIZES = {
-    "D3": (76.2e-3, 0.27, 228.6e-3, 25.4e-3),
-    "D6": (152.4e-3, 0.50, 457.2e-3, 50.8e-3),
-    "D9": (228.6e-3, 0.73, 685.8e-3, 76.2e-3),
+    "D3": (76.2e-3, 0.25, 228.6e-3, 25.4e-3, 4.7625e-3),
+    "D6": (152.4e-3, 0.50, 457.2e-3, 50.8e-3, 9.525e-3),
+    "D9": (228.6e-3, 0.75, 685.8e-3, 76.2e-3, 14.2875e-3),
 }
 OUTPUTS = ["force", "displacement", "mechanical_work", "dissipated_energy", "elastic_energy"]
 OUTPUTS = [f"beam.{key}" for key in [*OUTPUTS, "released_energy", "energy_drift"]]
@@ -49,8 +48,8 @@ def scaled(name: str, folder: Path) -> Path:
     """The scene of a beam of another size."""
     text = SCENE.read_text()
     for key, old, new in zip(
-        ["\ndepth = ", "length = ", "span = ", "notch = { depth = "],
-        ["152.4e-3", "0.50", "457.2e-3", "50.8e-3"],
+        ["\ndepth = ", "length = ", "span = ", "notch = { depth = ", "spacing = "],
+        ["152.4e-3", "0.50", "457.2e-3", "50.8e-3", "9.525e-3"],
         SIZES[name],
         strict=True,
     ):
@@ -70,7 +69,9 @@ def simulate(source: Path, name: str, openings: np.ndarray, folder: Path) -> Bea
             unit.step_to(unit.time + STEP)
             rows.append(unit.get(OUTPUTS))
     columns = np.array(rows).T
-    outputs = {key.removeprefix("beam."): column for key, column in zip(OUTPUTS, columns)}
+    outputs = {
+        key.removeprefix("beam."): column for key, column in zip(OUTPUTS, columns, strict=True)
+    }
     return Beam(SIZES[name][0], openings, outputs, folder)
 
 
@@ -106,7 +107,9 @@ def draw(beams: dict[str, Beam], folder: Path) -> Path:
         force = np.concatenate([[0.0], beam.outputs["force"]])
         opening = np.concatenate([[0.0], beam.openings])
         loads.plot(opening * 1e6, force / 1e3, label=f"{name}, {beam.depth * 1e3:.0f} mm")
-    loads.set(xlabel="opening of the notch [µm]", ylabel="load [kN]", title="Larger beams fall steeper")
+    loads.set(
+        xlabel="opening of the notch [µm]", ylabel="load [kN]", title="Larger beams fall steeper"
+    )
     loads.legend()
     shown = beams["D6"]
     stored = shown.outputs["elastic_energy"]
@@ -119,7 +122,11 @@ def draw(beams: dict[str, Beam], folder: Path) -> Path:
     )
     work = shown.outputs["mechanical_work"]
     energies.plot(shown.openings * 1e6, work, **shared.CLOSED_FORM, label="work of the load")
-    energies.set(xlabel="opening of the notch [µm]", ylabel="energy [J]", title="D6: all work is accounted for")
+    energies.set(
+        xlabel="opening of the notch [µm]",
+        ylabel="energy [J]",
+        title="D6: all work is accounted for",
+    )
     energies.legend(loc="upper left")
     draw_crack(crack, shown)
     depths = np.array([beam.depth for beam in beams.values()])
@@ -131,9 +138,19 @@ def draw(beams: dict[str, Beam], folder: Path) -> Path:
     sizes.loglog(depths, strengths / 1e6, "o", markersize=9)
     for name, beam in beams.items():
         sizes.annotate(name, (beam.depth, beam.nominal / 1e6), (8, 4), textcoords="offset points")
-    sizes.set(xlabel="depth [m]", ylabel="nominal strength [MPa]", title="Twice as large is not twice as strong")
+    sizes.set(
+        xlabel="depth [m]",
+        ylabel="nominal strength [MPa]",
+        title="Twice as large is not twice as strong",
+    )
     sizes.legend()
-    figure.suptitle("Notched concrete beams in three-point bending, as lattices of links that soften")
+    sizes.set(xticks=[0.05, 0.1, 0.2, 0.5], yticks=[0.2, 0.3, 0.4, 0.5])
+    for axis in (sizes.xaxis, sizes.yaxis):
+        axis.set_major_formatter("{x:g}")
+        axis.set_minor_formatter("")
+    figure.suptitle(
+        "Notched concrete beams in three-point bending, as lattices of links that soften"
+    )
     return shared.save(figure, folder, NAME)
 
 

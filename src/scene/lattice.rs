@@ -8,8 +8,8 @@ use crate::laws::fracture::QuasiBrittle;
 use crate::limits::{length, own_temperature, place, plausible, within};
 use crate::quantity::Quantity;
 
-/// A strip of concrete or another quasi-brittle material in plane stress: particles joined by links that soften and break.
-/// It lies in the plane of x and z, from z = 0 at its lower face up, with x = 0 in the middle of its length.
+/// A strip of concrete or another quasi-brittle material in plane stress: particles joined by links that soften and
+/// break. It lies in the plane of x and z, from z = 0 at its lower face up, with x = 0 in the middle of its length.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Lattice {
@@ -37,8 +37,8 @@ pub struct Lattice {
     /// How the strip is held and loaded: `ends`, pulled between rigid platens, or three-point bending.
     #[schemars(extend("condition" = "or `{ three_point = { span = L } }`"))]
     pub support: LatticeSupport,
-    /// What the input prescribes: the displacement of the load, or the opening of the notch at the lower face. The opening
-    /// passes points at which the displacement would go back.
+    /// What the input prescribes: the displacement of the load, or the opening of the notch at the lower face. The
+    /// opening passes points at which the displacement would go back.
     #[serde(default)]
     #[schemars(extend("condition" = "`opening` with `notch`"))]
     pub control: LatticeControl,
@@ -50,7 +50,7 @@ pub struct Lattice {
     #[serde(default = "usual_scatter")]
     #[schemars(transform = within(0.0, 0.9, "1", "").says("scatter is a part of the strength", "0 to 0.9"))]
     pub scatter: f64,
-    /// Number of the sample of that distribution.
+    /// Number of the sample of that distribution, and of random particles.
     #[serde(default)]
     pub seed: u32,
     /// Uniform temperature, of which nothing depends [K].
@@ -80,6 +80,8 @@ pub enum LatticeArrangement {
     Across,
     /// Hexagons with links along the strip, along x.
     Along,
+    /// Random particles, whose links cross the facets of their Voronoi cells: cracks prefer no direction.
+    Random,
 }
 
 /// A cut from the lower face of a lattice.
@@ -89,8 +91,8 @@ pub struct LatticeNotch {
     /// Depth of its tip [m].
     #[schemars(transform = length("the depth of a notch").condition("below that of the strip"))]
     pub depth: f64,
-    /// Width [m]: zero is a cut between two columns of particles, of a wider notch those within it are left out. No link
-    /// crosses the middle.
+    /// Width [m]: zero is a cut between two columns of particles, of a wider notch those within it are left out. No
+    /// link crosses the middle.
     #[serde(default)]
     #[schemars(transform = within(0.0, 1e3, "m", "the width of a notch"))]
     pub width: f64,

@@ -105,12 +105,12 @@ fn communication_steps_do_not_matter() {
     assert!((few.1 / many.1 - 1.0).abs() < 1e-2, "{few:?} {many:?}");
 }
 
-/// The stiffness of a strip between platens tends to that of a bar whose ends cannot contract: it exceeds `E A/L` by the
-/// lateral constraint, and falls below it by the half rows at the faces.
+/// The stiffness of a strip between platens tends to that of a bar whose ends cannot contract: it exceeds `E A/L` by
+/// the lateral constraint, and falls below it by the half rows at the faces.
 #[test]
 fn pulled_strips_have_the_stiffness_of_bars() {
     for (poisson, bound) in [(0.0, 0.03), (0.2, 0.05), (1.0 / 3.0, 0.08)] {
-        for arrangement in ["across", "along"] {
+        for arrangement in ["across", "along", "random"] {
             let material = format!("young = 30e9, poisson = {poisson:?}, {STRONG}");
             let keys = format!("spacing = 5e-3\narrangement = \"{arrangement}\"");
             let mut trial = Trial::new(&pulled(&material, &keys));

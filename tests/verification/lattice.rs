@@ -102,10 +102,10 @@ fn larger_beams_are_weaker() {
     assert!(nominal[2] / nominal[1] > (2.0_f64 / 3.0).sqrt(), "{nominal:?}");
 }
 
-/// Half-notched beam 4 of D. Grégoire et al. 2013 (doi 10.1002/nag.2187) with its published E, f_t and G_f and Wittmann's
-/// bilinear law (1/4, 0.75 G_f/f_t, 5 G_f/f_t). With 40 particles over the depth loads at 0.05 to 0.2 mm are within the
-/// envelope of the tests, the peak is at its upper end; with 20 up to 10 % above it. The peak comes at 28 µm instead of 18 to
-/// 23 µm.
+/// Half-notched beam 4 of D. Grégoire et al. 2013 (doi 10.1002/nag.2187) with its published E, f_t and G_f and
+/// Wittmann's bilinear law (1/4, 0.75 G_f/f_t, 5 G_f/f_t). With 40 particles over the depth loads at 0.05 to 0.2 mm
+/// are within the envelope of the tests, the peak is at its upper end; with 20 up to 10 % above it. The peak comes at
+/// 28 µm instead of 18 to 23 µm.
 #[test]
 fn published_beam_is_within_its_tests() {
     let (strength, energy, young, poisson) = (3.9e6, 143.2, 37e9, 0.2);

@@ -19,10 +19,11 @@ pub struct LatticeForecast {
     pub notes: Vec<String>,
 }
 
-/// Memory of an unknown in the factor, the responses of links that change, and the state, per power of the unknowns [B].
+/// Memory of an unknown in the factor, the responses of links that change, and the state, per power of the unknowns
+/// [B].
 const MEMORY: f64 = 4000.0;
-/// Time of an unknown in a communication step [s]: some two steps of three iterations each, measured on beams of 1600 to
-/// 15 000 unknowns.
+/// Time of an unknown in a communication step [s]: some two steps of three iterations each, measured on beams of 1600
+/// to 15 000 unknowns.
 const STEP: f64 = 6e-6;
 
 impl LatticeForecast {

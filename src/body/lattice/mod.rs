@@ -55,7 +55,7 @@ impl LatticeBody {
         let named = |error| BodyError::Lattice { body: name.to_owned(), error };
         let lattice = Lattice::new(plan, threads).map_err(named)?;
         let density = own.material.density;
-        let area = lattice.particles().area() * lattice.particles().places.len() as f64;
+        let area = lattice.particles().area * lattice.particles().places.len() as f64;
         Ok(Self {
             name: name.to_owned(),
             start: lattice.initial_state(),

@@ -12,6 +12,7 @@ pub fn plan_of(lattice: &Lattice) -> LatticePlan {
     let arrangement = match lattice.arrangement {
         LatticeArrangement::Across => Arrangement::Across,
         LatticeArrangement::Along => Arrangement::Along,
+        LatticeArrangement::Random => Arrangement::Random { seed: lattice.seed },
     };
     let notch = lattice.notch.map(|own| Notch { at: own.at, depth: own.depth, width: own.width });
     LatticePlan {

@@ -105,8 +105,8 @@ impl GradientDamage {
         scattered(self.scatter, self.seed, [column as u64, row as u64])
     }
 
-    /// Largest uniaxial stress of a material without gradients of damage [Pa]: the elastic limit `√(3EG_c/(8ℓ))` of AT1,
-    /// the peak `9/16 √(EG_c/(3ℓ))` of AT2 (K. Pham, H. Amor, J.-J. Marigo & C. Maurini 2011, doi
+    /// Largest uniaxial stress of a material without gradients of damage [Pa]: the elastic limit `√(3EG_c/(8ℓ))` of
+    /// AT1, the peak `9/16 √(EG_c/(3ℓ))` of AT2 (K. Pham, H. Amor, J.-J. Marigo & C. Maurini 2011, doi
     /// 10.1177/1056789510386852), over the root of the part of the elastic energy that a crack releases.
     pub fn strength(&self) -> f64 {
         (self.elastic.young * self.energy * self.dissipation.strength_factor()

@@ -2,9 +2,9 @@
 
 /// Bilinear softening of a link of given length.
 ///
-/// Up to the stretch S_t the link is elastic, to α₂ S_t its force falls to the part α₁ of the largest, to α₃ S_t to zero.
-/// A. Asadollahi 2014, *Simulation of fracture of concrete using micropolar peridynamics*, thesis, University of New
-/// Mexico, eq. 3.11 to 3.15.
+/// Up to the stretch S_t the link is elastic, to α₂ S_t its force falls to the part α₁ of the largest, to α₃ S_t to
+/// zero. A. Asadollahi 2014, *Simulation of fracture of concrete using micropolar peridynamics*, thesis, University
+/// of New Mexico, eq. 3.11 to 3.15.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Softening {
     /// Stretch at the strength S_t [1].
@@ -35,7 +35,8 @@ impl Softening {
         }
     }
 
-    /// Energy that breaks a link, over that of the undamaged link at twice S_t²: `½[1 + (1 + α₁)(α₂ − 1) + α₁(α₃ − α₂)]`.
+    /// Energy that breaks a link, over that of the undamaged link at twice S_t²: `½[1 + (1 + α₁)(α₂ − 1) + α₁(α₃ −
+    /// α₂)]`.
     pub fn energy(&self) -> f64 {
         let Self { share, knee, end, .. } = *self;
         0.5 * (1.0 + (1.0 + share) * (knee - 1.0) + share * (end - knee))

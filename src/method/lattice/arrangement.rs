@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use super::voronoi::{Rectangle, facets, random_points};
+
 /// A strip of a sheet, `−length/2 ≤ x ≤ length/2` and `0 ≤ y ≤ depth`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strip {
@@ -21,6 +23,11 @@ pub enum Arrangement {
     Across,
     /// Hexagons with links along the strip.
     Along,
+    /// Random particles, whose links cross the facets of their Voronoi cells.
+    Random {
+        /// Number of the sample.
+        seed: u32,
+    },
 }
 
 /// A cut from the lower face.
@@ -41,6 +48,8 @@ pub struct Particles {
     pub pairs: Vec<Pair>,
     /// Distance of neighbours [m].
     pub spacing: f64,
+    /// Area of the strip for each particle [m²].
+    pub area: f64,
 }
 
 /// Two neighbours.
@@ -63,7 +72,7 @@ impl Arrangement {
     pub fn unit(self) -> f64 {
         match self {
             Self::Across => 1.0,
-            Self::Along => COLUMN,
+            Self::Along | Self::Random { .. } => COLUMN,
         }
     }
 }
@@ -85,6 +94,10 @@ impl Strip {
         match self.arrangement {
             Arrangement::Across => columns * self.layers(),
             Arrangement::Along => columns * self.layers() / 2,
+            Arrangement::Random { .. } => {
+                let cell = COLUMN * self.fitted_spacing().powi(2);
+                (self.length * self.depth / cell).round() as usize
+            }
         }
     }
 
@@ -93,7 +106,7 @@ impl Strip {
         self.fitted_spacing()
             * match self.arrangement {
                 Arrangement::Across => COLUMN,
-                Arrangement::Along => 0.5,
+                Arrangement::Along | Arrangement::Random { .. } => 0.5,
             }
     }
 
@@ -102,7 +115,8 @@ impl Strip {
         self.notch.is_some_and(|notch| notch.width <= 0.0)
     }
 
-    /// Numbers of the columns with their places x [m], symmetric about x = 0: one is there, unless a cut without width is.
+    /// Numbers of the columns with their places x [m], symmetric about x = 0: one is there, unless a cut without
+    /// width is.
     fn columns(&self) -> impl Iterator<Item = (i64, f64)> {
         let column = self.column();
         let shift = if self.has_saw_cut() { 0.5 } else { 0.0 };
@@ -114,18 +128,49 @@ impl Strip {
     /// Places the particles, the outer rows half a row inside the faces, and joins neighbours except across the notch.
     pub fn fill(&self) -> Particles {
         let spacing = self.fitted_spacing();
-        let places: Vec<_> =
-            self.hexagons(spacing).into_iter().filter(|place| !self.is_in_notch(*place)).collect();
-        let pairs = neighbours(&places, HORIZON * spacing)
-            .into_iter()
-            .filter(|&[a, b]| !self.crosses_notch(places[a], places[b]));
-        let facet = spacing / 3.0_f64.sqrt();
-        let pairs = pairs.map(|ends| Pair { ends, facet }).collect();
-        Particles { places, pairs, spacing }
+        let (places, pairs) = match self.arrangement {
+            Arrangement::Random { seed } => {
+                let half = 0.5 * self.length;
+                let whole = Rectangle { low: [-half, 0.0], high: [half, self.depth] };
+                let places = random_points(whole, spacing, seed);
+                let pairs = facets(&places, whole, spacing);
+                (places, pairs)
+            }
+            _ => {
+                let places = self.hexagons(spacing);
+                let facet = spacing / 3.0_f64.sqrt();
+                let pairs = neighbours(&places, HORIZON * spacing);
+                (places, pairs.into_iter().map(|ends| Pair { ends, facet }).collect())
+            }
+        };
+        let area = self.length * self.depth / places.len() as f64;
+        let area = match self.arrangement {
+            Arrangement::Random { .. } => area,
+            _ => COLUMN * spacing * spacing,
+        };
+        self.cut(Particles { places, pairs, spacing, area })
     }
 
-    /// Hexagons, column by column, symmetric about x = 0. With links along, one is across x = 0 in the first row above the
-    /// notch.
+    /// Takes the particles of the notch and the links across it out.
+    fn cut(&self, whole: Particles) -> Particles {
+        let mut number = Vec::with_capacity(whole.places.len());
+        let mut places = Vec::new();
+        for &place in &whole.places {
+            let stays = !self.is_in_notch(place);
+            number.push(stays.then_some(places.len()));
+            places.extend(stays.then_some(place));
+        }
+        let stays = |pair: &Pair| {
+            let [Some(a), Some(b)] = pair.ends.map(|i| number[i]) else { return None };
+            let is_cut = self.crosses_notch(places[a], places[b]);
+            (!is_cut).then_some(Pair { ends: [a, b], ..*pair })
+        };
+        let pairs = whole.pairs.iter().filter_map(stays).collect();
+        Particles { places, pairs, ..whole }
+    }
+
+    /// Hexagons, column by column, symmetric about x = 0. With links along, one is across x = 0 in the first row
+    /// above the notch.
     fn hexagons(&self, spacing: f64) -> Vec<[f64; 2]> {
         let layers = self.layers();
         let cut = self.notch.map_or(0.0, |notch| notch.depth / (COLUMN * spacing));
@@ -136,7 +181,7 @@ impl Strip {
                     let first = if j.rem_euclid(2) == 0 { 0.25 } else { 0.75 };
                     (0..layers).map(|k| (first + k as f64) * spacing).collect()
                 }
-                Arrangement::Along => {
+                Arrangement::Along | Arrangement::Random { .. } => {
                     let rows = ((j + parity).rem_euclid(2) as usize..layers).step_by(2);
                     rows.map(|k| (0.5 + k as f64) * COLUMN * spacing).collect()
                 }
@@ -158,13 +203,6 @@ impl Strip {
             let crosses = left * right < 0.0;
             crosses && (a[1] * right - b[1] * left) / (right - left) < notch.depth
         })
-    }
-}
-
-impl Particles {
-    /// Area of a hexagon [m²].
-    pub fn area(&self) -> f64 {
-        COLUMN * self.spacing * self.spacing
     }
 }
 

@@ -13,7 +13,8 @@ pub enum Support {
         /// Distance of the supports [m].
         span: f64,
     },
-    /// Both ends clamped in rigid platens that do not turn, the right one pulled along x; particles may slide along them.
+    /// Both ends clamped in rigid platens that do not turn, the right one pulled along x; particles may slide along
+    /// them.
     Ends,
 }
 

@@ -9,6 +9,7 @@ mod problem;
 mod state;
 mod stiffness;
 mod tangent;
+mod voronoi;
 #[cfg(test)]
 mod tests;
 

@@ -5,7 +5,8 @@ use super::arrangement::Particles;
 /// Number of particles below which a part is not divided further.
 const LEAF: usize = 16;
 
-/// Orders particles for elimination: both halves of the longer axis, then the particles that separate them; recursively.
+/// Orders particles for elimination: both halves of the longer axis, then the particles that separate them;
+/// recursively.
 ///
 /// A. George 1973, doi 10.1137/0710032, with the median of the places instead of a plane of a grid.
 pub fn dissect(particles: &Particles) -> Vec<usize> {

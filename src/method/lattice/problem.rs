@@ -1,6 +1,6 @@
 //! A strip whose load moves, or whose notch opens, along a path.
 
-use super::arrangement::{Particles, Strip, distance};
+use super::arrangement::{Arrangement, Particles, Strip, distance};
 use super::equilibrium::{Balanced, Equilibrium, Trial, WORK, product};
 use super::frame::{Frame, Support};
 use super::link::{Link, Sheet};
@@ -45,8 +45,8 @@ pub struct Lattice {
     longest: f64,
 }
 
-/// Least flexural stiffness over the axial one and the length squared: at ν = 1/3 links do not bend, and nothing else would
-/// hold the rotation of particles.
+/// Least flexural stiffness over the axial one and the length squared: at ν = 1/3 links do not bend, and nothing else
+/// would hold the rotation of particles.
 const SPIN: f64 = 1e-9;
 /// Distance from supports and loads within which links stay intact, over the spacing.
 const PROTECTED: f64 = 2.0;
@@ -60,8 +60,8 @@ const EASY: usize = 6;
 const LENGTHENED: f64 = 1.5;
 
 impl LatticePlan {
-    /// Stress at which links along the pull soften [Pa], and an estimate of the energy of a crack per area [J/m²]: of the
-    /// two links that it cuts in each spacing, `2 c E s S_t²/(√3 (1 − ν))` with c of [`Softening::energy`].
+    /// Stress at which links along the pull soften [Pa], and an estimate of the energy of a crack per area [J/m²]: of
+    /// the two links that it cuts in each spacing, `2 c E s S_t²/(√3 (1 − ν))` with c of [`Softening::energy`].
     ///
     /// [`Softening::energy`]: crate::laws::fracture::Softening::energy
     pub fn strength_and_energy(&self) -> (f64, f64) {
@@ -233,10 +233,10 @@ impl Lattice {
         self.frame().unknown.chunks_exact(3).map(of_particle).collect()
     }
 
-    /// Largest damage of the links of each particle, and the pressure in it [Pa]: a third of the trace of the stress that
-    /// follows from the forces of its links.
+    /// Largest damage of the links of each particle, and the pressure in it [Pa]: a third of the trace of the stress
+    /// that follows from the forces of its links.
     pub fn at_particles(&self, state: &LatticeState) -> Vec<(f64, f64)> {
-        let area = self.particles.area();
+        let area = self.particles.area;
         let mut at = vec![(0.0_f64, 0.0); self.particles.places.len()];
         let deformation = self.equilibrium.deformations(&state.displacement);
         for ((link, q), &damage) in self.links().iter().zip(&deformation).zip(&state.damage) {
@@ -289,10 +289,14 @@ fn links(plan: &LatticePlan, particles: &Particles, frame: &Frame) -> Vec<Link> 
     let reach = PROTECTED * particles.spacing;
     let is_far = |i: usize| frame.loaded.iter().all(|&j| distance(places[i], places[j]) > reach);
     let far: Vec<bool> = (0..places.len()).map(is_far).collect();
+    let sheet = match plan.strip.arrangement {
+        Arrangement::Random { .. } => plan.sheet.of_random_links(),
+        _ => plan.sheet,
+    };
     let of_pair = |(number, pair): (usize, &super::Pair)| {
         let [a, b] = pair.ends.map(|i| places[i]);
         let length = distance(a, b);
-        let [axial, flexural] = plan.sheet.stiffness(length, pair.facet);
+        let [axial, flexural] = sheet.stiffness(length, pair.facet);
         let strength =
             crate::laws::fracture::scattered(plan.scatter, plan.seed, [number as u64, 0]);
         let flexural = flexural.max(SPIN * axial * length * length);

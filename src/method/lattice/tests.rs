@@ -149,6 +149,7 @@ fn single_link_follows_its_law() {
         onset,
         0.4 * knee,
         knee,
+        0.0,
         -0.3 * onset,
         0.0,
         knee,
@@ -191,8 +192,8 @@ fn single_link_follows_its_law() {
     assert!((work / area - 1.0).abs() < 1e-9, "{work:e} for {area:e}");
 }
 
-/// Peaks of concrete beams with a cohesive law do not depend on the spacing, and work balances. The wanted loads are those
-/// of an independent program in Python, of secant iterations instead of Newton's: `docs/theory/lattice.md`.
+/// Peaks of concrete beams with a cohesive law do not depend on the spacing, and work balances. The wanted loads are
+/// those of an independent program in Python, of secant iterations instead of Newton's: `docs/theory/lattice.md`.
 #[test]
 fn notched_beams_reach_their_peaks() {
     for (depth, spacing, arrangement, wanted) in [
@@ -205,5 +206,48 @@ fn notched_beams_reach_their_peaks() {
         assert!((most / wanted - 1.0).abs() < 0.02, "{most} N for {wanted} N");
         let missing = state.work - state.dissipated - lattice.elastic_energy(&state);
         assert!(missing.abs() < 1e-9 * state.work, "{missing:e} J of {:e} J", state.work);
+    }
+}
+
+/// Facets of random particles are those of cells that fill the strip: over links that keep clear of the faces, the
+/// mean of `h/s n nᵀ` is isotropic, and random links have the modulus and ratio of their sheet.
+#[test]
+fn random_links_have_the_constants_of_their_sheet() {
+    for (poisson, seed) in [(0.0, 0), (0.2, 1), (1.0 / 3.0, 2), (-0.5, 3)] {
+        let strip = Strip {
+            length: 0.3,
+            depth: 0.1,
+            spacing: 4e-3,
+            arrangement: Arrangement::Random { seed },
+            notch: None,
+        };
+        let plan = LatticePlan {
+            strip,
+            sheet: Sheet { poisson, ..CONCRETE },
+            support: Support::Ends,
+            control: Control::Displacement,
+            softening: SofteningLaw::Openings { strength: 1e9, ends: [1e-5, 2e-4], share: 0.1 },
+            ..notched(0.1, 4e-3, Arrangement::Across)
+        };
+        let lattice = Lattice::new(plan, 1).unwrap();
+        let mut state = lattice.initial_state();
+        lattice.advance(&mut state, 1e-6, &Allowance::default()).unwrap();
+        let moved = lattice.displacements(&state);
+        let places = lattice.particles().places.iter().zip(&moved);
+        let inside: Vec<_> = places.filter(|(place, _)| place[0].abs() < 0.1).collect();
+        let mean = |of: &dyn Fn(&([f64; 2], [f64; 2])) -> f64| {
+            let sum: f64 = inside.iter().map(|(place, moved)| of(&(**place, **moved))).sum();
+            sum / inside.len() as f64
+        };
+        // Strain by least squares.
+        let strain = |axis: usize| {
+            let (x, u) = (mean(&|own| own.0[axis]), mean(&|own| own.1[axis]));
+            let slope = mean(&|own| (own.0[axis] - x) * (own.1[axis] - u));
+            slope / mean(&|own| (own.0[axis] - x).powi(2))
+        };
+        let modulus = state.force / (strain(0) * 0.1 * CONCRETE.thickness) / CONCRETE.young;
+        let ratio = -strain(1) / strain(0);
+        assert!((modulus - 1.0).abs() < 0.02, "ν {poisson}: E {modulus} of the sheet's");
+        assert!((ratio - poisson).abs() < 0.015, "ν {poisson}: {ratio}");
     }
 }
