@@ -12,6 +12,7 @@ from conftest import EXAMPLES, ROOT, name_of
 FEWER = {
     "moving_spot": ["--frames", "8"],
     "printer_control": ["--drops", "1", "--after", "0.15"],
+    "notched_beam": ["--points", "20"],
     "quench_cracks": ["--steps", "6"],
     "stress_study": ["--samples", "4", "--levels", "3"],
 }
