@@ -232,7 +232,7 @@ def loads(beam: Beam, openings: np.ndarray, folder: Path) -> np.ndarray:
         for opening in openings:
             unit.set({"beam.opening": opening})
             unit.step_to(unit.time + 0.1)
-            found.append(unit.get("beam.force"))
+            found += list(unit.get(["beam.force"]))
     return np.array(found)
 
 
