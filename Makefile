@@ -96,6 +96,7 @@ verify: build $(VENV)/ready-verify $(MASTERS)/ready ## slow: closed forms, and a
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python tests/verification/relaxation.py
 	$(BIN)/python tests/verification/nonlinear_heat.py
 	$(BIN)/python tests/verification/strands.py
+	$(BIN)/python tests/verification/lattice.py
 	$(BIN)/python tests/verification/robin_split.py out/verification/robin_split.png
 	@$(MAKE) --no-print-directory wheel-test
 

@@ -118,14 +118,15 @@ impl Model {
         let pairs: Vec<_> =
             joints.iter().map(|joint| joint.sides.each_ref().map(|side| side.body)).collect();
         let schedule = Group::all(bodies.len(), &links, &pairs);
-        let Forecast { droplets, large_strains, filaments, .. } = forecast(scene);
+        let Forecast { droplets, large_strains, filaments, lattices, .. } = forecast(scene);
         let places = bodies.iter().enumerate();
         let peaks = places.flat_map(|(place, body)| (0..body.peaks()).map(move |n| (place, n)));
         let peaks = peaks.collect();
         let of_droplets = droplets.iter().map(|droplet| droplet.memory).sum::<f64>();
         let of_large_strains = large_strains.iter().map(|body| body.memory).sum::<f64>();
         let of_filaments = filaments.iter().map(|body| body.memory).sum::<f64>();
-        let memory_of_droplets = of_droplets + of_large_strains + of_filaments;
+        let of_lattices = lattices.iter().map(|body| body.memory).sum::<f64>();
+        let memory_of_droplets = of_droplets + of_large_strains + of_filaments + of_lattices;
         Ok(Self {
             scene: scene.clone(),
             layout,

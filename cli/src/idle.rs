@@ -9,7 +9,7 @@ pub fn note(scene: &Scene, inputs: &[f64]) -> Option<String> {
         Body::LargeStrain(solid) => {
             solid.inertia || solid.gravity > 0.0 || !solid.inputs().is_empty()
         }
-        Body::Filament(_) => true,
+        Body::Filament(_) | Body::Lattice(_) => true,
         _ => false,
     };
     if scene.droplets().next().is_some() || scene.body.values().any(moves) || acts_by_itself(scene)

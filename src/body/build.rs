@@ -5,6 +5,7 @@ use super::droplet::{DropletBody, ReplayBody};
 use super::error::BodyError;
 use super::filament::FilamentBody;
 use super::large_strain::{MovingBody, RestingBody};
+use super::lattice::LatticeBody;
 use super::link::{self, Joint, Link};
 use super::reduced::ReducedBody;
 use super::reservoir::ReservoirBody;
@@ -97,6 +98,10 @@ pub fn build(
                 false => Box::new(RestingBody::new(layout, (name, solid), threads)?),
             });
         }
+    }
+    for (name, lattice) in scene.lattices() {
+        let body = LatticeBody::new(layout, (name, lattice), threads)?;
+        built[place(name).expect("a body of the scene")] = Some(Box::new(body));
     }
     for (name, reservoir) in scene.reservoirs() {
         let cells = link::most_cells(scene, name, &built, place);

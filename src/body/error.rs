@@ -7,6 +7,7 @@ use crate::method::fem::NonlinearFailure;
 use crate::method::filament;
 use crate::method::inelastic::InelasticError;
 use crate::method::large_strain;
+use crate::method::lattice::LatticeError;
 use crate::method::sph::Failure;
 use crate::quantity::kelvin;
 use crate::runtime::address_space::TooLittle;
@@ -68,6 +69,9 @@ pub enum BodyError {
     /// A step of a filament has no physical meaning.
     #[error("{body}: {failure}")]
     Filament { body: String, failure: filament::Failure },
+    /// A lattice found no equilibrium.
+    #[error("{body}: {error}")]
+    Lattice { body: String, error: LatticeError },
     /// A reduced model could not be made.
     #[error("the body cannot be reduced: {message} (allowed: fidelity full)")]
     Reduction { message: String },

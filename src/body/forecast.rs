@@ -3,6 +3,7 @@
 pub use super::droplet::DropletForecast;
 use super::filament::FilamentForecast;
 use super::large_strain::LargeStrainForecast;
+use super::lattice::LatticeForecast;
 use super::solid::forecast_solid;
 pub use super::solid::{BodyForecast, ParticleForecast};
 use super::{link, reduced};
@@ -16,6 +17,7 @@ pub struct Forecast {
     pub droplets: Vec<DropletForecast>,
     pub large_strains: Vec<LargeStrainForecast>,
     pub filaments: Vec<FilamentForecast>,
+    pub lattices: Vec<LatticeForecast>,
     /// Number of communication steps of the default experiment.
     pub steps: f64,
     /// Time to solve for the heat between touching solids in one communication step [s].
@@ -30,7 +32,8 @@ impl Forecast {
         let of_large_strains = self.large_strains.iter().map(|body| body.run_time);
         let all = of_bodies.chain(self.droplets.iter().map(|body| body.run_time));
         let of_filaments = self.filaments.iter().map(|body| body.run_time);
-        let all = all.chain(of_large_strains).chain(of_filaments);
+        let of_lattices = self.lattices.iter().map(|body| body.run_time);
+        let all = all.chain(of_large_strains).chain(of_filaments).chain(of_lattices);
         // From zero: a sum of nothing is negative zero.
         all.fold(0.0, |sum, time| sum + time) + self.steps * self.contact_time
     }
@@ -50,11 +53,13 @@ pub fn forecast(scene: &Scene) -> Forecast {
     let large_strains =
         large_strains.map(|(name, solid)| LargeStrainForecast::of(scene, name, solid)).collect();
     let filaments = scene.filaments().map(|(name, own)| FilamentForecast::of(scene, name, own));
+    let lattices = scene.lattices().map(|(name, own)| LatticeForecast::of(scene, name, own));
     Forecast {
         bodies,
         droplets: droplets.collect(),
         large_strains,
         filaments: filaments.collect(),
+        lattices: lattices.collect(),
         steps,
         contact_time,
     }

@@ -1,6 +1,6 @@
 //! Readings of bodies: each quantity is listed once, in a table beside the body that has it.
 
-use super::{droplet, filament, large_strain, reduced, reservoir, solid};
+use super::{droplet, filament, large_strain, lattice, reduced, reservoir, solid};
 use crate::quantity::Quantity;
 use crate::scene::{Body, Flaw, Scene};
 
@@ -77,6 +77,7 @@ pub fn totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
         Body::Droplet(_) => droplet::offered_totals(scene, name),
         Body::Reservoir(_) => reservoir::offered_totals(),
         Body::Filament(own) => filament::offered_totals(scene, (name, own)),
+        Body::Lattice(own) => lattice::offered_totals(own),
         Body::LargeStrain(solid) => {
             large_strain::offered_totals(solid, scene.coupling_from(name).is_some())
         }

@@ -233,6 +233,27 @@ pub static EXTENT: Range<'static> = Range {
     mistakes: LENGTHS,
 };
 /// Thickness of layers, from films of a few atoms on.
+pub static STRIP: Range<'static> = Range {
+    what: "the extent of a strip of concrete",
+    unit: "m",
+    lowest: 1e-3, // of mortar
+    highest: 20.0,
+    mistakes: LENGTHS,
+};
+pub static TENSILE_STRENGTH: Range<'static> = Range {
+    what: "the tensile strength of concrete, mortar or rock",
+    unit: "Pa",
+    lowest: 1e4,  // foamed concrete
+    highest: 1e8, // fibre concrete 15 MPa, rocks 25 MPa
+    mistakes: Cow::Borrowed(&[scaled("MPa", 1e6), scaled("GPa", 1e9)]),
+};
+pub static OPENING: Range<'static> = Range {
+    what: "the opening of a cohesive crack",
+    unit: "m",
+    lowest: 1e-8,
+    highest: 5e-2, // fibre concrete some mm
+    mistakes: LENGTHS,
+};
 pub static LAYER: Range<'static> = Range {
     what: "the thickness of a layer",
     unit: "m",

@@ -1,6 +1,8 @@
 //! Sparse Cholesky factorisation of a symmetric positive definite matrix: its pattern
 //! by faer, its numbers by supernodes.
 
+use std::sync::Arc;
+
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::perm::PermRef;
 use faer::sparse::linalg::cholesky::{
@@ -25,8 +27,13 @@ pub struct LowerTriangle {
 
 /// The factorisation `P A Pᵀ = L Lᵀ`, reusable for any number of right-hand sides.
 pub struct SparseCholesky {
-    symbolic: SymbolicCholesky<usize>,
+    symbolic: Arc<SymbolicCholesky<usize>>,
     values: Vec<f64>,
+}
+
+/// The pattern of the factors of all matrices with one pattern.
+pub struct Elimination {
+    symbolic: Arc<SymbolicCholesky<usize>>,
 }
 
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -50,60 +57,7 @@ impl SparseCholesky {
         order: &[usize],
         threads: usize,
     ) -> Result<Self, SolverError> {
-        let unknowns = order.len();
-        let mut place = vec![0; unknowns];
-        for (k, &i) in order.iter().enumerate() {
-            place[i] = k;
-        }
-        let permutation = PermRef::new_checked(order, &place, unknowns);
-        let pattern = SymbolicSparseColMatRef::new_checked(
-            unknowns,
-            unknowns,
-            &matrix.column_start,
-            None,
-            &matrix.rows,
-        );
-        let too_large = SolverError::OutOfMemory { unknowns };
-        let symbolic = factorize_symbolic_cholesky(
-            pattern,
-            Side::Lower,
-            SymmetricOrdering::Custom(permutation),
-            CholeskySymbolicParams::default(),
-        )
-        .map_err(|_| too_large.clone())?;
-
-        let mut values = Vec::new();
-        values.try_reserve_exact(symbolic.len_val()).map_err(|_| too_large.clone())?;
-        values.resize(symbolic.len_val(), 0.0);
-        let is_definite = match symbolic.raw() {
-            SymbolicCholeskyRaw::Supernodal(panels) => {
-                let columns = permuted(matrix, &symbolic);
-                supernodes::factor(panels, &columns, &mut values, &Team::new(threads)).is_ok()
-            }
-            // So sparse a factor has no panels of useful size.
-            SymbolicCholeskyRaw::Simplicial(_) => {
-                let matrix = SparseColMatRef::new(pattern, &matrix.values);
-                let need =
-                    symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
-                let mut buffer = MemBuffer::try_new(need).map_err(|_| too_large)?;
-                let stack = MemStack::new(&mut buffer);
-                symbolic
-                    .factorize_numeric_llt(
-                        &mut values,
-                        matrix,
-                        Side::Lower,
-                        Default::default(),
-                        Par::Seq,
-                        stack,
-                        Default::default(),
-                    )
-                    .is_ok()
-            }
-        };
-        if !is_definite {
-            return Err(SolverError::NotPositiveDefinite { unknowns });
-        }
-        Ok(Self { symbolic, values })
+        Elimination::new(matrix, order)?.factor(matrix, threads)
     }
 
     /// Replaces `b` by the solution of `A x = b`; `b` may hold several columns, one after another.
@@ -126,6 +80,82 @@ impl SparseCholesky {
     /// Number of stored entries of L.
     pub fn entries(&self) -> usize {
         self.values.len()
+    }
+}
+
+impl Elimination {
+    /// Finds the pattern of the factor of `matrix`, eliminating unknowns in the given order.
+    pub fn new(matrix: &LowerTriangle, order: &[usize]) -> Result<Self, SolverError> {
+        let unknowns = order.len();
+        let mut place = vec![0; unknowns];
+        for (k, &i) in order.iter().enumerate() {
+            place[i] = k;
+        }
+        let permutation = PermRef::new_checked(order, &place, unknowns);
+        let symbolic = factorize_symbolic_cholesky(
+            matrix.pattern(),
+            Side::Lower,
+            SymmetricOrdering::Custom(permutation),
+            CholeskySymbolicParams::default(),
+        )
+        .map_err(|_| SolverError::OutOfMemory { unknowns })?;
+        Ok(Self { symbolic: Arc::new(symbolic) })
+    }
+
+    /// Factors a matrix of the same pattern.
+    pub fn factor(
+        &self,
+        matrix: &LowerTriangle,
+        threads: usize,
+    ) -> Result<SparseCholesky, SolverError> {
+        let symbolic = &self.symbolic;
+        let unknowns = symbolic.nrows();
+        let too_large = SolverError::OutOfMemory { unknowns };
+        let mut values = Vec::new();
+        values.try_reserve_exact(symbolic.len_val()).map_err(|_| too_large.clone())?;
+        values.resize(symbolic.len_val(), 0.0);
+        let is_definite = match symbolic.raw() {
+            SymbolicCholeskyRaw::Supernodal(panels) => {
+                let columns = permuted(matrix, symbolic);
+                supernodes::factor(panels, &columns, &mut values, &Team::new(threads)).is_ok()
+            }
+            // So sparse a factor has no panels of useful size.
+            SymbolicCholeskyRaw::Simplicial(_) => {
+                let matrix = SparseColMatRef::new(matrix.pattern(), &matrix.values);
+                let need =
+                    symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
+                let mut buffer = MemBuffer::try_new(need).map_err(|_| too_large)?;
+                let stack = MemStack::new(&mut buffer);
+                symbolic
+                    .factorize_numeric_llt(
+                        &mut values,
+                        matrix,
+                        Side::Lower,
+                        Default::default(),
+                        Par::Seq,
+                        stack,
+                        Default::default(),
+                    )
+                    .is_ok()
+            }
+        };
+        if !is_definite {
+            return Err(SolverError::NotPositiveDefinite { unknowns });
+        }
+        Ok(SparseCholesky { symbolic: Arc::clone(symbolic), values })
+    }
+}
+
+impl LowerTriangle {
+    fn pattern(&self) -> SymbolicSparseColMatRef<'_, usize> {
+        let unknowns = self.column_start.len().saturating_sub(1);
+        SymbolicSparseColMatRef::new_checked(
+            unknowns,
+            unknowns,
+            &self.column_start,
+            None,
+            &self.rows,
+        )
     }
 }
 

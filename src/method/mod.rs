@@ -18,6 +18,8 @@ pub mod inelastic;
 
 pub mod damage;
 
+pub mod lattice;
+
 pub mod large_strain;
 
 pub mod sph;

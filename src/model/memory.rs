@@ -46,7 +46,13 @@ impl Forecast {
             size: format!("{:.2e} segments", body.segments as f64),
             remedy: "a smaller `most` or a larger `spacing`",
         });
-        solids.chain(droplets).chain(large_strains).chain(filaments).collect()
+        let lattices = self.lattices.iter().map(|body| Need {
+            name: &body.name,
+            memory: body.memory,
+            size: format!("{} particles", body.particles),
+            remedy: "a larger `spacing`",
+        });
+        solids.chain(droplets).chain(large_strains).chain(filaments).chain(lattices).collect()
     }
 }
 

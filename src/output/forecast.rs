@@ -55,7 +55,8 @@ impl FilesForecast {
         let large_strains =
             forecast.large_strains.iter().map(|body| body.drawn as f64 * OF_PARTICLE);
         let filaments = forecast.filaments.iter().map(|body| body.segments as f64 * OF_PARTICLE);
-        let strands = large_strains.chain(filaments);
+        let lattices = forecast.lattices.iter().map(|body| body.particles as f64 * OF_PARTICLE);
+        let strands = large_strains.chain(filaments).chain(lattices);
         let of_body: Vec<f64> =
             solids.chain(droplets).chain(strands).filter(|numbers| *numbers > 0.0).collect();
         let series = if times > 0 { of_body.len() } else { 0 };

@@ -23,6 +23,7 @@ impl Body {
             Body::Reservoir(reservoir) => reservoir.initial_temperature,
             Body::LargeStrain(solid) => solid.initial_temperature,
             Body::Filament(filament) => filament.nozzle.temperature,
+            Body::Lattice(lattice) => lattice.initial_temperature,
         }
     }
 
@@ -34,6 +35,7 @@ impl Body {
             Body::Reservoir(reservoir) => &mut reservoir.initial_temperature,
             Body::LargeStrain(solid) => &mut solid.initial_temperature,
             Body::Filament(filament) => &mut filament.nozzle.temperature,
+            Body::Lattice(lattice) => &mut lattice.initial_temperature,
         }
     }
 
@@ -45,14 +47,15 @@ impl Body {
             Body::Reservoir(reservoir) => reservoir.inputs(),
             Body::LargeStrain(solid) => solid.inputs(),
             Body::Filament(filament) => filament.inputs(),
+            Body::Lattice(lattice) => lattice.inputs(),
         }
     }
 
     /// A description of a body that has no extent.
     pub(super) fn lump(&self) -> Option<String> {
         match self {
-            Body::Solid(_) | Body::Droplet(_) | Body::LargeStrain(_) | Body::Filament(_) => None,
             Body::Reservoir(reservoir) => Some(reservoir.words()),
+            _ => None,
         }
     }
 
@@ -65,7 +68,9 @@ impl Body {
     pub fn drawn_as(&self) -> Option<Drawn> {
         match self {
             Body::Solid(_) => Some(Drawn::Grid),
-            Body::Droplet(_) | Body::LargeStrain(_) | Body::Filament(_) => Some(Drawn::Particles),
+            Body::Droplet(_) | Body::LargeStrain(_) | Body::Filament(_) | Body::Lattice(_) => {
+                Some(Drawn::Particles)
+            }
             Body::Reservoir(_) => None,
         }
     }
@@ -80,7 +85,7 @@ impl Body {
         match self {
             Body::Droplet(droplet) => droplet.dimension == 2,
             Body::LargeStrain(solid) => solid.dimension == 2,
-            Body::Solid(_) | Body::Reservoir(_) | Body::Filament(_) => false,
+            Body::Solid(_) | Body::Reservoir(_) | Body::Filament(_) | Body::Lattice(_) => false,
         }
     }
 
@@ -97,7 +102,7 @@ impl Body {
     pub fn temperatures(&self) -> Vec<f64> {
         let own = match self {
             Body::Solid(solid) => solid.stress_free_temperature,
-            Body::Droplet(_) | Body::LargeStrain(_) => None,
+            Body::Droplet(_) | Body::LargeStrain(_) | Body::Lattice(_) => None,
             Body::Reservoir(reservoir) => reservoir.ambient,
             Body::Filament(filament) => filament.convection.map(|convection| convection.ambient),
         };
@@ -114,7 +119,9 @@ impl Body {
         let (material, layers) = match self {
             Body::Solid(solid) => (&solid.material, &solid.layers),
             Body::LargeStrain(solid) => (&solid.material, &solid.layers),
-            Body::Droplet(_) | Body::Reservoir(_) | Body::Filament(_) => return Vec::new(),
+            Body::Droplet(_) | Body::Reservoir(_) | Body::Filament(_) | Body::Lattice(_) => {
+                return Vec::new();
+            }
         };
         let layers = layers.iter().flatten().map(|layer| &layer.material);
         material.iter().chain(layers).collect()
@@ -125,7 +132,9 @@ impl Body {
         let (material, layers) = match self {
             Body::Solid(solid) => (&mut solid.material, &mut solid.layers),
             Body::LargeStrain(solid) => (&mut solid.material, &mut solid.layers),
-            Body::Droplet(_) | Body::Reservoir(_) | Body::Filament(_) => return Vec::new(),
+            Body::Droplet(_) | Body::Reservoir(_) | Body::Filament(_) | Body::Lattice(_) => {
+                return Vec::new();
+            }
         };
         let layers = layers.iter_mut().flatten().enumerate();
         let layers = layers.map(|(i, layer)| (Some(i), &mut layer.material));
@@ -187,7 +196,7 @@ impl Scene {
             Body::Solid(solid) => solid.heat == HeatMethod::Sph,
             Body::Droplet(_) => true,
             Body::LargeStrain(solid) => solid.inertia,
-            Body::Reservoir(_) | Body::Filament(_) => false,
+            Body::Reservoir(_) | Body::Filament(_) | Body::Lattice(_) => false,
         };
         self.body.values().any(is_filled)
     }

@@ -3,6 +3,7 @@
 use super::droplet::{Coupling, Droplet};
 use super::filament::{Filament, Target};
 use super::large_strain::LargeStrain;
+use super::lattice::Lattice;
 use super::reservoir::Reservoir;
 use super::route::Route;
 use super::types::*;
@@ -88,6 +89,14 @@ impl Scene {
     /// The filaments, in the order of their names.
     pub fn filaments(&self) -> impl Iterator<Item = (&str, &Filament)> {
         self.body.keys().filter_map(|name| Some((name.as_str(), self.filament(name)?)))
+    }
+
+    /// The lattices, in the order of their names.
+    pub fn lattices(&self) -> impl Iterator<Item = (&str, &Lattice)> {
+        self.body.iter().filter_map(|(name, body)| match body {
+            Body::Lattice(lattice) => Some((name.as_str(), lattice.as_ref())),
+            _ => None,
+        })
     }
 
     /// The target of a filament.

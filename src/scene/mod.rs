@@ -13,6 +13,7 @@ mod droplet_symmetry;
 mod error;
 mod excerpt;
 mod filament;
+mod lattice;
 mod file;
 mod files;
 mod flaw;
@@ -46,7 +47,8 @@ use std::path::Path;
 pub use cells::Cells;
 pub use check::takes_newton;
 pub use constants::{
-    Constant, DropletConstant, FilamentConstant, FluidConstant, LayersOf, OfferedConstant,
+    Constant, DropletConstant, FilamentConstant, FluidConstant, LatticeConstant, LayersOf,
+    OfferedConstant,
 };
 pub use contact::FirstContact;
 pub use droplet::{
@@ -65,6 +67,7 @@ pub use kinds::Drawn;
 pub use large_strain::{
     HeldFace, KernelIntegration, KernelSettings, LargeStrain, Mechanics, SmallStrain, SolidShape,
 };
+pub use lattice::{Lattice, LatticeArrangement, LatticeControl, LatticeNotch, LatticeSupport};
 pub use lookup::{BodyInput, Place};
 pub use materials::{MaterialChoice, Stratum};
 pub use recording::Recording;

@@ -9,6 +9,7 @@ use super::droplet::{Coupling, Droplet, Wall};
 use super::filament::{Filament, Target};
 use super::flaw::Flaw;
 use super::large_strain::{LargeStrain, SmallStrain, name_kind};
+use super::lattice::Lattice;
 use super::materials::MaterialChoice;
 use super::refinement::MeshFactors;
 use super::reservoir::Reservoir;
@@ -57,7 +58,7 @@ pub struct Scene {
     /// Tables `[material.NAME]` that solids and layers name.
     #[serde(default)]
     pub material: BTreeMap<String, Material>,
-    /// Tables `[body.NAME]`, each a solid, a droplet, a filament or a reservoir.
+    /// Tables `[body.NAME]`, each a solid, a droplet, a filament, a lattice or a reservoir.
     #[schemars(extend("minProperties" = 1, "condition" = "at least one"))]
     pub body: BTreeMap<String, Body>,
     /// Tables `[[load]]`: loads on faces, whose amounts become inputs.
@@ -166,6 +167,8 @@ pub enum Body {
     LargeStrain(Box<LargeStrain>),
     /// A fluid that a moving nozzle lays as a strand.
     Filament(Box<Filament>),
+    /// A strip of concrete as a lattice of links that soften and break.
+    Lattice(Box<Lattice>),
 }
 
 /// A solid body.

@@ -248,6 +248,7 @@ fn upper_half(drop: DropletSph) -> (DropletSph, Vec<f64>) {
         temperature: of(&whole.temperature),
         solid_fraction: Vec::new(),
         width: Vec::new(),
+        damage: Vec::new(),
     });
     (drop, state)
 }

@@ -358,3 +358,27 @@ fn strands_that_cannot_be_laid_are_refused_and_change_nothing() {
         assert_eq!(unit.snapshot().0, before.0);
     }
 }
+
+/// A notched beam of concrete that breaks.
+const BEAM: &str = r#"
+name = "Beam"
+stop_time = 2e-6
+step = 1e-7
+[body.beam]
+kind = "lattice"
+length = 0.2
+depth = 0.06
+thickness = 0.1
+spacing = 10e-3
+notch = { depth = 0.02 }
+support = { three_point = { span = 0.18 } }
+control = "opening"
+material = { density = 2300.0, young = 30e9, poisson = 0.2, softening = { model = "openings", strength = 4e6, openings = [1e-5, 2e-4], share = 0.15 } }
+"#;
+
+#[test]
+fn breaking_beams_go_on_from_a_state_to_the_bit() {
+    let unit = started(BEAM);
+    assert_eq!(unit.set("beam.opening", 2.5e-5), OK);
+    go_on_from(unit, BEAM, "beam.opening", 8e-5);
+}

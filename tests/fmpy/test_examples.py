@@ -13,6 +13,7 @@ FEWER = {
     "bend": ["--simulations", "12"],
     "moving_spot": ["--frames", "8"],
     "printer_control": ["--drops", "1", "--after", "0.15"],
+    "notched_beam": ["--points", "20"],
     "quench_cracks": ["--steps", "6"],
     "thermal_fatigue": ["--drops", "2"],
     "stress_study": ["--samples", "4", "--levels", "3"],

@@ -28,6 +28,7 @@ mod droplet;
 mod failure;
 mod field_means;
 mod filament;
+mod lattice;
 mod fine_meshes;
 mod flaws;
 mod flows;

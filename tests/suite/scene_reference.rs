@@ -16,12 +16,13 @@ const PLATE: &str = include_str!("../scenes/plate.toml");
 const DROP: &str = include_str!("../scenes/drop.toml");
 const IMPACT: &str = include_str!("../scenes/impact.toml");
 const FILAMENT: &str = include_str!("../scenes/filament.toml");
+const LATTICE: &str = include_str!("../scenes/lattice.toml");
 
 /// A section, a scene with a place in it that takes the section's keys, what stands there, what
 /// stands there with a key that there is not, and keys that choose the section's type.
 type Section = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
-const SECTIONS: [Section; 49] = [
+const SECTIONS: [Section; 54] = [
     ("The whole", PLATE, "stop_time =", "zz = 1\nstop_time =", &[]),
     ("`fidelity`", PLATE, "level =", "zz = 1\nlevel =", &[]),
     ("`solver`", PLATE, "stop_time =", "solver = { zz = 1 }\nstop_time =", &[]),
@@ -184,6 +185,17 @@ const SECTIONS: [Section; 49] = [
         FILAMENT,
         "time = [0.0, 1.0, 2.0], x = [-5e-3, 5e-3, 5e-3], y = [0.0, 0.0, 4e-3]",
         "file = \"a.gcode\", zz = 1",
+        &[],
+    ),
+    ("`[body.NAME]` of a lattice", LATTICE, "spacing =", "zz = 1\nspacing =", &["kind"]),
+    ("`material` of a lattice", LATTICE, "density =", "zz = 1\ndensity =", &[]),
+    ("`softening` of a lattice", LATTICE, "softening = {", "softening = { zz = 1,", &[]),
+    ("`notch` of a lattice", LATTICE, "notch = {", "notch = { zz = 1,", &[]),
+    (
+        "`support.three_point` of a lattice",
+        LATTICE,
+        "three_point = {",
+        "three_point = { zz = 1,",
         &[],
     ),
     ("`[[target]]`", FILAMENT, "[[target]]", "[[target]]\nzz = 1", &[]),

@@ -13,8 +13,9 @@ const DROP: &str = include_str!("../scenes/drop.toml");
 const IMPACT: &str = include_str!("../scenes/impact.toml");
 const GEL: &str = include_str!("../scenes/gel.toml");
 const FILAMENT: &str = include_str!("../scenes/filament.toml");
+const LATTICE: &str = include_str!("../scenes/lattice.toml");
 const CRACK: &str = include_str!("../scenes/crack.toml");
-const SCENES: [(&str, &str); 8] = [
+const SCENES: [(&str, &str); 9] = [
     ("plate", PLATE),
     ("disc", DISC),
     ("tiles", TILES),
@@ -22,6 +23,7 @@ const SCENES: [(&str, &str); 8] = [
     ("impact", IMPACT),
     ("gel", GEL),
     ("filament", FILAMENT),
+    ("lattice", LATTICE),
     ("crack", CRACK),
 ];
 

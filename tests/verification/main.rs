@@ -21,6 +21,7 @@ mod falling_drop;
 mod flows;
 mod heat;
 mod large_strain;
+mod lattice;
 mod particles;
 #[path = "../common/random_scenes.rs"]
 mod random_scenes;

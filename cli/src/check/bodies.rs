@@ -94,6 +94,23 @@ pub fn filaments(scene: &Scene) -> String {
     table(["filament", "nozzle", "height", "comes at", "moves", "segments"], &rows)
 }
 
+pub fn lattices(scene: &Scene) -> String {
+    let rows: Vec<_> = scene
+        .lattices()
+        .map(|(name, lattice)| {
+            [
+                name.to_owned(),
+                [lattice.length, lattice.depth, lattice.thickness].map(metres).join(" × "),
+                lattice.notch.map_or("none".to_owned(), |notch| metres(notch.depth)),
+                metres(lattice.spacing),
+                key(&lattice.arrangement),
+                key(&lattice.control),
+            ]
+        })
+        .collect();
+    table(["lattice", "extents", "notch", "spacing", "links", "prescribed"], &rows)
+}
+
 pub fn speed(droplet: &Droplet) -> String {
     let speed = engineering(droplet.impact_velocity, "m/s");
     match droplet.is_straight() {

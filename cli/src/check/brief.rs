@@ -90,7 +90,12 @@ fn models(scene: &Scene, forecast: &Forecast) -> String {
         .map(|body| format!("{}: {} nodes of large strain", body.name, body.nodes));
     let filaments =
         forecast.filaments.iter().map(|body| format!("{}: {} segments", body.name, body.segments));
-    let all: Vec<_> = solids.chain(droplets).chain(large_strains).chain(filaments).collect();
+    let lattices = forecast
+        .lattices
+        .iter()
+        .map(|body| format!("{}: {} particles of a lattice", body.name, body.particles));
+    let all: Vec<_> =
+        solids.chain(droplets).chain(large_strains).chain(filaments).chain(lattices).collect();
     if all.is_empty() { "nothing with an extent".to_owned() } else { all.join("; ") }
 }
 

@@ -106,6 +106,7 @@ fn sections(scene: &Scene, forecast: &Forecast, estimates: &[BodyEstimate]) -> S
         ("Bodies of large strain", bodies::large_strains(scene)),
         ("Droplets", bodies::droplets(scene)),
         ("Filaments", bodies::filaments(scene)),
+        ("Lattices", bodies::lattices(scene)),
         ("Faces", conditions::faces(scene)),
         ("Loads", conditions::loads(scene)),
         ("Probes", readings::probes(scene)),

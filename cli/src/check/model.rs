@@ -84,6 +84,10 @@ pub fn notes(forecast: &Forecast) -> String {
         };
         cost(&mut text, (body.memory, body.run_time), "steps", &body.notes);
     }
+    for body in &forecast.lattices {
+        let _ = writeln!(text, "  {}: {} unknowns", body.name, body.unknowns);
+        cost(&mut text, (body.memory, body.run_time), "steps", &body.notes);
+    }
     for body in &forecast.filaments {
         let _ = writeln!(text, "  {}: room for {} segments", body.name, body.segments);
         cost(&mut text, (body.memory, body.run_time), "steps", &body.notes);

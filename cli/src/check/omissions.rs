@@ -39,6 +39,9 @@ pub fn omissions(scene: &Scene, forecast: &Forecast) -> Vec<String> {
             "inertia, swelling and coiling of strands, bridges between them, boiling and evaporation".to_owned(),
         );
     }
+    if scene.lattices().next().is_some() {
+        list.push("inertia, weight, creep, shrinkage and heat of lattices".to_owned());
+    }
     let heavy = |&(name, droplet): &(&str, &Droplet)| {
         let bond = bond(droplet);
         (droplet.gravity == 0.0 && bond > FELT && bond.is_finite())

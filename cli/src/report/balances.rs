@@ -15,7 +15,8 @@ pub fn balances(scene: &Scene, outputs: &Outputs) -> Vec<Balance> {
         [of.heat(), of.mass(), of.momentum(), of.energy()]
     });
     let filaments = scene.filaments().filter_map(|(name, _)| of_filament(scene, name, outputs));
-    solids.chain(droplets.flatten()).chain(filaments).collect()
+    let lattices = scene.lattices().filter_map(|(name, _)| of_lattice(scene, name, outputs));
+    solids.chain(droplets.flatten()).chain(filaments).chain(lattices).collect()
 }
 
 fn term(label: &str, value: f64) -> Term {
@@ -58,6 +59,24 @@ fn of_filament(scene: &Scene, body: &str, outputs: &Outputs) -> Option<Balance> 
         term("stored since the fluid came", stored),
     ];
     Some(balance(format!("Heat of {body}"), "J", terms, [stored + given + lost, largest]))
+}
+
+/// Energy of a lattice: work of its load, stored, dissipated and released by sudden breaks.
+fn of_lattice(scene: &Scene, body: &str, outputs: &Outputs) -> Option<Balance> {
+    let last = |key: &str| outputs.last(&name(scene, body, key));
+    let work = last("mechanical_work")?;
+    let [stored, dissipated, released] =
+        [last("elastic_energy")?, last("dissipated_energy")?, last("released_energy")?];
+    let terms = vec![
+        term("work of the load", work),
+        term("stored", stored),
+        term("dissipated by damage", dissipated),
+        term("released by sudden breaks", released),
+    ];
+    let missing = work - stored - dissipated - released;
+    let largest =
+        [work, stored, dissipated].into_iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+    Some(balance(format!("Energy of {body}"), "J", terms, [missing, largest]))
 }
 
 /// A droplet and its variables.

@@ -177,6 +177,7 @@ pub fn explain(registry: &Registry, error: ModelError) -> Refusal {
             | BodyError::Uneven { .. }
             | BodyError::LargeStrain { .. }
             | BodyError::Filament { .. }
+            | BodyError::Lattice { .. }
             | BodyError::NoRoom(_)
             | BodyError::Halted { .. } => (Status::Discard, None),
             BodyError::NotFinite(_)

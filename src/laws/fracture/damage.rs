@@ -4,6 +4,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::scatter::scattered;
 use super::split::{Principal, Split};
 
 /// Strain or stress along both axes of a section, along its normal (the hoop), and the shear between the axes.
@@ -99,25 +100,13 @@ impl GradientDamage {
         [own / self.length, own * self.length * part * part]
     }
 
-    /// Factor of the energy in an element, from a hash of its place (G. L. Steele, D. Lea & C. H. Flood 2014, doi
-    /// 10.1145/2660193.2660195).
+    /// Factor of the energy in an element, from its place.
     fn scattered(&self, [column, row]: [usize; 2]) -> f64 {
-        if self.scatter == 0.0 {
-            return 1.0;
-        }
-        let mut bits = u64::from(self.seed);
-        for part in [column as u64, row as u64] {
-            bits = bits.wrapping_add(part).wrapping_add(0x9e37_79b9_7f4a_7c15);
-            bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-            bits ^= bits >> 31;
-        }
-        let even = (bits >> 11) as f64 / (1_u64 << 53) as f64;
-        1.0 + self.scatter * (2.0 * even - 1.0)
+        scattered(self.scatter, self.seed, [column as u64, row as u64])
     }
 
-    /// Largest uniaxial stress of a material without gradients of damage [Pa]: the elastic limit `√(3EG_c/(8ℓ))` of AT1,
-    /// the peak `9/16 √(EG_c/(3ℓ))` of AT2 (K. Pham, H. Amor, J.-J. Marigo & C. Maurini 2011, doi
+    /// Largest uniaxial stress of a material without gradients of damage [Pa]: the elastic limit `√(3EG_c/(8ℓ))` of
+    /// AT1, the peak `9/16 √(EG_c/(3ℓ))` of AT2 (K. Pham, H. Amor, J.-J. Marigo & C. Maurini 2011, doi
     /// 10.1177/1056789510386852), over the root of the part of the elastic energy that a crack releases.
     pub fn strength(&self) -> f64 {
         (self.elastic.young * self.energy * self.dissipation.strength_factor()

@@ -1,15 +1,22 @@
-//! Brittle fracture: statistics of flaws, which lead to a probability of failure, toughness, and cracks that run.
+//! Brittle fracture: statistics of flaws, which lead to a probability of failure, toughness, cracks that run,
+//! and links that soften.
 
 mod cracking;
 mod damage;
 mod normal_average;
+mod quasi_brittle;
+mod scatter;
 mod slow_growth;
+mod softening;
 mod split;
 mod weibull;
 
 pub use cracking::Cracking;
 pub use damage::{Components, Dissipation, GradientDamage, PointResponse, degradation};
+pub use quasi_brittle::{QuasiBrittle, SofteningKeys, SofteningModel};
+pub use scatter::scattered;
 pub use slow_growth::SlowGrowth;
+pub use softening::{Softening, SofteningLaw};
 pub use split::{Principal, Split};
 pub use weibull::{Directions, Extent, FlawStatistics, Weibull};
 

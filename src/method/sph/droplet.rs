@@ -63,6 +63,8 @@ pub struct ParticleFields {
     pub solid_fraction: Vec<f64>,
     /// Width of each segment of a strand; empty for particles [m].
     pub width: Vec<f64>,
+    /// Largest damage of the links of each particle of a lattice; empty for others.
+    pub damage: Vec<f64>,
 }
 
 impl DropletSph {
@@ -287,6 +289,7 @@ impl DropletSph {
             temperature: cloud.temperature.iter().map(|t| t + reference).collect(),
             solid_fraction: frozen::solid_fractions(&self.method, &cloud),
             width: Vec::new(),
+            damage: Vec::new(),
         }
     }
 

@@ -25,6 +25,9 @@ pub fn write_particles(out: impl Write, time: f64, fields: &ParticleFields) -> i
     if !fields.width.is_empty() {
         points.push(Array::scalar("width", "m", &fields.width));
     }
+    if !fields.damage.is_empty() {
+        points.push(Array::scalar("damage", "1", &fields.damage));
+    }
     let places = [Array::vector("position", "m", &fields.position)];
     // Viewers draw cells, so each point is one.
     let own: Vec<i64> = (0..count as i64).collect();
@@ -56,6 +59,7 @@ mod tests {
             temperature: vec![373.15, 300.1],
             solid_fraction: vec![0.0, 0.75],
             width: vec![1e-3, 2e-3],
+            damage: vec![0.0, 1.0],
         };
         let mut bytes = Vec::new();
         write_particles(&mut bytes, 2e-6, &fields).unwrap();
@@ -72,6 +76,7 @@ mod tests {
             ("temperature", &fields.temperature),
             ("solid_fraction", &fields.solid_fraction),
             ("width", &fields.width),
+            ("damage", &fields.damage),
         ] {
             assert_eq!(&read.arrays[name].1, values, "{name}");
         }

@@ -12,6 +12,7 @@ mod field_cells;
 mod freezing;
 mod header;
 mod large_strain;
+mod lattice;
 mod layers;
 mod limits;
 mod material;
@@ -56,6 +57,7 @@ pub fn check(scene: &Scene, source: &Source, schema: &Schema) -> Result<(), Scen
     reservoir::check(&mut checker);
     large_strain::check(&mut checker);
     filament::check(&mut checker);
+    lattice::check(&mut checker);
     load::check(&mut checker);
     probe::check(&mut checker);
     field::check(&mut checker);
@@ -171,6 +173,9 @@ impl<'a> Checker<'a> {
             ),
             Some(Body::Filament(_)) => format!(
                 "`{body}` is a filament, on which nothing else acts and whose values are outputs by themselves"
+            ),
+            Some(Body::Lattice(_)) => format!(
+                "`{body}` is a lattice, on which its own input acts and whose values are outputs by themselves"
             ),
             Some(Body::Droplet(_)) => format!(
                 "`{body}` is a droplet, on which nothing else acts and whose values are outputs by \

@@ -3,12 +3,14 @@
 mod droplet;
 mod filament;
 mod fluid;
+mod lattice;
 mod large_strain;
 mod solid;
 
 pub use droplet::DropletConstant;
 pub use filament::FilamentConstant;
 pub use fluid::FluidConstant;
+pub use lattice::LatticeConstant;
 pub use solid::LayersOf;
 
 use super::types::{Body, FaceName, Scene};
@@ -36,6 +38,7 @@ pub enum Constant {
     },
     Droplet(&'static DropletConstant),
     Filament(&'static FilamentConstant),
+    Lattice(&'static LatticeConstant),
     /// Of the fluid of a droplet or filament.
     Fluid(&'static FluidConstant),
     /// Depth of the scene's flaw of this number, in one of its bodies.
@@ -62,6 +65,7 @@ impl Constant {
             Self::ConvectionCoefficient { .. } => Quantity::HeatTransferCoefficient,
             Self::Droplet(constant) => constant.quantity,
             Self::Filament(constant) => constant.quantity,
+            Self::Lattice(constant) => constant.quantity,
             Self::Fluid(constant) => constant.quantity,
             Self::FlawDepth { .. } => Quantity::Length,
         }
@@ -71,6 +75,7 @@ impl Constant {
     pub fn bounds(&self) -> Bounds {
         match self {
             Self::Material(constant) | Self::LayerMaterial { constant, .. } => constant.bounds,
+            Self::Lattice(constant) => constant.bounds,
             _ => Bounds::from(0.0),
         }
     }
@@ -82,7 +87,7 @@ impl Constant {
             Self::Material(constant) | Self::LayerMaterial { constant, .. } => constant.start,
             Self::ContactResistance { .. } | Self::ConvectionCoefficient { .. } => AtStart::Never,
             Self::Droplet(constant) => constant.start,
-            Self::Filament(_) => AtStart::Never,
+            Self::Filament(_) | Self::Lattice(_) => AtStart::Never,
             Self::Fluid(constant) => constant.start,
         }
     }
@@ -96,6 +101,7 @@ impl Body {
             Body::Droplet(droplet) => droplet::offered(name, droplet),
             Body::LargeStrain(solid) => large_strain::offered(name, solid),
             Body::Filament(filament) => filament::offered(name, filament),
+            Body::Lattice(own) => lattice::offered(name, own),
             Body::Reservoir(_) => vec![OfferedConstant {
                 key: "initial_temperature".to_owned(),
                 description: format!("temperature of {name} at time zero"),
@@ -131,6 +137,9 @@ impl Body {
                 droplet.fluid.viscosity.number(constant.key).into_iter().collect()
             }
             (Body::LargeStrain(solid), constant) => large_strain::places(solid, constant),
+            (Body::Lattice(lattice), Constant::Lattice(constant)) => {
+                constant.place(lattice).into_iter().collect()
+            }
             _ => panic!("a body offers the constants of its kind"),
         }
     }
@@ -143,6 +152,7 @@ impl Body {
             Body::Droplet(_) => 2,
             Body::LargeStrain(_) => 3,
             Body::Filament(_) => 4,
+            Body::Lattice(_) => 5,
         }
     }
 }

@@ -137,8 +137,11 @@ pub fn places<'a>(solid: &'a mut Solid, constant: &Constant) -> Vec<&'a mut f64>
             vec![&mut face.convection.as_mut().expect("offered as convective").coefficient]
         }
         Constant::FlawDepth { .. } => panic!("the scene itself holds its flaws"),
-        Constant::Droplet(_) | Constant::Filament(_) | Constant::Fluid(_) => {
-            panic!("a solid has no constants of fluids")
+        Constant::Droplet(_)
+        | Constant::Filament(_)
+        | Constant::Lattice(_)
+        | Constant::Fluid(_) => {
+            panic!("a solid has no constants of other bodies")
         }
     }
 }

@@ -20,6 +20,7 @@ use super::droplet::Droplet;
 use super::error::{Problem, SceneError};
 use super::filament::{Filament, PathFile, PathTable};
 use super::large_strain::{KIND, LargeStrain};
+use super::lattice::Lattice;
 use super::locate::{Path, Source};
 use super::reservoir::Reservoir;
 use super::schema::Schema;
@@ -109,7 +110,11 @@ impl Decoder<'_> {
         let Some(DeValue::Table(bodies)) = self.source.value(&path) else { return };
         for name in bodies.keys() {
             let body = path.key(name.get_ref());
-            self.read_material(&body.key("material"));
+            let kind = self.source.value(&body.key("kind")).and_then(DeValue::as_str);
+            // That of a lattice is no material of solids.
+            if kind != Some("lattice") {
+                self.read_material(&body.key("material"));
+            }
             let layers = body.key("layers");
             let count = match self.source.value(&layers) {
                 Some(DeValue::Array(list)) => list.len(),
@@ -124,6 +129,7 @@ impl Decoder<'_> {
             self.read_if::<Reservoir>(&body, "kind", "reservoir");
             self.read_path(&body);
             self.read_if::<Filament>(&body, "kind", "filament");
+            self.read_if::<Lattice>(&body, "kind", "lattice");
             self.read_if::<LargeStrain>(&body, "kind", KIND);
         }
     }

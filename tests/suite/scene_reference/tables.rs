@@ -4,7 +4,7 @@ use impinge::limits::keyword;
 use serde_json::Value;
 
 /// Headings of `docs/scene.md` with a table, and where in the schema the table that they describe stands.
-pub const SECTIONS: [(&str, &str); 51] = [
+pub const SECTIONS: [(&str, &str); 56] = [
     ("The whole", ""),
     ("`fidelity`", "/$defs/Fidelity"),
     ("`solver`", "/$defs/Solver"),
@@ -44,6 +44,11 @@ pub const SECTIONS: [(&str, &str); 51] = [
     ("`nozzle` of a filament", "/$defs/Nozzle"),
     ("`path` of a filament", "/$defs/PathTable"),
     ("`path` of a filament by G-code", "/$defs/PathFile"),
+    ("`[body.NAME]` of a lattice", "/$defs/Body/oneOf/5"),
+    ("`material` of a lattice", "/$defs/QuasiBrittle"),
+    ("`softening` of a lattice", "/$defs/SofteningKeys"),
+    ("`notch` of a lattice", "/$defs/LatticeNotch"),
+    ("`support.three_point` of a lattice", "/$defs/ThreePoint"),
     ("`[[target]]`", "/$defs/Target"),
     ("`[body.NAME]` of a reservoir", "/$defs/Body/oneOf/2"),
     ("`[[load]]`", "/$defs/Load"),

@@ -1,0 +1,84 @@
+//! Softening of the links of a lattice: a bilinear law of force over stretch.
+
+/// Bilinear softening of a link of given length.
+///
+/// Up to the stretch S_t the link is elastic, to α₂ S_t its force falls to the part α₁ of the largest, to α₃ S_t to
+/// zero. A. Asadollahi 2014, *Simulation of fracture of concrete using micropolar peridynamics*, thesis, University
+/// of New Mexico, eq. 3.11 to 3.15.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Softening {
+    /// Stretch at the strength S_t [1].
+    pub onset: f64,
+    /// Part α₁ of the largest force at the knee [1].
+    pub share: f64,
+    /// Stretch at the knee over S_t, α₂ [1].
+    pub knee: f64,
+    /// Stretch without force over S_t, α₃ [1].
+    pub end: f64,
+}
+
+impl Softening {
+    /// Damage ω of a link under a stretch ε never exceeded before, and its derivative dω/dε.
+    pub fn damage(&self, stretch: f64) -> (f64, f64) {
+        let Self { onset, share, knee, end } = *self;
+        let ratio = stretch / onset;
+        if ratio <= 1.0 {
+            (0.0, 0.0)
+        } else if ratio <= knee {
+            let fall = (knee - share) / (knee - 1.0);
+            (fall * (1.0 - 1.0 / ratio), fall / (ratio * stretch))
+        } else if ratio < end {
+            let fall = share / (end - knee);
+            (1.0 - fall * (end / ratio - 1.0), fall * end / (ratio * stretch))
+        } else {
+            (1.0, 0.0)
+        }
+    }
+
+    /// Energy that breaks a link, over that of the undamaged link at twice S_t²: `½[1 + (1 + α₁)(α₂ − 1) + α₁(α₃ −
+    /// α₂)]`.
+    pub fn energy(&self) -> f64 {
+        let Self { share, knee, end, .. } = *self;
+        0.5 * (1.0 + (1.0 + share) * (knee - 1.0) + share * (end - knee))
+    }
+}
+
+/// Law of softening of all links, of any length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SofteningLaw {
+    /// Stretches as the source has them: the energy of a crack grows with the length of links.
+    Stretches {
+        /// S_t [1].
+        onset: f64,
+        /// α₂ and α₃ [1].
+        ends: [f64; 2],
+        /// α₁ [1].
+        share: f64,
+    },
+    /// Openings, a cohesive law: the energy of a crack is that of the material, whatever the length of links.
+    Openings {
+        /// Stress f_t at which links along it soften [Pa].
+        strength: f64,
+        /// Elongation w₂ and w₃ beyond that at the strength, at the knee and without force [m].
+        ends: [f64; 2],
+        /// α₁ [1].
+        share: f64,
+    },
+}
+
+impl SofteningLaw {
+    /// Law of a link of given length [m] in a sheet of Young's modulus E [Pa], of a strength that is scattered by a
+    /// factor: with openings `S_t = f_t/E` and `α_k = 1 + w_k/(S_t s)`.
+    pub fn of_link(&self, length: f64, young: f64, factor: f64) -> Softening {
+        match *self {
+            Self::Stretches { onset, ends: [knee, end], share } => {
+                Softening { onset: factor * onset, share, knee, end }
+            }
+            Self::Openings { strength, ends, share } => {
+                let onset = factor * strength / young;
+                let [knee, end] = ends.map(|opening| 1.0 + opening / (onset * length));
+                Softening { onset, share, knee, end }
+            }
+        }
+    }
+}

@@ -1,0 +1,314 @@
+//! A strip whose load moves, or whose notch opens, along a path.
+
+use super::arrangement::{Arrangement, Particles, Strip, distance};
+use super::equilibrium::{Balanced, Equilibrium, Trial, WORK, product};
+use super::frame::{Frame, Support};
+use super::link::{Link, Sheet};
+use super::order::dissect;
+use super::stiffness::Pattern;
+use super::{LatticeError, LatticeState, LatticeTotals};
+use crate::laws::fracture::SofteningLaw;
+use crate::runtime::allowance::Allowance;
+
+/// What is prescribed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Control {
+    /// Displacement of the load.
+    Displacement,
+    /// Opening of the notch at the lower face.
+    Opening,
+}
+
+/// Everything that a lattice is made of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LatticePlan {
+    pub strip: Strip,
+    pub sheet: Sheet,
+    pub support: Support,
+    pub control: Control,
+    pub softening: SofteningLaw,
+    /// Share β of bending in the stretch that damages [1].
+    pub bending: f64,
+    /// True if broken links bear pressure.
+    pub closes: bool,
+    /// Half the width of the range of strengths, over its middle, and the number of its sample.
+    pub scatter: f64,
+    pub seed: u32,
+}
+
+/// A lattice of links that soften and break, in equilibrium with what is prescribed.
+pub struct Lattice {
+    plan: LatticePlan,
+    particles: Particles,
+    equilibrium: Equilibrium,
+    /// Longest step of what is prescribed [m].
+    longest: f64,
+}
+
+/// Least flexural stiffness over the axial one and the length squared: at ν = 1/3 links do not bend, and nothing else
+/// would hold the rotation of particles.
+const SPIN: f64 = 1e-9;
+/// Distance from supports and loads within which links stay intact, over the spacing.
+const PROTECTED: f64 = 2.0;
+/// Longest step over the opening of a link at the knee of its law, and shortest step over the longest.
+const LONGEST: f64 = 0.5;
+const SHORTEST: f64 = 0.02;
+/// Growth of the damage of a link in a step, at most.
+const GROWTH: f64 = 0.2;
+/// Iterations up to which the next step is longer, and its factor.
+const EASY: usize = 6;
+const LENGTHENED: f64 = 1.5;
+
+impl LatticePlan {
+    /// Stress at which links along the pull soften [Pa], and an estimate of the energy of a crack per area [J/m²]: of
+    /// the two links that it cuts in each spacing, `2 c E s S_t²/(√3 (1 − ν))` with c of [`Softening::energy`].
+    ///
+    /// [`Softening::energy`]: crate::laws::fracture::Softening::energy
+    pub fn strength_and_energy(&self) -> (f64, f64) {
+        let Sheet { young, poisson, .. } = self.sheet;
+        let spacing = self.strip.fitted_spacing();
+        let law = self.softening.of_link(spacing, young, 1.0);
+        let links = 2.0 / (3.0_f64.sqrt() * (1.0 - poisson));
+        (young * law.onset, links * law.energy() * young * spacing * law.onset * law.onset)
+    }
+
+    /// Longest step of what is prescribed [m].
+    pub fn longest_step(&self) -> f64 {
+        let spacing = self.strip.fitted_spacing();
+        let law = self.softening.of_link(spacing, self.sheet.young, 1.0);
+        LONGEST * (law.knee - 1.0) * law.onset * spacing
+    }
+}
+
+impl Lattice {
+    /// Updates of an unknown in an iteration of the equilibrium.
+    pub const WORK: usize = WORK;
+
+    pub fn new(plan: LatticePlan, threads: usize) -> Result<Self, LatticeError> {
+        let particles = plan.strip.fill();
+        let frame = Frame::new(&particles, &plan.strip, plan.support);
+        let control = match plan.control {
+            Control::Displacement => Some(frame.load.clone()),
+            Control::Opening => frame.mouth.clone(),
+        };
+        let control = control.ok_or(LatticeError::NoMouth)?;
+        let links = links(&plan, &particles, &frame);
+        let pattern = Pattern::new(frame, &links, &dissect(&particles), threads)?;
+        let (bending, closes, longest) = (plan.bending, plan.closes, plan.longest_step());
+        let equilibrium = Equilibrium { links, pattern, bending, closes, control };
+        Ok(Self { plan, particles, equilibrium, longest })
+    }
+
+    pub fn plan(&self) -> &LatticePlan {
+        &self.plan
+    }
+
+    pub fn particles(&self) -> &Particles {
+        &self.particles
+    }
+
+    pub fn links(&self) -> &[Link] {
+        &self.equilibrium.links
+    }
+
+    fn frame(&self) -> &Frame {
+        &self.equilibrium.pattern.frame
+    }
+
+    pub fn initial_state(&self) -> LatticeState {
+        LatticeState {
+            displacement: vec![0.0; self.frame().unknowns],
+            damage: vec![0.0; self.links().len()],
+            ..LatticeState::default()
+        }
+    }
+
+    /// Number of unknowns.
+    pub fn unknowns(&self) -> usize {
+        self.frame().unknowns
+    }
+
+    /// Moves to a value of what is prescribed [m], in steps of their own. After an error the state is unusable.
+    pub fn advance(
+        &self,
+        state: &mut LatticeState,
+        target: f64,
+        allowance: &Allowance,
+    ) -> Result<(), LatticeError> {
+        let from = state.prescribed;
+        let total = (target - from).abs();
+        let (mut done, mut step) = (0.0, self.longest);
+        while done < total {
+            let rest = total - done;
+            let is_last = step >= rest * (1.0 - 1e-9);
+            let length = if is_last { rest } else { step };
+            let wanted =
+                if is_last { target } else { from + (target - from).signum() * (done + length) };
+            let shortest = SHORTEST * self.longest;
+            let balanced =
+                self.equilibrium.solve(&state.balanced(), &state.damage, wanted, allowance)?;
+            let found =
+                balanced.filter(|found| length <= shortest || grows_slowly(state, &found.trial));
+            match found {
+                Some(found) => {
+                    let is_easy = found.iterations <= EASY;
+                    step = (step * if is_easy { LENGTHENED } else { 1.0 }).min(self.longest);
+                    self.accept(state, found.balanced, found.trial);
+                }
+                None if length > shortest => {
+                    step = (0.5 * length).max(shortest);
+                    continue;
+                }
+                None => self.jump(state, wanted, allowance)?,
+            }
+            state.prescribed = wanted;
+            done += length;
+        }
+        Ok(())
+    }
+
+    /// Moves a state to the next equilibrium, with work and dissipation of the mean forces between both.
+    fn accept(&self, state: &mut LatticeState, balanced: Balanced, trial: Trial) {
+        let before = self.equilibrium.deformations(&state.displacement);
+        let damage = [&state.damage[..], &trial.damage];
+        state.dissipated += self.equilibrium.dissipation([&before, &trial.deformation], damage);
+        state.work += self.work(state, &balanced);
+        state.damage = trial.damage;
+        state.displacement = balanced.displacement;
+        state.force = balanced.force;
+    }
+
+    /// Lets links break suddenly; the energy that they release is not dissipated by damage.
+    fn jump(
+        &self,
+        state: &mut LatticeState,
+        wanted: f64,
+        allowance: &Allowance,
+    ) -> Result<(), LatticeError> {
+        let stored = self.elastic_energy(state);
+        let start = state.balanced();
+        let (balanced, dissipated) =
+            self.equilibrium.relax(&start, &mut state.damage, wanted, allowance)?;
+        let work = self.work(state, &balanced);
+        state.work += work;
+        state.dissipated += dissipated;
+        state.displacement = balanced.displacement;
+        state.force = balanced.force;
+        state.released += work - dissipated - (self.elastic_energy(state) - stored);
+        Ok(())
+    }
+
+    /// Work of the mean load from a state to the next equilibrium [J].
+    fn work(&self, state: &LatticeState, next: &Balanced) -> f64 {
+        let load = &self.frame().load;
+        let moved = product(load, &next.displacement) - product(load, &state.displacement);
+        0.5 * (state.force + next.force) * moved
+    }
+
+    /// Elastic energy [J].
+    pub fn elastic_energy(&self, state: &LatticeState) -> f64 {
+        let deformation = self.equilibrium.deformations(&state.displacement);
+        self.equilibrium.elastic_energy(&deformation, &state.damage)
+    }
+
+    pub fn totals(&self, state: &LatticeState) -> LatticeTotals {
+        let value = |of| product(of, &state.displacement);
+        let damage = state.damage.iter().zip(&self.particles.pairs);
+        let broken = damage.filter(|(damage, _)| **damage >= 1.0).map(|(_, pair)| pair.facet);
+        LatticeTotals {
+            displacement: value(&self.frame().load),
+            opening: self.frame().mouth.as_ref().map(value),
+            elastic_energy: self.elastic_energy(state),
+            max_damage: state.damage.iter().copied().fold(0.0, f64::max),
+            broken_links: broken.clone().count(),
+            // From zero: a sum of nothing is negative zero.
+            crack_length: broken.fold(0.0, |sum, facet| sum + facet),
+        }
+    }
+
+    /// Displacement of each particle [m].
+    pub fn displacements(&self, state: &LatticeState) -> Vec<[f64; 2]> {
+        let value = |unknown: &Option<usize>| unknown.map_or(0.0, |at| state.displacement[at]);
+        let of_particle = |own: &[Option<usize>]| [value(&own[0]), value(&own[1])];
+        self.frame().unknown.chunks_exact(3).map(of_particle).collect()
+    }
+
+    /// Largest damage of the links of each particle, and the pressure in it [Pa]: a third of the trace of the stress
+    /// that follows from the forces of its links.
+    pub fn at_particles(&self, state: &LatticeState) -> Vec<(f64, f64)> {
+        let area = self.particles.area;
+        let mut at = vec![(0.0_f64, 0.0); self.particles.places.len()];
+        let deformation = self.equilibrium.deformations(&state.displacement);
+        for ((link, q), &damage) in self.links().iter().zip(&deformation).zip(&state.damage) {
+            let [normal, ..] = self.equilibrium.conjugate(link, q, damage);
+            let share = normal * link.length / (2.0 * area * self.plan.sheet.thickness);
+            for end in link.ends {
+                at[end].0 = at[end].0.max(damage);
+                at[end].1 -= share / 3.0;
+            }
+        }
+        at
+    }
+
+    /// Refuses a state that is not in equilibrium with what is prescribed, or whose damage no stretch explains.
+    pub fn check(&self, state: &LatticeState) -> Result<(), String> {
+        let outside = state.damage.iter().find(|damage| !(0.0..=1.0).contains(*damage));
+        if let Some(damage) = outside {
+            return Err(format!("damage of {damage:e}, which is between 0 and 1"));
+        }
+        let damaged = self
+            .links()
+            .iter()
+            .zip(&state.damage)
+            .find(|(link, damage)| !link.breaks && **damage > 0.0);
+        if damaged.is_some() {
+            return Err("damage of a link that stays intact".to_owned());
+        }
+        self.equilibrium.check(&state.balanced(), &state.damage, state.prescribed)?;
+        let energies = [state.work, state.dissipated + state.released, self.elastic_energy(state)];
+        let missing = energies[0] - energies[1] - energies[2];
+        let size = energies.iter().fold(0.0, |sum, energy| sum + energy.abs());
+        match missing.abs() <= ENERGY * size {
+            true => Ok(()),
+            false => Err(format!("{missing:.1e} J of {:.1e} J of work have no cause", energies[0])),
+        }
+    }
+}
+
+/// Part of the energies by which those of a state may differ: closing cracks leave up to a thousandth.
+const ENERGY: f64 = 0.05;
+
+/// Returns true if no link gains more damage than a step may bring.
+fn grows_slowly(state: &LatticeState, trial: &Trial) -> bool {
+    trial.damage.iter().zip(&state.damage).all(|(new, old)| new - old <= GROWTH)
+}
+
+/// The links of all pairs; those near supports and loads stay intact.
+fn links(plan: &LatticePlan, particles: &Particles, frame: &Frame) -> Vec<Link> {
+    let places = &particles.places;
+    let reach = PROTECTED * particles.spacing;
+    let is_far = |i: usize| frame.loaded.iter().all(|&j| distance(places[i], places[j]) > reach);
+    let far: Vec<bool> = (0..places.len()).map(is_far).collect();
+    let sheet = match plan.strip.arrangement {
+        Arrangement::Random { .. } => plan.sheet.of_random_links(),
+        _ => plan.sheet,
+    };
+    let of_pair = |(number, pair): (usize, &super::Pair)| {
+        let [a, b] = pair.ends.map(|i| places[i]);
+        let length = distance(a, b);
+        let [axial, flexural] = sheet.stiffness(length, pair.facet);
+        let strength =
+            crate::laws::fracture::scattered(plan.scatter, plan.seed, [number as u64, 0]);
+        let flexural = flexural.max(SPIN * axial * length * length);
+        Link {
+            ends: pair.ends,
+            length,
+            direction: [(b[0] - a[0]) / length, (b[1] - a[1]) / length],
+            axial,
+            flexural,
+            softening: plan.softening.of_link(length, plan.sheet.young, strength),
+            breaks: pair.ends.iter().all(|&i| far[i]),
+        }
+    };
+    particles.pairs.iter().enumerate().map(of_pair).collect()
+}

@@ -1,0 +1,112 @@
+//! Checks size, notch, support, control and softening of each lattice.
+
+use super::{Checker, fits, number};
+use crate::laws::fracture::{SofteningKeys, SofteningModel};
+use crate::scene::lattice::{Lattice, LatticeControl, LatticeSupport};
+use crate::scene::locate::Path;
+
+/// Most particles of a lattice.
+const MOST_PARTICLES: f64 = 1e6;
+/// Least number of particles over the depth.
+const LEAST_LAYERS: f64 = 4.0;
+
+pub fn check(checker: &mut Checker) {
+    for (name, lattice) in checker.scene.lattices() {
+        let path = Path::default().key("body").key(name);
+        softening(checker, &path.at("material.softening"), &lattice.material.softening);
+        if checker.is_fine(&path) {
+            spacing(checker, &path, lattice);
+        }
+        if checker.is_fine(&path) {
+            notch(checker, &path, lattice);
+            support(checker, &path, lattice);
+        }
+        let needs = lattice.control == LatticeControl::Opening && lattice.notch.is_none();
+        let message = "without a notch there is no opening to prescribe";
+        checker.require(!needs, &path.key("control"), message, "\"displacement\", or a `notch`");
+    }
+}
+
+/// Requires the keys of the chosen model, and refuses those of the other.
+fn softening(checker: &mut Checker, path: &Path, keys: &SofteningKeys) {
+    let [openings, stretches] = [
+        [("strength", keys.strength.is_some()), ("openings", keys.openings.is_some())],
+        [("onset", keys.onset.is_some()), ("stretches", keys.stretches.is_some())],
+    ];
+    let (name, needed, foreign, range) = match keys.model {
+        SofteningModel::Openings => ("openings", openings, stretches, ("openings", keys.openings)),
+        SofteningModel::Stretches => {
+            ("stretches", stretches, openings, ("stretches", keys.stretches))
+        }
+    };
+    for (key, _) in needed.iter().filter(|(_, is_there)| !is_there) {
+        let message = format!("softening over {name} needs `{key}`");
+        let allowed = format!("`{}` and `{}`", needed[0].0, needed[1].0);
+        checker.refuse(&path.key(key), message, allowed);
+    }
+    for (key, _) in foreign.iter().filter(|(_, is_there)| *is_there) {
+        let message = format!("softening over {name} has no `{key}`");
+        let allowed = format!("`{}` and `{}`", needed[0].0, needed[1].0);
+        checker.refuse(&path.key(key), message, allowed);
+    }
+    if let (key, Some([knee, end])) = range {
+        let message = "the knee is not before the end";
+        checker.require(
+            knee < end,
+            &path.key(key),
+            message,
+            format!("the second above {}", number(knee)),
+        );
+    }
+}
+
+fn spacing(checker: &mut Checker, path: &Path, lattice: &Lattice) {
+    let most = lattice.depth / LEAST_LAYERS;
+    let message = "particles so far apart resolve no bending";
+    let path = path.key("spacing");
+    checker.require(fits(lattice.spacing, most), &path, message, format!("up to {}", number(most)));
+    let area = lattice.length * lattice.depth;
+    let count = area / (0.75_f64.sqrt() * lattice.spacing * lattice.spacing);
+    let least = (area / (0.75_f64.sqrt() * MOST_PARTICLES)).sqrt();
+    let message = format!("{} particles would fill the strip", number(count.ceil()));
+    checker.require(count <= MOST_PARTICLES, &path, message, format!(">= {}", number(least)));
+}
+
+fn notch(checker: &mut Checker, path: &Path, lattice: &Lattice) {
+    let Some(notch) = lattice.notch else { return };
+    let path = path.key("notch");
+    let most = lattice.depth - 2.0 * lattice.spacing;
+    let message = "the notch leaves too little of the depth";
+    checker.require(
+        fits(notch.depth, most),
+        &path.key("depth"),
+        message,
+        format!("up to {}", number(most)),
+    );
+    let message = "the notch is shallower than particles are apart";
+    let allowed = format!(">= {}, or a smaller `spacing`", number(lattice.spacing));
+    checker.require(fits(lattice.spacing, notch.depth), &path.key("depth"), message, allowed);
+    let reach = 0.5 * lattice.length - 2.0 * lattice.spacing - 0.5 * notch.width;
+    let message = "the notch reaches beyond the strip";
+    let allowed = format!("between {} and {}", number(-reach), number(reach));
+    checker.require(fits(notch.at.abs(), reach), &path.key("at"), message, allowed);
+}
+
+fn support(checker: &mut Checker, path: &Path, lattice: &Lattice) {
+    let LatticeSupport::ThreePoint(own) = lattice.support else { return };
+    let (body, path) = (path, path.at("support.three_point.span"));
+    let most = lattice.length - lattice.spacing;
+    let message = "the supports are not below the strip";
+    let allowed = format!("up to {}, or more `length`", number(most));
+    checker.require(fits(own.span, most), &path, message, allowed);
+    let least = 8.0 * lattice.spacing;
+    let message = "links near supports and load stay intact, and nothing is left between them";
+    checker.require(fits(least, own.span), &path, message, format!(">= {}", number(least)));
+    let notch = lattice.notch.filter(|_| checker.is_fine(&body.key("notch")));
+    if let Some(notch) = notch {
+        let reach = 0.5 * own.span - 0.5 * notch.width - 3.0 * lattice.spacing;
+        let message = "the notch is at a support";
+        let allowed = format!("between {} and {}", number(-reach), number(reach));
+        checker.require(fits(notch.at.abs(), reach), &body.at("notch.at"), message, allowed);
+    }
+}

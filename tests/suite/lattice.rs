@@ -1,0 +1,170 @@
+//! Strips of concrete as lattices of links that soften and break.
+
+use impinge::model::State;
+
+use crate::common::Trial;
+
+/// A notched beam, with further keys.
+fn beam(keys: &str) -> String {
+    format!(
+        r#"
+name = "Beam"
+stop_time = 1.0
+step = 0.1
+[body.beam]
+kind = "lattice"
+length = 0.25
+depth = 76.2e-3
+thickness = 0.1524
+spacing = 9.5e-3
+notch = {{ depth = 19e-3, width = 2e-3 }}
+support = {{ three_point = {{ span = 0.2286 }} }}
+{keys}
+material = {{ density = 2323.0, young = 30e9, poisson = 0.2, softening = {{ model = "openings", strength = 4.5e6, openings = [9.05e-6, 197e-6], share = 0.13 }} }}
+"#
+    )
+}
+
+/// A strip pulled at its ends.
+fn pulled(material: &str, keys: &str) -> String {
+    format!(
+        r#"
+name = "Strip"
+stop_time = 1.0
+step = 0.1
+[body.strip]
+kind = "lattice"
+length = 0.2
+depth = 0.1
+thickness = 0.05
+support = "ends"
+{keys}
+material = {{ density = 2300.0, {material} }}
+"#
+    )
+}
+
+const STRONG: &str =
+    "softening = { model = \"openings\", strength = 1e8, openings = [1e-5, 2e-4], share = 0.13 }";
+
+/// Opens a notch to a width [m] in equal steps; returns the loads.
+fn open(trial: &mut Trial, name: &str, to: f64, steps: usize) -> Vec<f64> {
+    let of_step = |step: usize| {
+        trial.set(name, to * step as f64 / steps as f64);
+        trial.step(0.1);
+        trial.get("beam.force")
+    };
+    (1..=steps).map(of_step).collect()
+}
+
+/// Work of the load is stored and dissipated, whatever is prescribed and whether cracks close or not.
+#[test]
+fn energy_of_a_breaking_beam_balances() {
+    for (keys, input) in [
+        ("control = \"opening\"", "beam.opening"),
+        ("control = \"opening\"\narrangement = \"along\"\ncontact = false", "beam.opening"),
+        ("control = \"displacement\"", "beam.displacement"),
+    ] {
+        let mut trial = Trial::new(&beam(keys));
+        let loads = open(&mut trial, input, 6e-5, 8);
+        let peak = loads.iter().copied().fold(0.0, f64::max);
+        assert!(peak > 4e3 && peak < 9e3, "{keys}: {loads:?}");
+        let [work, drift, dissipated] = ["mechanical_work", "energy_drift", "dissipated_energy"]
+            .map(|key| trial.get(&format!("beam.{key}")));
+        assert!(drift.abs() < 1e-4 * work, "{keys}: {drift:e} J of {work:e} J");
+        let damage = trial.get("beam.max_damage");
+        assert!(dissipated > 0.1 * work && damage > 0.8, "{keys}: {dissipated:e} J, {damage}");
+    }
+}
+
+/// A crack that is closed again dissipates nothing more; damaged links are softer, and bear pressure if they close.
+#[test]
+fn closing_a_crack_dissipates_nothing() {
+    let mut trial = Trial::new(&beam("control = \"opening\""));
+    open(&mut trial, "beam.opening", 5e-5, 5);
+    let (dissipated, damage) = (trial.get("beam.dissipated_energy"), trial.get("beam.max_damage"));
+    for opening in [2e-5, 0.0, -5e-6, 2e-5, 4.9e-5] {
+        trial.set("beam.opening", opening);
+        trial.step(0.1);
+        let closed = trial.get("beam.force");
+        assert!(closed * opening >= 0.0, "{closed} N at {opening:e} m");
+    }
+    assert_eq!(trial.get("beam.dissipated_energy"), dissipated);
+    assert_eq!(trial.get("beam.max_damage"), damage);
+}
+
+/// Loads do not depend on the number of communication steps.
+#[test]
+fn communication_steps_do_not_matter() {
+    let [few, many] = [3, 24].map(|steps| {
+        let mut trial = Trial::new(&beam("control = \"opening\""));
+        open(&mut trial, "beam.opening", 9e-5, steps);
+        (trial.get("beam.force"), trial.get("beam.dissipated_energy"))
+    });
+    assert!((few.0 / many.0 - 1.0).abs() < 1e-5, "{few:?} {many:?}");
+    assert!((few.1 / many.1 - 1.0).abs() < 1e-2, "{few:?} {many:?}");
+}
+
+/// The stiffness of a strip between platens tends to that of a bar whose ends cannot contract: it exceeds `E A/L` by
+/// the lateral constraint, and falls below it by the half rows at the faces.
+#[test]
+fn pulled_strips_have_the_stiffness_of_bars() {
+    for (poisson, bound) in [(0.0, 0.03), (0.2, 0.05), (1.0 / 3.0, 0.08)] {
+        for arrangement in ["across", "along", "random"] {
+            let material = format!("young = 30e9, poisson = {poisson:?}, {STRONG}");
+            let keys = format!("spacing = 5e-3\narrangement = \"{arrangement}\"");
+            let mut trial = Trial::new(&pulled(&material, &keys));
+            trial.set("strip.displacement", 1e-6);
+            trial.step(0.1);
+            let bar = 30e9 * 0.1 * 0.05 * 1e-6 / 0.2;
+            let off = trial.get("strip.force") / bar - 1.0;
+            assert!(off.abs() < bound, "ν {poisson}, {arrangement}: {off:.4}");
+        }
+    }
+}
+
+/// A saved state continues to the bit, in another instance and on other numbers of threads.
+#[test]
+fn states_continue_to_the_bit() {
+    let text = beam("control = \"opening\"");
+    let mut trial = Trial::new(&text);
+    open(&mut trial, "beam.opening", 4e-5, 4);
+    let saved: State = trial.state.clone();
+    let end = |trial: &mut Trial| {
+        trial.set("beam.opening", 8e-5);
+        trial.step(0.1);
+        (trial.state.clone(), trial.get("beam.force"))
+    };
+    let wanted = end(&mut trial);
+    for threads in [1, 2, 3] {
+        let mut other = Trial::on_threads(&text, threads);
+        open(&mut other, "beam.opening", 1e-5, 1);
+        other.restart(&saved);
+        assert!(end(&mut other) == wanted, "{threads} threads");
+    }
+}
+
+/// States that no run produces are refused: damage beyond its range, forces that do not balance, forgotten damage.
+#[test]
+fn impossible_states_are_refused() {
+    let mut trial = Trial::new(&beam("control = \"opening\""));
+    open(&mut trial, "beam.opening", 4e-5, 4);
+    let own = trial.state.bodies[0].clone();
+    trial.model.check_state(&trial.state).unwrap();
+    // The fields are displacements, which are small, damage, and five sums.
+    let [force, prescribed, work] = [5, 4, 3].map(|from_end| own.len() - from_end);
+    let damaged = (0..force).find(|&n| own[n] > 0.5).unwrap();
+    for (place, value, words) in [
+        (damaged, 1.5, "between 0 and 1"),
+        (damaged, 0.0, "less damage"),
+        (force, 2.0 * own[force], "do not balance"),
+        (prescribed, 1e-3, "are prescribed"),
+        (work, 10.0, "no cause"),
+        (0, 1e-3, "do not balance"),
+    ] {
+        let mut state = trial.state.clone();
+        state.bodies[0][place] = value;
+        let refusal = trial.model.check_state(&state).unwrap_err().to_string();
+        assert!(refusal.contains(words), "{refusal} for {words}");
+    }
+}
