@@ -22,7 +22,7 @@ const LATTICE: &str = include_str!("../scenes/lattice.toml");
 /// stands there with a key that there is not, and keys that choose the section's type.
 type Section = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
-const SECTIONS: [Section; 54] = [
+const SECTIONS: [Section; 55] = [
     ("The whole", PLATE, "stop_time =", "zz = 1\nstop_time =", &[]),
     ("`fidelity`", PLATE, "level =", "zz = 1\nlevel =", &[]),
     ("`solver`", PLATE, "stop_time =", "solver = { zz = 1 }\nstop_time =", &[]),
@@ -149,6 +149,13 @@ const SECTIONS: [Section; 54] = [
         PLATE,
         "[body.plate]",
         "[body.gel]\nkind = \"solid\"\nstrain = \"finite\"\nrkpm = { zz = 1 }\n[body.plate]",
+        &[],
+    ),
+    (
+        "`sph` of a solid of large strain",
+        PLATE,
+        "[body.plate]",
+        "[body.gel]\nkind = \"solid\"\nstrain = \"finite\"\nsph = { zz = 1 }\n[body.plate]",
         &[],
     ),
     (

@@ -4,7 +4,7 @@ use impinge::limits::keyword;
 use serde_json::Value;
 
 /// Headings of `docs/scene.md` with a table, and where in the schema the table that they describe stands.
-pub const SECTIONS: [(&str, &str); 56] = [
+pub const SECTIONS: [(&str, &str); 57] = [
     ("The whole", ""),
     ("`fidelity`", "/$defs/Fidelity"),
     ("`solver`", "/$defs/Solver"),
@@ -32,6 +32,7 @@ pub const SECTIONS: [(&str, &str); 56] = [
     ("`start` of a solid of large strain", "/$defs/LargeStrainStart"),
     ("`mesh` of a solid of large strain", "/$defs/LargeStrainMesh"),
     ("`rkpm` of a solid of large strain", "/$defs/KernelSettings"),
+    ("`sph` of a solid of large strain", "/$defs/ParticleSettings"),
     ("`shape.ball`", "/$defs/Ball"),
     ("`faces.FACE` of a solid of large strain", "/$defs/HeldFace"),
     ("`[body.NAME]` of a droplet", "/$defs/Body/oneOf/1"),
