@@ -13,7 +13,7 @@ const BALANCED: f64 = 1e-9;
 const BALANCED_BY_PARTICLES: f64 = 5e-2;
 
 /// Totals of a body with a history of deformation.
-const IS_FLOW: [&str; 9] = [
+const IS_FLOW: [&str; 11] = [
     ".max_plastic_strain",
     ".plastic_work",
     ".dissipated",
@@ -23,6 +23,8 @@ const IS_FLOW: [&str; 9] = [
     ".max_damage",
     ".crack_area",
     ".crack_length",
+    ".crack_count",
+    ".crack_depth",
 ];
 
 /// Heat balance of a body [J].

@@ -89,6 +89,13 @@ pub static STRENGTH: Range<'static> = Range {
     highest: 2e10, // fibres of silica without flaws 14 GPa
     mistakes: Cow::Borrowed(&[scaled("MPa", 1e6), scaled("GPa", 1e9)]),
 };
+pub static NOZZLE_ACCELERATION: Range<'static> = Range {
+    what: "the acceleration of a nozzle",
+    unit: "m/s²",
+    lowest: 1e-3,   // arms that print walls
+    highest: 100.0, // fast desktop printers have 20
+    mistakes: Cow::Borrowed(&[scaled("mm/s²", 1e-3)]),
+};
 pub static GROWTH_EXPONENT: Range<'static> = Range {
     what: "the exponent of slow growth",
     unit: "1",

@@ -126,7 +126,9 @@ pub struct PathFile {
     #[schemars(extend("condition" = "G0 to G4, G20, G21, G90 to G92, M82, M83; see above"))]
     pub file: String,
     /// Acceleration of the nozzle along its path [m/s²].
-    #[schemars(transform = within(1e-6, 1e6, "m/s²", "the acceleration of a nozzle").otherwise("none: speeds jump"))]
+    #[schemars(transform = within(1e-6, 1e6, "m/s²", "the acceleration of a nozzle")
+        .plausible(&plausible::NOZZLE_ACCELERATION)
+        .otherwise("none: speeds jump"))]
     pub acceleration: Option<f64>,
     /// Speed at which a right angle is passed, where `acceleration` is set [m/s].
     #[serde(default = "corner_speed")]

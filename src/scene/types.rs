@@ -229,7 +229,7 @@ pub struct Solid {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PlaneSection {
-    /// No strain along y: long bodies.
+    /// No strain along y: long bodies, which heat stresses along y, cracked or not.
     PlaneStrain,
     /// No stress along y: thin plates.
     PlaneStress,

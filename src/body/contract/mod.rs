@@ -2,6 +2,7 @@
 //! capabilities that few bodies have.
 
 mod advice;
+mod approach;
 mod conductor;
 mod giver;
 mod linear;
@@ -11,6 +12,7 @@ mod resources;
 use std::any::Any;
 
 pub use advice::{Advice, Occasion};
+pub use approach::Approach;
 pub use conductor::Conductor;
 pub use giver::{Given, Giver};
 pub use linear::Linear;
@@ -27,7 +29,7 @@ use crate::scene::FaceName;
 use crate::state::Layout;
 
 /// A body of a scene: everything that is known before time starts. Its state is a flat vector.
-pub trait Body: Giver + Maxima + Advice + Resources + Send + Sync {
+pub trait Body: Giver + Maxima + Approach + Advice + Resources + Send + Sync {
     fn name(&self) -> &str;
 
     /// Returns the state at time zero.
@@ -51,17 +53,6 @@ pub trait Body: Giver + Maxima + Advice + Resources + Send + Sync {
 
     /// Discards the parts that follow from the state; those of the loads remain.
     fn forget_state(&self, _memo: &mut Memo) {}
-
-    /// Returns the inputs that the body approaches over a step of a duration [s] instead of jumping to them: the place of
-    /// each, with its value at the beginning and its slope. Marks the state if there are any.
-    fn approached(
-        &self,
-        _: &mut Vec<f64>,
-        _: &InputPath,
-        _duration: f64,
-    ) -> Vec<(usize, [f64; 2])> {
-        Vec::new()
-    }
 
     /// Advances a state and returns the transfer through the port below, if there is one. `memo` is that of the inputs
     /// at the beginning, unless these change. After a failure the state is unchanged or unusable: the caller keeps a

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::plan::fine_radius;
 use super::watch::Watch;
 use super::{Below, DropletBody, totals};
-use crate::body::{Advice, Occasion, Reading};
+use crate::body::{Advice, Approach, Occasion, Reading};
 use crate::method::sph::WarmPlace;
 use crate::scene::{Body, Coupling, Scene};
 use crate::warning::{self, Finding, Warning};
@@ -80,6 +80,8 @@ impl DropletBody {
         off.into_iter().chain(waits).collect()
     }
 }
+
+impl Approach for DropletBody {}
 
 impl Advice for DropletBody {
     fn notes(&self) -> Vec<String> {

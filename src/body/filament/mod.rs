@@ -13,8 +13,8 @@ pub use warnings::warnings_on_strands;
 
 use crate::body::droplet::Watch;
 use crate::body::{
-    Acts, Advice, Body, BodyError, Fields, Given, Giver, Link, Maxima, Memo, Occasion, Reading,
-    Received, Resources,
+    Acts, Advice, Approach, Body, BodyError, Fields, Given, Giver, Link, Maxima, Memo, Occasion,
+    Reading, Received, Resources,
 };
 use crate::inputs::{InputLayout, InputPath};
 use crate::laws::Constants;
@@ -155,22 +155,6 @@ impl Body for FilamentBody {
         *memo = Box::new(FilamentMemo::default());
     }
 
-    fn approached(
-        &self,
-        state: &mut Vec<f64>,
-        path: &InputPath,
-        duration: f64,
-    ) -> Vec<(usize, [f64; 2])> {
-        let mut strand = self.strand(state);
-        let approached = self.nozzle.approached(path, strand.nozzle, duration);
-        if strand.flowing == 0.0 || approached.is_empty() {
-            return Vec::new();
-        }
-        strand.late = 1.0;
-        *state = stored(&strand);
-        approached
-    }
-
     fn advance(
         &self,
         state: &mut Vec<f64>,
@@ -232,6 +216,24 @@ impl Giver for FilamentBody {
 }
 
 impl Maxima for FilamentBody {}
+
+impl Approach for FilamentBody {
+    fn approached(
+        &self,
+        state: &mut Vec<f64>,
+        path: &InputPath,
+        duration: f64,
+    ) -> Vec<(usize, [f64; 2])> {
+        let mut strand = self.strand(state);
+        let approached = self.nozzle.approached(path, strand.nozzle, duration);
+        if strand.flowing == 0.0 || approached.is_empty() {
+            return Vec::new();
+        }
+        strand.late = 1.0;
+        *state = stored(&strand);
+        approached
+    }
+}
 
 impl Advice for FilamentBody {
     fn notes(&self) -> Vec<String> {

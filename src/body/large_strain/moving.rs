@@ -4,8 +4,8 @@ use super::snapshot::{Seen, Snapshot, columns, copies};
 use super::totals::{self, Sums};
 use super::{LargeStrainMemo, is_large, plan};
 use crate::body::{
-    Acts, Advice, Body, BodyError, Fields, Given, Giver, Link, Maxima, Memo, Reading, Received,
-    Resources,
+    Acts, Advice, Approach, Body, BodyError, Fields, Given, Giver, Link, Maxima, Memo, Reading,
+    Received, Resources,
 };
 use crate::method::large_strain::{Dynamics, Failure, Motion};
 use crate::port::WallCells;
@@ -237,6 +237,8 @@ impl Giver for MovingBody {
 }
 
 impl Maxima for MovingBody {}
+
+impl Approach for MovingBody {}
 
 impl Advice for MovingBody {
     fn notes(&self) -> Vec<String> {

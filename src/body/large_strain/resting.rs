@@ -7,7 +7,8 @@ use super::snapshot::{Seen, Snapshot, columns, copies};
 use super::totals::{self, Sums, moved_faces};
 use super::{is_large, plan};
 use crate::body::{
-    Acts, Advice, Body, BodyError, Fields, Given, Giver, Maxima, Memo, Reading, Received, Resources,
+    Acts, Advice, Approach, Body, BodyError, Fields, Given, Giver, Maxima, Memo, Reading, Received,
+    Resources,
 };
 use crate::inputs::InputLayout;
 use crate::laws::solid::large_strain::Thermal;
@@ -467,6 +468,8 @@ impl Body for RestingBody {
 impl Giver for RestingBody {}
 
 impl Maxima for RestingBody {}
+
+impl Approach for RestingBody {}
 
 impl Advice for RestingBody {
     fn notes(&self) -> Vec<String> {

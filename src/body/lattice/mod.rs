@@ -8,7 +8,8 @@ pub use forecast::LatticeForecast;
 pub use totals::offered_totals;
 
 use crate::body::{
-    Acts, Advice, Body, BodyError, Fields, Given, Giver, Maxima, Memo, Reading, Received, Resources,
+    Acts, Advice, Approach, Body, BodyError, Fields, Given, Giver, Maxima, Memo, Reading, Received,
+    Resources,
 };
 use crate::inputs::InputLayout;
 use crate::method::lattice::{Lattice, LatticeError, LatticeState, LatticeTotals};
@@ -181,6 +182,8 @@ impl Body for LatticeBody {
 impl Giver for LatticeBody {}
 
 impl Maxima for LatticeBody {}
+
+impl Approach for LatticeBody {}
 
 impl Advice for LatticeBody {
     fn notes(&self) -> Vec<String> {

@@ -24,7 +24,7 @@ use super::solid::{BodyLoads, Measure, PARTS_OF_A_FOOTPRINT, plan};
 use super::{
     Acts, Body, BodyError, Direct, Fields, Given, Linear, Memo, Reading, Received, point_quantities,
 };
-use crate::body::{Advice, Giver, Maxima, Resources};
+use crate::body::{Advice, Approach, Giver, Maxima, Resources};
 use crate::inputs::{InputLayout, InputPath};
 use crate::method::fem::NodalFields;
 use crate::method::reduced::ReducedSystem;
@@ -396,6 +396,8 @@ impl Body for ReducedBody {
 impl Giver for ReducedBody {}
 
 impl Maxima for ReducedBody {}
+
+impl Approach for ReducedBody {}
 
 impl Advice for ReducedBody {
     fn notes(&self) -> Vec<String> {

@@ -39,7 +39,7 @@ use super::{
     Acts, Body, BodyError, Conductor, Direct, Extreme, Fields, Given, Linear, Memo, Reading,
     Received,
 };
-use crate::body::{Advice, Giver, Maxima, Occasion, Resources};
+use crate::body::{Advice, Approach, Giver, Maxima, Occasion, Resources};
 use crate::coupling::FaceMeans;
 use crate::inputs::InputLayout;
 use crate::method::fem::{ElasticProblem, HeatFailure, Mesh, Plan, SolidFem, heat_mesh};
@@ -354,6 +354,8 @@ impl Maxima for SolidBody {
         self.check_highest(which, peak)
     }
 }
+
+impl Approach for SolidBody {}
 
 impl Advice for SolidBody {
     fn resolved_from(&self) -> f64 {

@@ -4,7 +4,7 @@ use impinge::limits::keyword;
 use serde_json::Value;
 
 /// Headings of `docs/scene.md` with a table, and where in the schema the table that they describe stands.
-pub const SECTIONS: [(&str, &str); 57] = [
+pub const SECTIONS: [(&str, &str); 58] = [
     ("The whole", ""),
     ("`fidelity`", "/$defs/Fidelity"),
     ("`solver`", "/$defs/Solver"),
@@ -21,6 +21,7 @@ pub const SECTIONS: [(&str, &str); 57] = [
     ("`shear_relaxation` of a material", "/$defs/Branch"),
     ("`shift` of a material", "/$defs/Shift"),
     ("`weibull` of a material", "/$defs/Weibull"),
+    ("`slow_growth` of `weibull`", "/$defs/SlowGrowth"),
     ("`fracture` of a material", "/$defs/Cracking"),
     ("`layers` of a solid", "/$defs/Layer"),
     ("`sph` of a solid", "/$defs/SphSettings"),

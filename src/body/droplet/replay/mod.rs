@@ -17,7 +17,7 @@ use crate::advice::MEASURED_FILMS;
 use crate::body::{
     Acts, Body, BodyError, Fields, Given, Link, Memo, Reading, Received, wall_quantities,
 };
-use crate::body::{Advice, Giver, Maxima, Occasion, Resources};
+use crate::body::{Advice, Approach, Giver, Maxima, Occasion, Resources};
 use crate::inputs::{InputLayout, InputPath};
 use crate::method::record::{Falling, Replay, ReplayPlan, ReplayTotals};
 use crate::method::sph::{Failure, ParticleFields, WarmPlace};
@@ -262,6 +262,8 @@ impl Giver for ReplayBody {
 }
 
 impl Maxima for ReplayBody {}
+
+impl Approach for ReplayBody {}
 
 impl Advice for ReplayBody {
     fn notes(&self) -> Vec<String> {
