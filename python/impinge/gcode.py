@@ -40,6 +40,12 @@ def write(
         raise ValueError("times do not ascend (allowed: two or more, each later than the last)")
     if np.any(volumes[1:] < 0.0):
         raise ValueError("a volume is negative (allowed: 0 and more)")
+    if not all(np.all(np.isfinite(of)) for of in (places, times, volumes, origin)):
+        raise ValueError("a place, time or volume is not finite (allowed: finite numbers)")
+    if not 0.0 < filament_diameter < 1.0:
+        raise ValueError(f"filament_diameter = {filament_diameter} (allowed: above 0, below 1 m)")
+    if len(title.splitlines()) > 1:
+        raise ValueError(f"title = {title!r} has several lines (allowed: one)")
     section = 0.25 * np.pi * filament_diameter**2
     fed = 1e3 * np.cumsum(np.r_[0.0, volumes[1:]]) / section
     shown = 1e3 * (places - [*origin, 0.0])

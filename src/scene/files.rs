@@ -50,11 +50,22 @@ fn places(source: &Source) -> Vec<Path> {
         .collect()
 }
 
+/// Returns true if links lead a name out of its folder: a scene of someone else would pack files of one's own.
+fn leaves(folder: &path::Path, relative: &path::Path) -> bool {
+    let own = if folder.as_os_str().is_empty() { path::Path::new(".") } else { folder };
+    match (own.canonicalize(), own.join(relative).canonicalize()) {
+        (Ok(folder), Ok(file)) => !file.starts_with(folder),
+        // What is not there is told when it is read.
+        _ => false,
+    }
+}
+
 /// Reads a file below a folder; the error is what is wrong and what is allowed.
 fn read(folder: &path::Path, name: &str) -> Result<String, [String; 2]> {
     let is_plain = |part: Component| matches!(part, Component::Normal(_));
     let relative = path::Path::new(name);
-    if name.is_empty() || name.contains('\\') || !relative.components().all(is_plain) {
+    let plain = !name.is_empty() && !name.contains('\\') && relative.components().all(is_plain);
+    if !plain || leaves(folder, relative) {
         let message = "the file is not below the folder of the scene".to_owned();
         return Err([message, "a file beside the scene, or in a folder below it".to_owned()]);
     }
@@ -67,4 +78,28 @@ fn read(folder: &path::Path, name: &str) -> Result<String, [String; 2]> {
         let message = format!("{} cannot be read: {error}", place.display());
         [message, "a readable text file in UTF-8".to_owned()]
     })
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use std::fs;
+    use std::os::unix::fs::symlink;
+
+    #[test]
+    fn links_out_of_the_folder_are_refused() {
+        let outer = tempfile::tempdir().unwrap();
+        let own = outer.path().join("scene");
+        fs::create_dir(&own).unwrap();
+        fs::write(outer.path().join("secret"), "G1").unwrap();
+        fs::write(own.join("a.gcode"), "G1").unwrap();
+        symlink(outer.path().join("secret"), own.join("out.gcode")).unwrap();
+        symlink(own.join("a.gcode"), own.join("in.gcode")).unwrap();
+        assert_eq!(read(&own, "a.gcode").unwrap(), "G1");
+        assert_eq!(read(&own, "in.gcode").unwrap(), "G1");
+        let [message, _] = read(&own, "out.gcode").unwrap_err();
+        assert!(message.contains("not below the folder"), "{message}");
+        let [message, _] = read(&own, "none.gcode").unwrap_err();
+        assert!(message.contains("cannot be read"), "{message}");
+    }
 }

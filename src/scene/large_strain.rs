@@ -121,7 +121,7 @@ pub enum Mechanics {
 
 /// Settings of smoothed particles of large strain.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, default)]
 pub struct ParticleSettings {
     /// Radius of supports, in distances of particles.
     #[schemars(transform = within(1.5, 6.0, "distances of particles", "").says(

@@ -196,15 +196,18 @@ fn temperatures_of_bodies_that_crack_are_estimated() {
     let faces = "top = { temperature = 300.0 }\nbottom = { clamped = true }";
     let near = "[[probe]]\nname = \"near\"\nin = \"plate\"\nat = [0.0, 0.0, -5e-5]\n\
                 gives = [\"temperature\"]";
-    let errors = |step: f64| -> f64 {
+    let errors = |step: f64, mesh: &str| -> f64 {
+        let shape = format!("{shape}{mesh}");
         let times = format!("stop_time = {}\nstep = {step}", 10.0 * step);
-        let text = scene(shape, &law, faces, near).replace("stop_time = 10.0\nstep = 1.0", &times);
+        let text = scene(&shape, &law, faces, near).replace("stop_time = 10.0\nstep = 1.0", &times);
         let scene = impinge::scene::parse(&text, "scene").unwrap();
         let (_, found) = estimates(&scene);
         found[0].worst().unwrap()
     };
-    let [quick, slow] = [errors(1e-6), errors(1e-2)];
+    let [quick, slow] = [1e-6, 1e-2].map(|step| errors(step, ""));
     assert!(quick > 0.05 && slow < 0.02, "{quick} {slow}");
+    let own = errors(1e-6, "\nmesh = { spacing = 5e-5, depth_spacing = 5e-5 }");
+    assert!(off(own, quick) < 1e-9, "{own} {quick}");
 }
 
 #[test]

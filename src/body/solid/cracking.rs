@@ -69,7 +69,7 @@ impl Cracking {
             counts: mesh.node_counts(),
             copies: mesh.copies(),
             width: (mesh.geometry == Geometry::Box).then_some(along_y * thickness),
-            sides: [[first_side(mesh), Side::Face], [Side::Face; 2]],
+            sides: sides(plan),
             most_change: PART_OF_BREAKING * breaking,
         })
     }
@@ -174,13 +174,19 @@ impl Cracking {
     }
 }
 
-/// Kind of the side from which the first axis of the section starts.
-fn first_side(mesh: &Mesh) -> Side {
-    match mesh.geometry {
-        Geometry::Axisymmetric => Side::Axis,
-        Geometry::Box if mesh.mirrored[0] => Side::Mirror,
-        Geometry::Box => Side::Face,
+/// Kinds of the section's sides. Cracks along a face that is held begin elsewhere.
+fn sides(plan: &Plan) -> [[Side; 2]; 2] {
+    let mesh: &Mesh = &plan.mesh;
+    let mut sides = [[Side::Face; 2]; 2];
+    for (face, _) in plan.supports.iter().filter(|(face, _)| face.axis != 1) {
+        sides[usize::from(face.axis == 2)][usize::from(face.high)] = Side::Held;
     }
+    match mesh.geometry {
+        Geometry::Axisymmetric => sides[0][0] = Side::Axis,
+        Geometry::Box if mesh.mirrored[0] => sides[0][0] = Side::Mirror,
+        Geometry::Box => {}
+    }
+    sides
 }
 
 /// Displacements of the section's nodes that supports, planes of symmetry and the axis hold.

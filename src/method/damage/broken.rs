@@ -11,6 +11,8 @@ const BROKEN: f64 = 0.9;
 pub enum Side {
     /// A face of the body.
     Face,
+    /// A face that is held, wholly or along its normal.
+    Held,
     /// A plane of symmetry: what touches it continues in the other half.
     Mirror,
     /// The axis of a meridian section.
@@ -68,7 +70,7 @@ impl Section {
     }
 
     /// Depth of a region [m]: how far it reaches from the face that it touches, from the nearest one if it touches several
-    /// or none.
+    /// or none; zero if all faces are held.
     fn depth(&self, region: &[usize], sides: [[Side; 2]; 2]) -> f64 {
         let faces = (0..4).filter(|face| sides[face / 2][face % 2] == Side::Face);
         let reaches = faces.map(|face| {
@@ -76,6 +78,9 @@ impl Section {
             distances.fold([f64::INFINITY, 0.0], |[near, far], d| [near.min(d), far.max(d)])
         });
         let reaches: Vec<[f64; 2]> = reaches.collect();
+        if reaches.is_empty() {
+            return 0.0;
+        }
         let nearest = reaches.iter().map(|[near, _]| *near).fold(f64::INFINITY, f64::min);
         let touched = reaches.iter().filter(|[near, _]| *near == nearest);
         touched.map(|[_, far]| *far).fold(f64::INFINITY, f64::min)

@@ -101,7 +101,8 @@ impl Line {
         motion: &Motion,
     ) -> Result<Vec<Arrival>, Failure> {
         let flow = motion.least_flow();
-        if flow < -motion.rounding() {
+        let unseen = SLACK * self.plan.most / motion.duration;
+        if flow < -motion.rounding() - unseen {
             return Err(Failure::NegativeFlow { flow });
         }
         let begin = motion.outlet(0.0);

@@ -201,7 +201,9 @@ impl Strip {
         self.notch.is_some_and(|notch| {
             let [left, right] = [a[0] - notch.at, b[0] - notch.at];
             let crosses = left * right < 0.0;
-            crosses && (a[1] * right - b[1] * left) / (right - left) < notch.depth
+            crosses
+                && (a[1] * right - b[1] * left) / (right - left)
+                    < notch.depth - ROUNDING * self.spacing
         })
     }
 }

@@ -221,7 +221,11 @@ fn linearise(solid: &mut Solid, has_history: bool) {
         .iter_mut()
         .chain(solid.layers.iter_mut().flatten().map(|layer| &mut layer.material));
     choices.for_each(|choice: &mut MaterialChoice| {
-        let own = choice.material().linearised(temperature, !has_history);
+        let material = choice.material();
+        let mut own = material.linearised(temperature, !has_history);
+        // The mesh of a body that cracks follows from its law.
+        own.fracture.cracking = material.fracture.cracking;
+        own.fracture.toughness = material.fracture.toughness;
         *choice = MaterialChoice::of(own);
     });
 }

@@ -104,6 +104,10 @@ fn words_of(line: &str) -> Result<Words, Refusal> {
             let message = format!("`{letter}` stands without a number");
             return Err((message, "words of a letter and a number, as in G1 X10 Y5".to_owned()));
         };
+        if next.starts_with(['e', 'E']) {
+            let message = format!("`{letter}{value}{}`: an exponent, or a word E", &next[..1]);
+            return Err((message, "numbers without exponents, and a space before E".to_owned()));
+        }
         words.push((letter.to_ascii_uppercase(), value));
         rest = next.trim_start();
     }
@@ -123,6 +127,14 @@ impl Machine<'_> {
         let is_code = |&&(letter, _): &&(char, f64)| matches!(letter, 'G' | 'M' | 'T');
         let codes: Vec<_> = words.iter().filter(is_code).copied().collect();
         let values: Words = words.iter().filter(|word| !is_code(word)).copied().collect();
+        let is_again =
+            |(n, word): (usize, &(char, f64))| values[..n].iter().any(|old| old.0 == word.0);
+        if let Some((letter, _)) =
+            values.iter().enumerate().find(|own| is_again(*own)).map(|own| *own.1)
+        {
+            let message = format!("`{letter}` is given twice");
+            return Err((message, "each letter once in a line".to_owned()));
+        }
         if codes.is_empty() && !values.is_empty() {
             return Err(("the line has no command".to_owned(), UNDERSTOOD.to_owned()));
         }
