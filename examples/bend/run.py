@@ -28,7 +28,7 @@ DRAWINGS = {
     "narrow hairpin": hairpin(1.5e-3),
     "wide hairpin": hairpin(4e-3),
 }
-# Where the nozzle may leave the drawing: parts of its length.
+# The nozzle may leave the drawing between these parts of its length.
 REGIONS = {
     "corner of 90°": (0.3, 0.95),
     "narrow hairpin": (0.2, 0.8),

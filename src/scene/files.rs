@@ -15,7 +15,7 @@ use super::locate::{Path, Source};
 const HEADING: &str = "\n# The texts of the files named above.\n";
 
 /// Adds the texts of the files that a scene's text names to it; `path` is the place of the scene, `file` its name in
-/// messages. Text that is no scene is left as it is.
+/// messages. Text that is no scene is returned unchanged.
 pub fn with_files(text: String, path: &path::Path, file: &str) -> Result<String, SceneError> {
     let Ok(source) = Source::parse(&text, file) else { return Ok(text) };
     let folder = path.parent().unwrap_or_else(|| path::Path::new(""));
@@ -55,7 +55,7 @@ fn leaves(folder: &path::Path, relative: &path::Path) -> bool {
     let own = if folder.as_os_str().is_empty() { path::Path::new(".") } else { folder };
     match (own.canonicalize(), own.join(relative).canonicalize()) {
         (Ok(folder), Ok(file)) => !file.starts_with(folder),
-        // What is not there is told when it is read.
+        // Reading a file that does not exist reports it.
         _ => false,
     }
 }

@@ -34,10 +34,10 @@ pub struct Lattice {
     /// A cut from the lower face.
     #[schemars(extend("otherwise" = "none"))]
     pub notch: Option<LatticeNotch>,
-    /// How the strip is held and loaded: `ends`, pulled between rigid platens, or three-point bending.
+    /// Supports and load: `ends`, pulled between rigid platens, or three-point bending.
     #[schemars(extend("condition" = "or `{ three_point = { span = L } }`"))]
     pub support: LatticeSupport,
-    /// What the input prescribes: the displacement of the load, or the opening of the notch at the lower face. The
+    /// Quantity that the input prescribes: the displacement of the load, or the opening of the notch at the lower face. The
     /// opening passes points at which the displacement would go back.
     #[serde(default)]
     #[schemars(extend("condition" = "`opening` with `notch`"))]
@@ -102,7 +102,7 @@ pub struct LatticeNotch {
     pub at: f64,
 }
 
-/// How a lattice is held and loaded.
+/// Supports and load of a lattice.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum LatticeSupport {
@@ -121,7 +121,7 @@ pub struct ThreePoint {
     pub span: f64,
 }
 
-/// What the input of a lattice prescribes.
+/// Quantity that the input of a lattice prescribes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum LatticeControl {

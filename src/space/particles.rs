@@ -90,7 +90,6 @@ fn parts(mesh: &Mesh) -> Vec<Vec<Part>> {
 /// Particles with the supports of all.
 struct Around<'a> {
     nodes: &'a [[f64; 3]],
-    support: f64,
     /// Radii of supports [m].
     reach: Vec<f64>,
     /// Volumes, areas in a plane and in a meridian section.
@@ -120,7 +119,7 @@ impl<'a> Around<'a> {
         let bins = Bins::new(mesh.form.axes(), &supports, [mean; 3]);
         let flat = |part: &Part| part.weight / mesh.form.depth(part.at);
         let volumes = parts.iter().map(|parts| parts.iter().map(flat).sum()).collect();
-        Self { nodes: &mesh.nodes, support, reach, volumes, bins }
+        Self { nodes: &mesh.nodes, reach, volumes, bins }
     }
 
     fn neighbours<const D: usize>(&self, axes: [usize; D], node: usize) -> Vec<Neighbour<D>> {
@@ -146,12 +145,7 @@ impl<'a> Around<'a> {
         parts: &[Part],
     ) -> Result<Vec<Point>, Refused> {
         let neighbours = self.neighbours(axes, node);
-        let few = || Refused::FewNeighbours {
-            at: self.nodes[node],
-            neighbours: neighbours.len(),
-            terms: D + 1,
-            support: self.support,
-        };
+        let few = || Refused::FewParticles { at: self.nodes[node], neighbours: neighbours.len() };
         let fits = fits::<D, M>(&neighbours).ok_or_else(few)?;
         let of_part = |part: &Part| {
             let offset = axes.map(|a| (part.at[a] - self.nodes[node][a]) / self.reach[node]);
@@ -172,7 +166,7 @@ impl<'a> Around<'a> {
     }
 }
 
-/// What the displacement of a neighbour adds to the derivatives at a particle.
+/// Share of a neighbour's displacement in the derivatives at a particle.
 struct Fit<const D: usize, const M: usize> {
     first: [f64; D],
     /// Factors of the [`quadratics`].
@@ -368,6 +362,14 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn lone_particles_are_refused() {
+        let mesh = Mesh::of_box(Form::Plane, [0.0; 3], [1.0, 0.0, 1.0], [4, 1, 4]);
+        let refused = particles(&mesh, 0.9).unwrap_err();
+        assert!(matches!(refused, Refused::FewParticles { neighbours: 0, .. }), "{refused}");
+        assert!(refused.to_string().contains("raise `sph.support`"), "{refused}");
     }
 
     #[test]

@@ -96,7 +96,7 @@ def test_few_runs_find_the_path_of_a_hairpin(found, scene):
     best, _ = found
     assert best.simulations <= 60 and best.ratio > 7.3
     assert best.best.largest < 0.15 * best.diameter and best.best.gap < 0.1 * best.diameter
-    # What is reported is what the unit says of that path.
+    # The report has the values that the unit gives on that path.
     steps = np.diff(best.times)
     with Unit(scene) as unit:
         unit["ink.nozzle_z"] = best.height

@@ -259,7 +259,7 @@ fn scenes_bring_the_files_that_they_name() {
     }
 }
 
-/// What `check` warns of: unusual heights, targets beyond the plate, strands without fluid; large and coarse meshes, and
+/// `check` warns of unusual heights, targets beyond the plate, strands without fluid; large and coarse meshes, and
 /// contacts near the freezing point.
 #[test]
 fn doubtful_strands_are_warned_of() {

@@ -103,13 +103,13 @@ fn larger_beams_are_weaker() {
 }
 
 /// Half-notched beam 4 of D. Grégoire et al. 2013 (doi 10.1002/nag.2187) with its published E, f_t and G_f and
-/// Wittmann's bilinear law (1/4, 0.75 G_f/f_t, 5 G_f/f_t). With 40 particles over the depth loads at 0.05 to 0.2 mm
-/// are within the envelope of the tests, the peak is at its upper end; with 20 up to 10 % above it. The peak comes at
+/// Wittmann's bilinear law (1/4, 0.75 G_f/f_t, 5 G_f/f_t). With 40 particles over the depth the peak and
+/// loads at 0.05 to 0.2 mm are within the envelope of the tests; with 20 up to 10 % above it. The peak comes at
 /// 28 µm instead of 18 to 23 µm.
 #[test]
 fn published_beam_is_within_its_tests() {
     let (strength, energy, young, poisson) = (3.9e6, 143.2, 37e9, 0.2);
-    for (spacing, slack) in [(2.5e-3, 1.1), (1.25e-3, 1.005)] {
+    for (spacing, slack) in [(2.5e-3, 1.1), (1.25e-3, 1.0)] {
         // A straight crack takes f (s f/E + w₂ + α₁ w₃)/(√3 (1 − ν)) per area.
         let opening =
             3.0_f64.sqrt() * (1.0 - poisson) * energy / strength - spacing * strength / young;

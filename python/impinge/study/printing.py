@@ -16,7 +16,7 @@ _SAVED = 24  # states of the path that others branch off from
 
 @dataclass(frozen=True)
 class Job:
-    """What all runs share: the unzipped unit, its filament, and the motion of the nozzle.
+    """Data of all runs: the unzipped unit, its filament, and the motion of the nozzle.
 
     diameter: of the nozzle; height: of its outlet [m]; speed: along its path [m/s]; flow [m³/s];
     samples: number of places along the target at which distances are told.
@@ -34,7 +34,7 @@ class Job:
 
 @dataclass(frozen=True)
 class Print:
-    """What a run laid: deviations and gap [m], lag at the end [m], part of the path that was
+    """Strand of a run: deviations and gap [m], lag at the end [m], part of the path that was
     followed, steps that were taken, and distances along the target in diameters."""
 
     mean: float
@@ -86,7 +86,7 @@ class Printer:
         self.unit.close()
 
     def has(self, trunk: np.ndarray) -> bool:
-        """Whether states of this path are kept."""
+        """Returns true if states of this path are kept."""
         return self._trunk is not None and np.array_equal(self._trunk, trunk)
 
     def run(self, places: np.ndarray, give_up: float = np.inf, keep: bool = False) -> Print:

@@ -37,7 +37,7 @@ const ALLOWED: &str = "-0.999999999 to 0.3333333333333333";
     expecting = "a table, `{ model = \"openings\", strength = f, openings = [w2, w3], share = a }`"
 )]
 pub struct SofteningKeys {
-    /// What the law is over.
+    /// Measure over which the law softens.
     pub model: SofteningModel,
     /// Tensile strength f_t of links [Pa].
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn a_crack_from_face_to_face_is_as_deep_as_the_body() {
+    fn through_crack_has_the_depth_of_the_body() {
         let (section, damage) = broken(&[0, 1, 2, 3, 4].map(|j| [1, j]));
         assert!((section.cracks(&damage, FACES).depth - 4e-3).abs() < 1e-15);
     }

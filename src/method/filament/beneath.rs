@@ -89,7 +89,7 @@ mod tests {
 
     /// Every segment within its half-width of a place is found, on a random walk with a wide heap and interruptions.
     #[test]
-    fn all_segments_under_a_place_are_found() {
+    fn search_finds_all_segments_under_a_place() {
         let mut strand = Strand::new(0, [0.0; 3]);
         let mut seed = 7_u64;
         let mut random = || {

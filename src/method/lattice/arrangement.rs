@@ -151,7 +151,8 @@ impl Strip {
         self.cut(Particles { places, pairs, spacing, area })
     }
 
-    /// Takes the particles of the notch and the links across it out.
+    /// Takes the particles of the notch out, and of the links across it the part of their facet that is in it: stiffness
+    /// and strength follow its depth continuously.
     fn cut(&self, whole: Particles) -> Particles {
         let mut number = Vec::with_capacity(whole.places.len());
         let mut places = Vec::new();
@@ -162,8 +163,8 @@ impl Strip {
         }
         let stays = |pair: &Pair| {
             let [Some(a), Some(b)] = pair.ends.map(|i| number[i]) else { return None };
-            let is_cut = self.crosses_notch(places[a], places[b]);
-            (!is_cut).then_some(Pair { ends: [a, b], ..*pair })
+            let left = 1.0 - self.part_in_notch(pair.facet, [places[a], places[b]]);
+            (left > ROUNDING).then_some(Pair { ends: [a, b], facet: left * pair.facet })
         };
         let pairs = whole.pairs.iter().filter_map(stays).collect();
         Particles { places, pairs, ..whole }
@@ -197,14 +198,15 @@ impl Strip {
         })
     }
 
-    fn crosses_notch(&self, a: [f64; 2], b: [f64; 2]) -> bool {
-        self.notch.is_some_and(|notch| {
-            let [left, right] = [a[0] - notch.at, b[0] - notch.at];
-            let crosses = left * right < 0.0;
-            crosses
-                && (a[1] * right - b[1] * left) / (right - left)
-                    < notch.depth - ROUNDING * self.spacing
-        })
+    /// Part of the facet of a link that is in the notch: the facet stands across the middle of the link.
+    fn part_in_notch(&self, facet: f64, [a, b]: [[f64; 2]; 2]) -> f64 {
+        let Some(notch) = self.notch else { return 0.0 };
+        if (a[0] - notch.at) * (b[0] - notch.at) >= 0.0 {
+            return 0.0;
+        }
+        let height = facet * (b[0] - a[0]).abs() / distance(a, b);
+        let lower = 0.5 * (a[1] + b[1] - height);
+        ((notch.depth - lower) / height).clamp(0.0, 1.0)
     }
 }
 

@@ -5,7 +5,7 @@ use super::arrangement::{Notch, Particles, Strip};
 /// Components of a particle's motion: u, w [m] and the rotation θ [rad].
 pub const COMPONENTS: usize = 3;
 
-/// How a strip is held and loaded.
+/// Supports and load of a strip.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Support {
     /// On two supports at the lower face, at equal distances from x = 0, loaded downwards at the upper face at x = 0.

@@ -10,7 +10,7 @@ use super::{LatticeError, LatticeState, LatticeTotals};
 use crate::laws::fracture::SofteningLaw;
 use crate::runtime::allowance::Allowance;
 
-/// What is prescribed.
+/// Prescribed quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Control {
     /// Displacement of the load.

@@ -68,7 +68,7 @@ impl LatticeConstant {
     }
 }
 
-/// Keys tell constants apart.
+/// Constants of one key are equal.
 impl PartialEq for LatticeConstant {
     fn eq(&self, other: &Self) -> bool {
         self.key == other.key

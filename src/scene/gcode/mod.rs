@@ -101,7 +101,7 @@ mod tests {
         }
     }
 
-    /// What was drawn back comes first; then fluid comes again.
+    /// Filament that was drawn back is fed first; only then does fluid come again.
     #[test]
     fn retractions_bring_no_fluid() {
         let text = "M83\nG0 X0 Y0\nG1 X10 E1 F600\nG1 E-2 F1200\nG0 X20 F6000\nG1 E2 F1200\nG4 P500\nG1 X30 E1 F600";

@@ -112,7 +112,7 @@ fn patch<const N: usize>(
         terms
     };
     let terms: Vec<[f64; N]> = own.iter().map(terms).collect();
-    let few = Refused::FewNeighbours { at, neighbours: own.len(), terms: N, support: 0.0 };
+    let few = Refused::FewParticles { at, neighbours: own.len() - 1 };
     let moments = Factor::of(&moments(&terms)).ok_or(few)?;
     let volume = points.iter().map(|point| point.weight).sum();
     Ok(Patch { nodes: own, terms, moments, volume })

@@ -9,6 +9,8 @@ pub enum Refused {
     Setting(&'static str),
     /// Too few nodes, or nodes on a line or plane, reach a place.
     FewNeighbours { at: [f64; 3], neighbours: usize, terms: usize, support: f64 },
+    /// The neighbours of a particle lie on a line or plane.
+    FewParticles { at: [f64; 3], neighbours: usize },
     /// The cell of a node has no volume.
     Cell { at: [f64; 3], volume: f64 },
 }
@@ -21,6 +23,11 @@ impl fmt::Display for Refused {
                 f,
                 "the {neighbours} nodes that reach ({x}, {y}, {z}) do not determine a polynomial of {terms} terms; \
                  raise `support` above {support}, lower `basis`, or refine the mesh across its thinnest part"
+            ),
+            Self::FewParticles { at: [x, y, z], neighbours } => write!(
+                f,
+                "the {neighbours} particles around ({x}, {y}, {z}) do not determine a gradient; raise `sph.support`, or \
+                 refine the mesh across its thinnest part"
             ),
             Self::Cell { at: [x, y, z], volume } => write!(
                 f,

@@ -1,4 +1,4 @@
-//! What a step transfers to the wall.
+//! Impulses that a step transfers to the wall.
 
 use super::Stepper;
 
