@@ -120,12 +120,12 @@ def contraction(folder, given, taking, step, is_held=False, thickness=(1e-3, 1e-
 
     component.acceleration.next = watched
     with master:
-        master._engine.inputs[:] = 0.0
-        master._engine.max_iterations = 12
-        master._begin()
-        master._engine.history.nodes[-1][1][:] = 1.0  # something to iterate on
+        master._march.engine.inputs[:] = 0.0
+        master._march.engine.max_iterations = 12
+        master._march.begin()
+        master._march.engine.history.nodes[-1][1][:] = 1.0  # something to iterate on
         with pytest.warns(MasterWarning, match="does not converge"):
-            master._step(step)
+            master._march.step(step)
     ratios = np.array(residuals[1:]) / np.array(residuals[:-1])
     return float(np.median(ratios[3:8]))
 
