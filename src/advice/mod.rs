@@ -4,6 +4,7 @@
 mod arrangement;
 mod cold;
 mod cracks;
+mod drying;
 mod films;
 mod flaws;
 mod freezing;
@@ -52,6 +53,7 @@ fn found(scene: &Scene, (source, names_lines): (&Source, bool), schema: &Schema)
     let cold = scene.cold();
     values::review(&mut reviewer, schema, cold);
     phases::review(&mut reviewer, cold);
+    drying::review(&mut reviewer);
     viscosity::review(&mut reviewer);
     substances::review(&mut reviewer, schema);
     relations::review(&mut reviewer);

@@ -15,7 +15,7 @@ mod property;
 pub mod solid;
 
 pub use constants::Constants;
-pub use fluid::{Fluid, Freezing, Frozen, Viscosity};
+pub use fluid::{Evaporation, Fluid, Freezing, Frozen, SphericalCap, Viscosity};
 pub use fracture::{Brittleness, Extent, FlawStatistics, Weibull};
 pub use heat::{
     Conduction, ConductionError, Enthalpy, EnthalpyPoint, Melting, MeltingError,

@@ -159,6 +159,27 @@ pub static LATENT_HEAT: Range<'static> = Range {
     highest: 5e6, // boron 4.6e6
     mistakes: Cow::Borrowed(&[scaled("kJ/kg", 1e3)]),
 };
+pub static EVAPORATION_HEAT: Range<'static> = Range {
+    what: "the heat of evaporation",
+    unit: "J/kg",
+    lowest: 2e4,  // helium 2.1e4
+    highest: 1e8, // carbon 6e7
+    mistakes: Cow::Borrowed(&[scaled("kJ/kg", 1e3)]),
+};
+pub static MOLAR_MASS: Range<'static> = Range {
+    what: "a molar mass",
+    unit: "kg/mol",
+    lowest: 2e-3, // hydrogen
+    highest: 1.0, // volatile oligomers
+    mistakes: Cow::Borrowed(&[scaled("g/mol", 1e-3)]),
+};
+pub static VAPOUR_DIFFUSIVITY: Range<'static> = Range {
+    what: "the diffusivity of a vapour in air",
+    unit: "m²/s",
+    lowest: 1e-6,  // large molecules 3e-6
+    highest: 1e-4, // hydrogen 7e-5
+    mistakes: Cow::Borrowed(&[scaled("cm²/s", 1e-4)]),
+};
 pub static YOUNG: Range<'static> = Range {
     what: "Young's modulus",
     unit: "Pa",

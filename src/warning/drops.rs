@@ -25,6 +25,11 @@ rules! {
      liquid";
     "do not rely on heat and forces from first contact on"
 
+    Check drop_dries(below, temperature, time, shorter)
+    "a drop at rest on `{below}` at {temperature} K would dry in about {time} s in still, dry air, and the model has no \
+     evaporation";
+    "do not rely on volume, shape and heat beyond {shorter} s after the impact; humid air slows drying"
+
     Check skin_thinner_than_particles(thickness, finer_spacing)
     "when the drop has spread, some {thickness} m of it are frozen, less than half a distance of particles, and hold nothing \
      fast: it recoils farther than it would, and ends smaller";

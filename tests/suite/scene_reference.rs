@@ -181,6 +181,13 @@ const SECTIONS: [Section; 56] = [
     ),
     ("`[body.NAME]` of a droplet", DROP, "diameter =", "zz = 1\ndiameter =", &["kind"]),
     ("`fluid` of a droplet", DROP, "fluid = {", "fluid = { zz = 1,", &[]),
+    (
+        "`evaporation` of a fluid",
+        DROP,
+        "viscosity = 1e-3",
+        "viscosity = 1e-3, evaporation = { zz = 1 }",
+        &[],
+    ),
     ("`frozen` of a fluid", DROP, "viscosity = 1e-3", "viscosity = 1e-3, frozen = { zz = 1 }", &[]),
     (
         "`arrhenius` of a viscosity",

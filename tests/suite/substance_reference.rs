@@ -24,7 +24,7 @@ const SOLID: [Column; 6] = [
     ("expansion", "expansion [1e-6/K]", 1e-6),
 ];
 
-const FLUID: [Column; 10] = [
+const FLUID: [Column; 13] = [
     ("density", "density [kg/m³]", 1.0),
     ("viscosity", "viscosity [Pa s]", 1.0),
     ("specific_heat", "specific heat [J/(kg K)]", 1.0),
@@ -35,6 +35,9 @@ const FLUID: [Column; 10] = [
     ("frozen.specific_heat", "frozen: specific heat [J/(kg K)]", 1.0),
     ("frozen.conductivity", "frozen: conductivity [W/(m K)]", 1.0),
     ("boils_at", "boils [K]", 1.0),
+    ("evaporation.latent_heat", "evaporation: latent heat [kJ/kg]", 1e3),
+    ("evaporation.molar_mass", "evaporation: molar mass [kg/mol]", 1.0),
+    ("evaporation.diffusivity", "evaporation: diffusivity [m²/s]", 1.0),
 ];
 
 fn float(value: &Value) -> f64 {

@@ -1,8 +1,10 @@
 //! Laws of fluids: the constants of a droplet's liquid, its viscosity, and the speeds that follow from them.
 
+mod evaporation;
 mod frozen;
 pub mod viscosity;
 
+pub use evaporation::{Evaporation, SphericalCap};
 pub use frozen::Frozen;
 pub use viscosity::Viscosity;
 
@@ -71,6 +73,10 @@ pub struct Fluid {
     #[schemars(transform = temperature().plausible(&plausible::BOILING)
         .otherwise("none: no warning"))]
     pub boils_at: Option<f64>,
+    /// Evaporation, which the model ignores: scenes whose drops would dry are warned of.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("otherwise" = "none: no warning", "condition" = "with `boils_at`"))]
+    pub evaporation: Option<Evaporation>,
 }
 
 /// Freezing of a fluid, with the constants of the frozen one.

@@ -78,9 +78,14 @@ impl Motion {
     }
 }
 
-/// An amount of fluid that reached a segment, with the impulse that it brought [N s].
+/// An amount of fluid that reached a segment.
 pub struct Arrival {
     pub segment: usize,
+    /// [m³]
+    pub volume: f64,
+    /// Mean time of the arrival [s].
+    pub time: f64,
+    /// Impulse that it brought [N s].
     pub impulse: [f64; 3],
 }
 
@@ -181,8 +186,10 @@ impl Line {
         let moves_on = path >= SLOW * speed * duration;
         let is_new = last.is_none_or(|last| last.is_heap && last.volume >= whole && moves_on);
         let mut segment = if is_new { next() } else { open };
+        let gap = end[2] - segment.base;
+        let laid_before = laid_width(&segment, gap);
         segment.path += path;
-        segment.end = touch;
+        (segment.end, segment.outlet) = (touch, end[2]);
         let middle = strand.time + 0.5 * (piece.from + piece.to);
         let part = piece.volume / (segment.volume + piece.volume);
         segment.born += part * (middle - segment.born);
@@ -193,8 +200,10 @@ impl Line {
         strand.supplied += heat;
         strand.volume += piece.volume;
         strand.touch = touch;
-        let width = laid_width(&segment, end[2] - segment.base);
-        segment.half_width = segment.half_width.max(0.5 * width);
+        // What has spread so far stays beyond the width as laid, whichever pieces the fluid came in.
+        let laid = laid_width(&segment, gap);
+        let spread = segment.half_width + 0.5 * (laid - laid_before);
+        segment.half_width = spread.max(0.5 * laid);
         let is_long = !segment.is_heap || segment.path >= segment.width();
         let is_complete = piece.is_full && is_long && segment.volume >= whole;
         strand.open = if is_complete { 0.0 } else { 1.0 };
@@ -208,7 +217,7 @@ impl Line {
         strand.set(index, &segment);
         let mass = self.plan.fluid.density * piece.volume;
         let impulse = [velocity[0], velocity[1], velocity[2] - speed].map(|part| mass * part);
-        Ok(Arrival { segment: index, impulse })
+        Ok(Arrival { segment: index, volume: piece.volume, time: middle, impulse })
     }
 
     /// Height at which fluid touches down [m], at the speeds of the nozzle and of the fluid in it: that of a strand as wide
@@ -235,7 +244,7 @@ impl Line {
     }
 
     /// Finds on what a segment lies: the highest of the `older` ones under its middle that the outlet clears, or the plate.
-    /// Neighbours along the strand, closer than its width, are not below it.
+    /// Neighbours along the strand, closer than its width, are not below it unless the outlet has risen since.
     fn settled(
         &self,
         (strand, beneath): (&Strand, &mut Beneath),
@@ -248,9 +257,15 @@ impl Line {
         for n in beneath.near(place) {
             let older = strand.segment(n);
             let apart = beneath.apart(n, (strand, segment.start));
-            let clears = outlet - older.top() > CLEARANCE * self.plan.diameter;
+            let clearance = CLEARANCE * self.plan.diameter;
+            let clears = outlet - older.top() > clearance;
+            let has_risen = outlet - older.outlet > clearance;
             let is_under = older.distance(place) <= older.half_width;
-            if apart > older.width() && clears && is_under && older.top() > settled.base {
+            if (apart > older.width() || has_risen)
+                && clears
+                && is_under
+                && older.top() > settled.base
+            {
                 (settled.base, settled.below) = (older.top(), Some(n));
             }
         }
@@ -261,6 +276,9 @@ impl Line {
 /// Width with which a segment is laid [m]: as wide as high, or pressed to the gap below the outlet.
 fn laid_width(segment: &Segment, gap: f64) -> f64 {
     let Segment { volume, path, is_heap, .. } = *segment;
+    if volume == 0.0 {
+        return 0.0;
+    }
     if is_heap {
         // As long as wide, until the nozzle has gone further.
         let free = volume.cbrt().min((volume / path).sqrt());

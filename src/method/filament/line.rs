@@ -125,7 +125,7 @@ impl Line {
         strand.cell_impulse.fill([0.0; 3]);
         let feet = self.footprints.of(strand, self.plan.cells.as_ref());
         self.exchange_heat(strand, (begin, duration), around, &feet);
-        self.exchange_impulse(strand, &arrivals, duration, &feet);
+        self.exchange_impulse(strand, &arrivals, (begin, duration), &feet);
         Ok(())
     }
 
@@ -225,14 +225,16 @@ impl Line {
         &self,
         strand: &mut Strand,
         arrivals: &[Arrival],
-        duration: f64,
+        (begin, duration): (f64, f64),
         feet: &[Arc<Footprint>],
     ) {
-        let weight = -self.plan.fluid.density * self.plan.gravity * duration;
+        let weight = -self.plan.fluid.density * self.plan.gravity;
+        let resting = weight * duration;
         let mut loads: Vec<[f64; 3]> =
-            strand.segments().map(|segment| [0.0, 0.0, weight * segment.volume]).collect();
-        for Arrival { segment, impulse } in arrivals {
-            add(&mut loads[*segment], *impulse, 1.0);
+            strand.segments().map(|segment| [0.0, 0.0, resting * segment.volume]).collect();
+        for Arrival { segment, volume, time, impulse } in arrivals {
+            let before = weight * volume * (time - begin);
+            add(&mut loads[*segment], [impulse[0], impulse[1], impulse[2] - before], 1.0);
         }
         for n in (0..strand.len()).rev() {
             let load = loads[n];

@@ -20,6 +20,8 @@ pub struct Segment {
     pub born: f64,
     /// Length of its path [m].
     pub path: f64,
+    /// Height of the outlet above the plate as its last fluid came [m].
+    pub outlet: f64,
     /// True for a heap, which the nozzle piles up while it hardly moves.
     pub is_heap: bool,
     /// The segment on which it lies; `None` on the plate.

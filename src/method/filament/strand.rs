@@ -43,6 +43,7 @@ pub struct Strand {
     half_width: Vec<f64>,
     born: Vec<f64>,
     path: Vec<f64>,
+    outlet: Vec<f64>,
     /// 1 for heaps, 0 otherwise.
     heap: Vec<f64>,
     /// Place of the segment below, plus one; 0 on the plate.
@@ -62,7 +63,7 @@ impl Strand {
     }
 
     /// Numbers of a segment in the state.
-    pub const PER_SEGMENT: usize = 2 + 2 + 1 + 1 + LAYERS + 5;
+    pub const PER_SEGMENT: usize = 2 + 2 + 1 + 1 + LAYERS + 6;
 
     /// An empty strand with room for the segments of a state of this length; `None` if no strand above the same cells
     /// has it.
@@ -85,6 +86,7 @@ impl Strand {
             half_width: numbers.clone(),
             born: numbers.clone(),
             path: numbers.clone(),
+            outlet: numbers.clone(),
             heap: numbers.clone(),
             below: numbers,
             ..self
@@ -111,6 +113,7 @@ impl Strand {
             half_width: self.half_width[n],
             born: self.born[n],
             path: self.path[n],
+            outlet: self.outlet[n],
             is_heap: self.heap[n] != 0.0,
             below: (below > 0.0).then(|| below as usize - 1),
         }
@@ -127,6 +130,7 @@ impl Strand {
             &mut self.half_width,
             &mut self.born,
             &mut self.path,
+            &mut self.outlet,
             &mut self.heap,
             &mut self.below,
         ];
@@ -143,6 +147,7 @@ impl Strand {
         self.half_width[n] = segment.half_width;
         self.born[n] = segment.born;
         self.path[n] = segment.path;
+        self.outlet[n] = segment.outlet;
         self.heap[n] = if segment.is_heap { 1.0 } else { 0.0 };
         self.below[n] = segment.below.map_or(0.0, |below| (below + 1) as f64);
     }
@@ -183,7 +188,7 @@ impl Strand {
             return Err(format!("segment {n} has no length"));
         }
         let born = 0.0 <= segment.born && segment.born <= self.time;
-        if !(born && segment.path >= 0.0 && segment.base >= 0.0) {
+        if !(born && segment.path >= 0.0 && segment.base >= 0.0 && segment.outlet >= 0.0) {
             return Err(format!("segment {n} has a time, a length or a height out of bounds"));
         }
         Ok(())
@@ -229,6 +234,10 @@ impl Fields for Strand {
             (segment("half_width", "half of the width [m]", 1), &mut self.half_width),
             (segment("born", "mean time at which its fluid came [s]", 1), &mut self.born),
             (segment("path", "length of the path [m]", 1), &mut self.path),
+            (
+                segment("outlet", "height of the outlet as its last fluid came [m]", 1),
+                &mut self.outlet,
+            ),
             (segment("heap", "1 for heaps", 1), &mut self.heap),
             (segment("below", "number of the segment below, from 1; 0: plate", 1), &mut self.below),
         ]

@@ -233,6 +233,31 @@ fn stacks_load_their_lowest_layer() {
     }
 }
 
+/// A wall laid there and back bears its own height wherever segments end, with the flow stopped at turns or not.
+#[test]
+fn walls_of_any_length_bear_their_height() {
+    let line = Line::new(LinePlan { most: 2e-2, ..plan(CONCRETE, 0.02) });
+    let around = Around { surface: &Surface::default(), air: 300.0 };
+    let flow = 0.1 * line.plan().outlet();
+    for duration in [3.0, 3.7, 4.1, 4.43, 5.3] {
+        let mut strand = line.start([0.0, 0.0, 0.012]);
+        for layer in 0..4 {
+            let height = 0.012 * f64::from(layer + 1);
+            let back = layer % 2 == 1;
+            let (from, speed) = if back { (0.1 * duration, -0.1) } else { (0.0, 0.1) };
+            let pass = along(duration, (from, height), speed, flow);
+            let rise = Motion {
+                flow: [0.0; 3],
+                ..along(0.1, (from + speed * duration, height), 0.0, 0.0)
+            };
+            line.advance(&mut strand, &[pass, rise], &around).unwrap();
+        }
+        let expected = 2300.0 * 9.81 * 0.048 / (3.0_f64.sqrt() * 800.0);
+        let found = line.totals(&strand).bearing;
+        assert!((found / expected - 1.0).abs() < 1e-6, "{duration} s: {found} {expected}");
+    }
+}
+
 /// Heat that leaves the segments reaches the plate or the air, and the plate's cells get all of it.
 #[test]
 fn heat_and_volume_balance() {
@@ -271,11 +296,24 @@ fn impulse_balances() {
     let strand = straight(&line, 20, (0.01, 0.1, 0.1 * line.plan().outlet()));
     let duration = strand.time;
     let mass = 2300.0 * strand.volume;
-    // The mass on the plate grows evenly; a step counts all that has come by its end.
-    let weight = mass * 9.81 * duration * 0.5 * (1.0 + 1.0 / 20.0);
+    // The mass on the plate grows evenly.
+    let weight = 0.5 * mass * 9.81 * duration;
     let [x, y, z] = strand.impulse;
     assert!((x / (mass * 0.1) - 1.0).abs() < 1e-9 && y == 0.0);
     assert!((-z / (weight + mass * 0.1) - 1.0).abs() < 1e-9, "{z} {weight}");
+}
+
+/// The first drop of fluid is small however short the steps, and no width remains from it.
+#[test]
+fn width_does_not_follow_the_step() {
+    let line = Line::new(plan(CONCRETE, 0.02));
+    let width = |steps| {
+        let strand = straight(&line, steps, (0.02, 0.1, 0.1 * line.plan().outlet()));
+        line.totals(&strand).width
+    };
+    let widths = [4, 40, 1000].map(width);
+    assert!((widths[0] / widths[2] - 1.0).abs() < 2e-3, "{widths:?}");
+    assert!((widths[1] / widths[2] - 1.0).abs() < 2e-3, "{widths:?}");
 }
 
 /// A strand that crosses an older one lies on that, and heats it.

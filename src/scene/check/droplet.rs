@@ -29,6 +29,7 @@ pub fn check(checker: &mut Checker) {
                 sound(checker, &path.at("fluid.sound_speed"), droplet);
             }
             phases(checker, &path.at("fluid.boils_at"), droplet);
+            evaporation(checker, &path.at("fluid.evaporation"), droplet);
             release(checker, &path, droplet);
             direction(checker, &path.at("impact_direction"), droplet);
             arrivals(checker, &path.at("arrivals"), name, droplet);
@@ -96,6 +97,13 @@ fn phases(checker: &mut Checker, path: &Path, droplet: &Droplet) {
     let message =
         format!("the fluid would boil at or below the {} K of `freezes_at`", number(freezes));
     checker.require(freezes < boils, path, message, format!("> {}", number(freezes)));
+}
+
+/// Checks that the pressure of the vapour is known, which follows from the boiling point.
+fn evaporation(checker: &mut Checker, path: &Path, droplet: &Droplet) {
+    let is_known = droplet.fluid.evaporation.is_none() || droplet.fluid.boils_at.is_some();
+    let message = "a fluid that evaporates has no boiling point";
+    checker.require(is_known, path, message, "with `boils_at` of the fluid");
 }
 
 /// Checks releases: either at times or by inputs; with inputs the number of drops is not known in advance.

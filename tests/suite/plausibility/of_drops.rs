@@ -39,6 +39,41 @@ fn a_drop_that_does_not_arrive_in_time_is_warned_of() {
 }
 
 #[test]
+fn drops_that_dry_within_the_run_are_warned_of() {
+    // Half a sphere of water at 298 K: 2π R D c, with 0.02304 kg/m³ of saturated vapour (IAPWS-95).
+    let (density, temperature) = (997.0, 298.15);
+    let volume = std::f64::consts::PI * 1e-9 / 6.0;
+    let radius = (0.25_f64).cbrt() * 1e-3;
+    let rate = 2.0 * std::f64::consts::PI * radius * 2.5e-5 * 0.02304;
+    let time = density * volume / rate;
+    let water = ("water", density, 1e-3, 4180.0, 0.6, 0.072, temperature);
+    let text = edited(
+        &drop(water),
+        "surface_tension",
+        "boils_at = 373.12, evaporation = { latent_heat = 2.37e6, molar_mass = 0.01801, diffusivity = 2.5e-5 }, \
+         surface_tension",
+    );
+    assert_eq!(warnings(&text), [""; 0]);
+    let until = |share: f64| {
+        edited(
+            &text,
+            "stop_time = 1e-5\nstep = 1e-6",
+            &format!("stop_time = {:?}\nstep = 1e-3", share * time),
+        )
+    };
+    assert_eq!(warnings(&until(0.049)), [""; 0]);
+    let said = warnings(&until(0.055));
+    assert!(said.len() == 1 && said[0].contains("body.drop: a drop at rest on `wall`"), "{said:?}");
+    // What boils is warned of as such.
+    let hot = edited(
+        &until(0.055),
+        "start = { temperature = 298.15 }",
+        "start = { temperature = 380.0 }",
+    );
+    assert!(warnings(&hot).iter().all(|said| !said.contains("dry")), "{:?}", warnings(&hot));
+}
+
+#[test]
 fn cells_narrower_than_particles_are_warned_of() {
     let text = drop(WATER);
     let line = text.lines().find(|line| line.starts_with("footprint")).unwrap().to_owned();

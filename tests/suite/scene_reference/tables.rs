@@ -16,6 +16,7 @@ pub const SECTIONS: [(&str, &str); 58] = [
     ("`material` of a solid", "/$defs/Material"),
     ("`melting` of a material", "/$defs/Melting"),
     ("`frozen` of a fluid", "/$defs/Frozen"),
+    ("`evaporation` of a fluid", "/$defs/Evaporation"),
     ("`creep` of a material", "/$defs/Creep"),
     ("`hardening` of a material", "/$defs/Saturation"),
     ("`shear_relaxation` of a material", "/$defs/Branch"),

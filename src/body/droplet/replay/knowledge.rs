@@ -209,7 +209,12 @@ fn computed(droplet: &Droplet, speed: f64) -> Droplet {
         arrivals: None,
         record: None,
         // The watched points do not affect a record.
-        fluid: Fluid { freezes_at: None, boils_at: None, ..droplet.fluid.clone() },
+        fluid: Fluid {
+            freezes_at: None,
+            boils_at: None,
+            evaporation: None,
+            ..droplet.fluid.clone()
+        },
         ..droplet.clone()
     }
 }
