@@ -192,8 +192,13 @@ def test_what_makes_no_sense_is_refused(scene, tmp_path):
         ({"waypoints": [((0.0, 0.1), (0.0, 1e-3))]}, ValueError, "parts within"),
         ({"waypoints": 0}, ValueError, "one or more"),
         ({"simulations": 2}, ValueError, "3 or more"),
-        ({"processes": 0}, ValueError, "at least 1"),
+        ({"processes": 0}, ValueError, "1 or more"),
+        ({"size": 1}, ValueError, "2 or more"),
+        ({"coarse": float("nan")}, ValueError, "1 or more"),
+        ({"run_out": -1e-3}, ValueError, "0 or more"),
         ({"flow": 0.0}, ValueError, "above 0"),
+        ({"spread": float("nan")}, ValueError, "spread = nan .* above 0"),
+        ({"spacing": "1 mm"}, ValueError, "spacing = '1 mm' .* above 0"),
     ]:
         with pytest.raises(error, match=words):
             path(scene, **{"by": "swarm", **WHERE, **settings})

@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from tqdm import tqdm
 
 from impinge import gcode
 from impinge.errors import StudyError
@@ -96,6 +97,7 @@ def path(
     seed: int = 0,
     processes: int = 1,
     folder: str | os.PathLike[str] | None = None,
+    progress: bool | None = None,
 ) -> FoundPath:
     """Moves waypoints of a nozzle's path until the strand lies on a target.
 
@@ -114,22 +116,33 @@ def path(
         first one, in parts of the ranges. seed: of its random numbers.
     coarse: half of the runs have segments and steps that are longer by this factor; 1 for none.
     processes: how many work at a time. folder: keeps finished runs, which are not repeated.
+    progress: whether a bar is shown; only in terminals if left out.
 
     Minimises the mean and largest distance of the strand's centre line from the target and the
     length of the target that it does not cover, in diameters of the nozzle. Of a run only what
     follows the first place that differs from the target is computed. Runs that deviate by more
     than twice the best objective are given up.
     """
-    study = _Study(scene, target, speed, flow, spacing)
     if by not in SEARCHES:
         raise ValueError(f"by = {by!r} (allowed: {', '.join(map(repr, SEARCHES))})")
-    if simulations < 3:
-        raise ValueError(f"simulations = {simulations} (allowed: 3 or more)")
+    _check_positive(speed=speed, flow=flow, spacing=spacing, spread=spread)
+    _check_least(1.0, coarse=coarse)
+    _check_least(0.0, run_out=run_out)
+    _check_least(3, simulations=simulations)
+    _check_least(2, size=size)
+    _check_least(1, processes=processes)
+    study = _Study(scene, target, speed, flow, spacing)
     ranges = _ranges(waypoints, region, study.diameter)
     journal = Journal(Path(folder)) if folder is not None else None
+    bar = tqdm(
+        total=simulations,
+        unit="run",
+        desc=study.filament,
+        disable=None if progress is None else not progress,
+    )
     try:
         naive = ranges.naive()
-        record = _Record(study, ranges, journal, processes)
+        record = _Record(study, ranges, journal, processes, bar)
         start = naive
         settings = {"size": size or 4 + int(3 * np.log(ranges.count)), "seed": seed}
         stages = [(1.0, simulations)]
@@ -142,8 +155,25 @@ def path(
             spread = 0.4 * spread
         return record.found(start)
     finally:
+        bar.close()
         if journal:
             journal.close()
+
+
+def _check_positive(**numbers: float | None) -> None:
+    for name, number in numbers.items():
+        if number is not None and not (_is_number(number) and number > 0.0):
+            raise ValueError(f"{name} = {number!r} (allowed: numbers above 0)")
+
+
+def _check_least(least: float, **numbers: float | None) -> None:
+    for name, number in numbers.items():
+        if number is not None and not (_is_number(number) and number >= least):
+            raise ValueError(f"{name} = {number!r} (allowed: {least:g} or more)")
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float | np.number) and bool(np.isfinite(value))
 
 
 def _ranges(waypoints: Any, region: tuple[float, float], diameter: float) -> Waypoints:
@@ -200,13 +230,12 @@ class _Study:
         self.diameter = float(start[f"{name}.nozzle_diameter"])
         self.flow = float(start[f"{name}.flow"]) if flow is None else flow
         spacing_of_scene = body.get("spacing", 0.5 * self.diameter)
-        if isinstance(spacing_of_scene, str) or isinstance(speed, str):
-            given = f"spacing = {spacing_of_scene!r} of the scene, speed = {speed!r}"
-            raise StudyError(f"{scene}: {given} (allowed: numbers in m and m/s)")
+        if isinstance(spacing_of_scene, str):
+            given = f"spacing = {spacing_of_scene!r}"
+            raise StudyError(f"{scene}: {given} (allowed: a number in m)")
         self.segment = float(spacing_of_scene)
         self.spacing = self.segment if spacing is None else spacing
-        if self.flow <= 0.0 or speed <= 0.0:
-            raise ValueError(f"flow = {self.flow}, speed = {speed} (allowed: above 0)")
+        _check_positive(flow=self.flow)
         self.speed = speed
         self.line = Line(line)
 
@@ -226,7 +255,15 @@ class _Study:
 class _Record:
     """Runs of all stages, from the journal where it has them."""
 
-    def __init__(self, study: _Study, ranges: Waypoints, journal: Journal | None, processes: int):
+    def __init__(
+        self,
+        study: _Study,
+        ranges: Waypoints,
+        journal: Journal | None,
+        processes: int,
+        bar: tqdm,
+    ):
+        self.bar = bar
         self.study, self.ranges, self.journal, self.processes = study, ranges, journal, processes
         self.rows: list[tuple[float, float, float]] = []  # objective, best, share of steps
         self.factor = 1.0
@@ -328,6 +365,8 @@ class _Record:
             objective = one.objective(self.job.diameter)
             best = min([objective] + [row[1] for row in self.rows[-1:]])
             self.rows.append((objective, best, one.steps / (len(paths[n]) - 1)))
+            self.bar.set_postfix_str(f"objective {best:.3g}", refresh=False)
+            self.bar.update()
             _LOGGER.info("run %d: objective %.4g, best %.4g", len(self.rows), objective, best)
         return prints
 
@@ -340,8 +379,6 @@ class _Workers:
     """Printers: one here, or one in each of several processes."""
 
     def __init__(self, job: Job, processes: int):
-        if processes < 1:
-            raise ValueError(f"processes = {processes} (allowed: at least 1)")
         self.job, self.processes = job, processes
         self.trunk: np.ndarray | None = None
         self.here: Printer | None = None
