@@ -6,10 +6,8 @@ use impinge::variables::{InputLayout, Quantity, Registry, Slot};
 /// Returns a note if neither an input nor a face nor a droplet acts on any body.
 pub fn note(scene: &Scene, inputs: &[f64]) -> Option<String> {
     let moves = |body: &Body| match body {
-        Body::LargeStrain(solid) => {
-            solid.inertia || solid.gravity > 0.0 || !solid.inputs().is_empty()
-        }
-        Body::Filament(_) | Body::Lattice(_) => true,
+        Body::LargeStrain(solid) => solid.inertia || solid.gravity > 0.0,
+        Body::Filament(filament) => !filament.moves_by_inputs(),
         _ => false,
     };
     if scene.droplets().next().is_some() || scene.body.values().any(moves) || acts_by_itself(scene)
@@ -30,7 +28,10 @@ pub fn note(scene: &Scene, inputs: &[f64]) -> Option<String> {
     }
     idle.dedup();
     let remedy = match idle.first() {
-        Some(first) => format!("set {} by `--set {first}=VALUE` or in the scene", idle.join(", ")),
+        Some(first) => format!(
+            "set {} by `--set {first}=VALUE`, over time by `--inputs`, or in the scene",
+            idle.join(", ")
+        ),
         None => "the scene has neither loads nor conditions on faces".to_owned(),
     };
     Some(format!(
@@ -58,11 +59,16 @@ fn acts_by_itself(scene: &Scene) -> bool {
 fn rest(scene: &Scene, layout: &InputLayout, (at, quantity): (usize, Quantity)) -> Option<f64> {
     match quantity {
         Quantity::HeatFlux | Quantity::HeatFlow | Quantity::Stress => Some(0.0),
+        Quantity::Displacement | Quantity::VolumeFlow => Some(0.0),
         Quantity::Temperature => {
             let face = layout.faces.iter().find(|face| face.index == at).map(|face| &face.body);
             let whole = || layout.bodies.iter().find(|(_, range)| range.contains(&at));
             let body = face.or_else(|| whole().map(|(body, _)| body))?;
-            Some(scene.body.get(body)?.initial_temperature())
+            match scene.body.get(body)? {
+                // Temperatures do nothing before fluid comes.
+                Body::Filament(_) => None,
+                other => Some(other.initial_temperature()),
+            }
         }
         _ => None,
     }

@@ -87,20 +87,29 @@ def test_what_is_wrong_with_a_single_value_is_not_valid(validator):
     assert count > 150
 
 
+def keys(schema, place="scene"):
+    """The keys of all tables, with what the schema says of each."""
+    if isinstance(schema, dict):
+        for key, value in schema.get("properties", {}).items():
+            if isinstance(value, dict) and "const" not in value:
+                yield f"{place}.{key}", value
+        for key, value in schema.items():
+            yield from keys(value, key if key[:1].isupper() else place)
+    elif isinstance(schema, list):
+        for value in schema:
+            yield from keys(value, place)
+
+
+def test_numbers_with_units_may_be_texts(validator):
+    units = {"K", "m", "s", "Pa", "W/m²"}
+    measured = {key: own for key, own in keys(validator.schema) if own.get("unit") in units}
+    assert len(measured) > 60 and "Face.temperature" in measured
+    deaf = [key for key, own in measured.items() if own.get("type") in ("number", "integer")]
+    assert not deaf, deaf
+
+
 def test_every_key_is_described(validator):
     """A hover in an editor says what the key is."""
-
-    def keys(schema, place="scene"):
-        if isinstance(schema, dict):
-            for key, value in schema.get("properties", {}).items():
-                if isinstance(value, dict) and "const" not in value:
-                    yield f"{place}.{key}", value
-            for key, value in schema.items():
-                yield from keys(value, key if key[:1].isupper() else place)
-        elif isinstance(schema, list):
-            for value in schema:
-                yield from keys(value, place)
-
     found = dict(keys(validator.schema))
     # Of these, the alternatives are described.
     alternatives = ("Footprint.", "Shape.", "SolidShape.", "Plane.", "LatticeSupport.")

@@ -26,7 +26,7 @@ struct Template {
     text: &'static str,
 }
 
-const TEMPLATES: [Template; 3] = [
+const TEMPLATES: [Template; 6] = [
     Template {
         name: "drop-on-plate",
         about: "a drop of molten tin lands on steel: temperature below it",
@@ -41,6 +41,21 @@ const TEMPLATES: [Template; 3] = [
         name: "laser-on-disc",
         about: "a laser heats a ceramic disc: temperature and stress",
         text: include_str!("laser-on-disc.toml"),
+    },
+    Template {
+        name: "notched-beam",
+        about: "a notched beam of concrete bends and breaks: load and crack over its opening",
+        text: include_str!("notched-beam.toml"),
+    },
+    Template {
+        name: "pressed-rubber",
+        about: "a pad of rubber is pressed by a fifth: the force that it takes",
+        text: include_str!("pressed-rubber.toml"),
+    },
+    Template {
+        name: "strand-on-bed",
+        about: "a nozzle lays a strand of molten wax on a heated bed: its shape and heat",
+        text: include_str!("strand-on-bed.toml"),
     },
 ];
 

@@ -9,7 +9,7 @@ fn new_scenes_raise_no_warning() {
     let place = Workplace::new();
     let list = place.call(&["new"]).succeeds().stdout();
     let names: Vec<_> = list.lines().map(|line| line.split_whitespace().next().unwrap()).collect();
-    assert_eq!(names.len(), 3, "{list}");
+    assert_eq!(names.len(), 6, "{list}");
     for name in names {
         let said = place.call(&["new", name]).succeeds().stdout();
         assert!(said.contains(&format!("next: impinge check {name}.toml")), "{said}");
@@ -30,4 +30,17 @@ fn a_file_that_is_there_is_kept() {
 #[test]
 fn misspelt_kinds_are_corrected() {
     Workplace::new().call(&["new", "drop-on-plat"]).fails(1, &["did you mean `drop-on-plate`?"]);
+}
+
+#[test]
+fn bodies_that_no_input_moves_are_told_of() {
+    let place = Workplace::new();
+    place.call(&["new", "notched-beam"]).succeeds();
+    let run = |more: &[&str]| {
+        let words = [&["run", "notched-beam.toml", "--overwrite", "--until", "0.1"], more].concat();
+        place.call(&words).succeeds().stderr()
+    };
+    let said = run(&[]);
+    assert!(said.contains("note: nothing acts") && said.contains("beam.opening=VALUE"), "{said}");
+    assert!(!run(&["--set", "beam.opening=1e-6"]).contains("nothing acts"));
 }

@@ -33,7 +33,6 @@ fn take_texts(object: &mut Map<String, Value>) {
 fn simplify(schema: &mut Schema) {
     let Some(object) = schema.as_object_mut() else { return };
     object.remove("format");
-    take_texts(object);
     match object.get_mut("default") {
         Some(Value::Null) => drop(object.remove("default")),
         Some(Value::Object(keys)) => keys.retain(|_, value| !value.is_null()),
@@ -49,6 +48,7 @@ fn simplify(schema: &mut Schema) {
             object.insert("type".into(), only);
         }
     }
+    take_texts(object);
     let Some(Value::Array(choices)) = object.get_mut("anyOf") else { return };
     choices.retain(|choice| choice.get("type").is_none_or(|name| name != "null"));
     if let [Value::Object(only)] = &mut choices[..] {
