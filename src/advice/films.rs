@@ -2,7 +2,8 @@
 
 use super::{Path, Reviewer, number};
 use crate::closed_form::DropImpact;
-use crate::scene::{Droplet, DropletMethod, Scene};
+use crate::limits::two_digits;
+use crate::scene::{Droplet, DropletMethod, Scene, Solid};
 use crate::warning;
 
 pub fn review(reviewer: &mut Reviewer) {
@@ -11,11 +12,30 @@ pub fn review(reviewer: &mut Reviewer) {
         let path = Path::default().key("body").key(name).key("method");
         thin(reviewer, &path, (name, droplet));
         stacked(reviewer, (name, droplet));
+        risky(reviewer, (name, droplet));
         if droplet.method == DropletMethod::Film {
             insulated(reviewer, &path, (name, droplet));
             depleted(reviewer, &path, (name, droplet));
             unfitted(reviewer, &path, droplet);
         }
+    }
+}
+
+/// Part of the time D/U in which a drop spreads, up to which a step hardly changes the probability of failure below: of
+/// glass under water by 5 % at a tenth, by 60 % at a third.
+const SHORT: f64 = 0.15;
+
+/// Warns of steps that are long beside the spreading of films, where a probability of failure is read from the stress at
+/// their ends.
+fn risky(reviewer: &mut Reviewer, (name, droplet): (&str, &Droplet)) {
+    let scene = reviewer.scene;
+    let Some(coupling) = scene.coupling_from(name) else { return };
+    let Some(solid) = scene.coupling[coupling].solid() else { return };
+    let (speed, _) = droplet.contact(droplet.normal_speed());
+    let most = SHORT * droplet.diameter / speed;
+    if scene.solid(solid).is_some_and(Solid::has_flaws) && speed > 0.0 && scene.step > most {
+        let finding = warning::film_risk_follows_step(solid, number(scene.step), two_digits(most));
+        reviewer.warn(&Path::default().key("step"), finding);
     }
 }
 

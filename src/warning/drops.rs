@@ -30,6 +30,11 @@ rules! {
      evaporation";
     "do not rely on volume, shape and heat beyond {shorter} s after the impact; humid air slows drying"
 
+    Check film_risk_follows_step(solid, step, shorter)
+    "the probability of failure of `{solid}` follows from the stress at the ends of steps, and {step} s are long beside the time \
+     in which a drop spreads: it may be off by a factor of two";
+    "set a `step` of {shorter} s or less"
+
     Check skin_thinner_than_particles(thickness, finer_spacing)
     "when the drop has spread, some {thickness} m of it are frozen, less than half a distance of particles, and hold nothing \
      fast: it recoils farther than it would, and ends smaller";
