@@ -86,10 +86,9 @@ impl Path<'_> {
                 let Station { deformed, pressure: [pressure, _], .. } = &stations[n];
                 law.tangent(&deformed[place], STATIONS[n] * self.duration, before, *pressure)
             });
-            let mut tangent = [[0.0; 9]; 9];
-            for column in 0..9 {
+            // δP for δF₁ = e_k ⊗ e_l.
+            let columns: [Matrix3; 9] = std::array::from_fn(|column| {
                 let (k, l) = (column / 3, column % 3);
-                // δC₁ for δF₁ = e_k ⊗ e_l.
                 let mut squeeze = [[0.0; 3]; 3];
                 for b in 0..3 {
                     squeeze[l][b] += end[k][b];
@@ -98,13 +97,15 @@ impl Path<'_> {
                 let mut change = [[0.0; 3]; 3];
                 for ((s, station), law) in STATIONS.iter().zip(&stations).zip(&laws) {
                     let (at, stress) = (&station.deformed[place], &station.stresses[place]);
-                    add(&mut change, WEIGHT, &turn(at, stress, law, s, &squeeze));
+                    add(&mut change, WEIGHT, &turn(at, stress, law, *s, &squeeze));
                 }
                 let mut stress = product(&middle, &change);
                 (0..3).for_each(|b| stress[k][b] += 0.5 * mean[l][b]);
-                (0..9).for_each(|row| tangent[row][column] = stress[row / 3][row % 3]);
-            }
-            tangent
+                stress
+            });
+            std::array::from_fn(|row| {
+                std::array::from_fn(|column| columns[column][row / 3][row % 3])
+            })
         };
         GroupTangent {
             points: points.enumerate().map(of_point).collect(),
@@ -187,7 +188,7 @@ fn turn(
     at: &Deformed,
     stress: &Matrix3,
     law: &[[f64; 9]; 9],
-    s: &f64,
+    s: f64,
     squeeze: &Matrix3,
 ) -> Matrix3 {
     let stretch = product(&at.inverse_transposed, squeeze).map(|row| row.map(|x| 0.5 * s * x));
