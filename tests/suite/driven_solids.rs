@@ -130,6 +130,26 @@ fn a_strip_under_a_dead_load_bends_as_the_elastica() {
 }
 
 #[test]
+fn a_load_that_comes_at_once_dissipates_nothing_until_the_body_relaxes() {
+    let keys = "shape = { box = [10e-3, 10e-3, 40e-3] }\ndimension = 2\nmesh = { spacing = 5e-3 }\nfaces = { bottom = { clamped = \
+                true }, top = { pressure = 0.0, traction = [0.0, 0.0, 0.0] } }";
+    let text = rubber(keys)
+        .replace("young = 1e6, poisson = 0.4", "young = 3.5e9, poisson = 0.36")
+        .replace(
+            r#""neo_hookean""#,
+            r#""viscoelastic", shear_relaxation = [{ fraction = 0.5, time = 0.1 }]"#,
+        );
+    let mut trial = Trial::new(&text);
+    trial.set("pad.top.pressure", 2e7);
+    trial.set("pad.top.traction_x", 2e6);
+    trial.step(1e-9);
+    let (dissipated, stored) = (trial.get("pad.dissipated"), trial.get("pad.stored"));
+    assert!(dissipated.abs() < 2e-3 * stored, "{dissipated} {stored}");
+    trial.step(1.0);
+    assert!(trial.get("pad.dissipated") > 0.1 * stored);
+}
+
+#[test]
 fn tractions_accelerate_free_bodies() {
     for (motion, start) in [("explicit", "start = { height = 1e-3 }"), ("implicit", "")] {
         let keys = format!(

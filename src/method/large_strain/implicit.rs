@@ -193,7 +193,8 @@ impl ImplicitDynamics {
         let (body, from, dt) = (&self.body, step.from, step.dt);
         step.allowance.spend(1.0, IMPLICIT_STEPS, IMPLICIT_WORK * body.space.volume.len())?;
         let end = gradients(body, u, step.team)?;
-        let path = Path { body, start: step.start, end, before: &from.history, duration: dt };
+        let durations = vec![dt; body.layers.len()];
+        let path = Path { body, start: step.start, end, before: &from.history, durations };
         let internal = body.forces_of(&path.loads(step.team), step.team);
         let mut loads = vec![[0.0; 3]; u.len()];
         let middle = middle(&from.displacement, u);

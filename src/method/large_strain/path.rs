@@ -10,18 +10,18 @@
 use super::tangent::{GroupTangent, Swelling};
 use super::{Deformable, Failure};
 use crate::laws::solid::large_strain::Deformed;
-use crate::math::matrix3::{Matrix3, product, transposed};
+use crate::math::matrix3::{Matrix3, contraction, product, transposed};
 use crate::runtime::parallel::Team;
 
-/// Deformation gradients of all points at both ends of a step.
+/// Elastic deformation gradients of all points at both ends of a step.
 pub struct Path<'a> {
     pub body: &'a Deformable,
     pub start: &'a [Matrix3],
     pub end: Vec<Matrix3>,
     /// History at the beginning.
     pub before: &'a [f64],
-    /// [s]
-    pub duration: f64,
+    /// Time in which each layer relaxes [s].
+    pub durations: Vec<f64>,
 }
 
 /// Places on the path and their weights.
@@ -71,10 +71,23 @@ impl Path<'_> {
         team.map(groups.len(), of_group).concat()
     }
 
+    /// Work of the stresses at thermal stretches of the layers [J]: `ϑ³` times that per elastic volume.
+    pub fn work(&self, stretches: &[f64], team: &Team) -> f64 {
+        let loads = self.loads(team);
+        let of_group = |(points, &layer): (&std::ops::Range<usize>, &usize)| -> f64 {
+            let of_point = |point: usize| {
+                let (from, to) = (&self.start[point], &self.end[point]);
+                contraction(&loads[point], to) - contraction(&loads[point], from)
+            };
+            stretches[layer].powi(3) * points.clone().map(of_point).sum::<f64>()
+        };
+        self.body.space.groups.iter().zip(&self.body.layer_of_group).map(of_group).sum()
+    }
+
     /// Derivatives of P of a group by F₁.
     pub fn tangent(&self, group: usize) -> GroupTangent {
         let body = self.body;
-        let law = body.law_of(group);
+        let (law, duration) = (body.law_of(group), self.durations[body.layer_of_group[group]]);
         let (length, history) = (law.history(), &self.before[body.history_of(group)]);
         let points = body.space.groups[group].clone();
         let stations = STATIONS.map(|s| self.station(group, s));
@@ -84,7 +97,7 @@ impl Path<'_> {
             let mean = self.mean(&stations, place);
             let laws = [0, 1].map(|n| {
                 let Station { deformed, pressure: [pressure, _], .. } = &stations[n];
-                law.tangent(&deformed[place], STATIONS[n] * self.duration, before, *pressure)
+                law.tangent(&deformed[place], STATIONS[n] * duration, before, *pressure)
             });
             // δP for δF₁ = e_k ⊗ e_l.
             let columns: [Matrix3; 9] = std::array::from_fn(|column| {
@@ -134,7 +147,7 @@ impl Path<'_> {
 
     fn station(&self, group: usize, s: f64) -> Station {
         let body = self.body;
-        let law = body.law_of(group);
+        let (law, duration) = (body.law_of(group), self.durations[body.layer_of_group[group]]);
         let (length, history) = (law.history(), &self.before[body.history_of(group)]);
         let points = body.space.groups[group].clone();
         let weights = &body.space.volume.weights[points.clone()];
@@ -143,7 +156,7 @@ impl Path<'_> {
         let pressure = law.pressure(swollen / weights.iter().sum::<f64>());
         let stress = |(place, at): (usize, &Deformed)| {
             let mut own = history[length * place..length * (place + 1)].to_vec();
-            let mut stress = law.respond(at, s * self.duration, &mut own).stress;
+            let mut stress = law.respond(at, s * duration, &mut own).stress;
             add(&mut stress, pressure[0] * at.dilatation, &at.inverse_transposed);
             product(&transposed(&at.inverse_transposed), &stress)
         };

@@ -1,7 +1,9 @@
 //! Equilibrium without inertia, by Newton's method with a line search.
 
+use super::path::Path;
 use super::tangent::{Factor, Linearised, Stiffness, Terms};
 use super::{Course, Deformable, FaceLoad, Failure, LoadedFaces, Stresses};
+use crate::laws::solid::large_strain::Deformed;
 use crate::runtime::allowance::Allowance;
 use crate::runtime::parallel::Team;
 
@@ -44,7 +46,7 @@ pub struct Found {
     pub reactions: Vec<[f64; 3]>,
     /// Energy stored [J].
     pub stored: f64,
-    /// Work of the stresses over the step, by the trapezoidal rule [J].
+    /// Work of the stresses over the step, along the straight path of C [J].
     pub work: f64,
 }
 
@@ -114,7 +116,6 @@ impl Equilibrium {
         let step = Step { from: rest, to, over, team, allowance };
         let mut u = rest.displacement.clone();
         let mut now = self.at(&step, &u)?;
-        let before = now.stresses.clone();
         let mut residuals = Vec::new();
         if let Some(jump) = self.jump(&u, to) {
             let change = self.follow(&step, &now, &u, &jump)?;
@@ -129,16 +130,30 @@ impl Equilibrium {
             (u, now) = self.improve(&step, &u, &now)?;
             residuals.push(now.norm / now.scale);
         }
-        let way: Vec<[f64; 3]> = difference(&u, &rest.displacement);
-        let work = [&before, &now.stresses].map(|stresses| self.body.work(stresses, &way, team));
         let found = Found {
             residuals,
+            work: self.work(&step, &now.linearised),
             reactions: now.reactions,
             stored: now.stresses.energy,
-            work: 0.5 * (work[0] + work[1]),
         };
         *rest = Rest { displacement: u, history: now.history };
         Ok(found)
+    }
+
+    /// Work of the stresses over a step [J].
+    fn work(&self, step: &Step, end: &Linearised) -> f64 {
+        let body = &self.body;
+        let gradients = |all: &[Deformed]| all.iter().map(|at| at.gradient).collect::<Vec<_>>();
+        let (start, _) = body.deformations(&step.from.displacement, step.over, step.team);
+        let path = Path {
+            body,
+            start: &gradients(&start),
+            end: gradients(&end.deformations),
+            before: &step.from.history,
+            durations: step.over.iter().map(|course| course.time).collect(),
+        };
+        let stretches: Vec<f64> = step.over.iter().map(|course| course.stretch).collect();
+        path.work(&stretches, step.team)
     }
 
     /// A Newton step, halved while the residual grows or the material is turned inside out.
