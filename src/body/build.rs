@@ -4,14 +4,14 @@ use super::contract::Body;
 use super::droplet::{DropletBody, ReplayBody};
 use super::error::BodyError;
 use super::filament::FilamentBody;
-use super::large_strain::{MovingBody, RestingBody};
+use super::large_strain::{MovingBody, RestingBody, SwingingBody};
 use super::lattice::LatticeBody;
 use super::link::{self, Joint, Link};
 use super::reduced::ReducedBody;
 use super::reservoir::ReservoirBody;
 use super::solid::SolidBody;
 use crate::inputs::InputLayout;
-use crate::scene::{self, Scene};
+use crate::scene::{self, MotionSteps, Scene};
 
 /// All bodies of a scene.
 pub struct Assembly {
@@ -93,9 +93,13 @@ pub fn build(
                 let below = built[link.to].as_ref()?.conductor()?;
                 Some((below.cells(link.face)?, link))
             });
-            built[index] = Some(match solid.inertia {
-                true => Box::new(MovingBody::new((name, solid), cells, threads)?),
-                false => Box::new(RestingBody::new(layout, (name, solid), threads)?),
+            let (parts, own) = ((scene, layout), (name.as_str(), &**solid));
+            built[index] = Some(match (solid.inertia, solid.motion) {
+                (true, MotionSteps::Explicit) => {
+                    Box::new(MovingBody::new(parts, own, cells, threads)?)
+                }
+                (true, MotionSteps::Implicit) => Box::new(SwingingBody::new(parts, own, threads)?),
+                (false, _) => Box::new(RestingBody::new(parts, own, threads)?),
             });
         }
     }

@@ -31,7 +31,9 @@ pub use forecast::{BodyForecast, DropletForecast, Forecast, ParticleForecast, fo
 pub use large_strain::LargeStrainForecast;
 pub use lattice::LatticeForecast;
 pub use link::{Joint, Link, MOST_PARTS, Side};
-pub use read::{Descriptor, Direct, PeakPart, Reading, flaw_quantities, peaks, totals};
+pub use read::{
+    Descriptor, Direct, PeakPart, Reading, direct_of_point, flaw_quantities, peaks, totals,
+};
 pub use reduced::{KeptReduction, forget_unused_reductions, keep_reduction};
 pub use solid::{PointQuantity, point_quantities};
 

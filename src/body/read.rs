@@ -69,6 +69,16 @@ pub fn flaw_quantities(flaw: &Flaw) -> Vec<(usize, Descriptor)> {
     solid::flaw_quantities(flaw)
 }
 
+/// Returns the inputs of a scene's body that a quantity at a point follows without delay.
+pub fn direct_of_point(scene: &Scene, name: &str, quantity: usize) -> Direct {
+    match &scene.body[name] {
+        // Bodies in equilibrium follow their inputs at once, others in time.
+        Body::LargeStrain(solid) if solid.inertia => Direct::Nothing,
+        Body::LargeStrain(_) => Direct::OwnInputs,
+        _ => solid::point_quantities()[quantity].descriptor.direct,
+    }
+}
+
 /// Returns the totals that a scene's body offers, each with its place in the table of its kind.
 pub fn totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
     match &scene.body[name] {

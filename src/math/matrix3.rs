@@ -12,6 +12,11 @@ pub fn transposed(a: &Matrix3) -> Matrix3 {
     std::array::from_fn(|i| std::array::from_fn(|j| a[j][i]))
 }
 
+/// Vector product a × b.
+pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
 /// Sum of the products of all entries.
 pub fn contraction(a: &Matrix3, b: &Matrix3) -> f64 {
     a.iter().flatten().zip(b.iter().flatten()).map(|(x, y)| x * y).sum()

@@ -195,7 +195,7 @@ impl Scene {
         let is_filled = |body: &Body| match body {
             Body::Solid(solid) => solid.heat == HeatMethod::Sph,
             Body::Droplet(_) => true,
-            Body::LargeStrain(solid) => solid.inertia,
+            Body::LargeStrain(solid) => solid.is_above(),
             Body::Reservoir(_) | Body::Filament(_) | Body::Lattice(_) => false,
         };
         self.body.values().any(is_filled)

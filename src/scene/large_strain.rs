@@ -12,7 +12,7 @@ use super::types::{Disc, FaceName, Layer, Shape};
 use crate::laws::Material;
 use crate::laws::solid::large_strain::Thermal;
 use crate::limits::{
-    Keys, Limits, above_zero, length, own_temperature, plausible, signed, whole, within,
+    Keys, Limits, above_zero, length, own_temperature, plausible, signed, traction, whole, within,
 };
 use crate::quantity::Quantity;
 
@@ -57,10 +57,14 @@ pub struct LargeStrain {
     /// Settings of `sph`.
     #[schemars(extend("otherwise" = "supports of 2.2 distances", "condition" = "with `mechanics = \"sph\"`"))]
     pub sph: Option<ParticleSettings>,
-    /// True if the body has inertia: it moves freely above the plane z = 0, or above the body of its coupling, and falls.
-    /// Otherwise it is in equilibrium at every time.
+    /// True if the body has inertia: it moves above the plane z = 0, or above the body of its coupling, and falls; with
+    /// `motion = "implicit"` nothing is below it. Otherwise it is in equilibrium at every time.
     #[serde(default)]
     pub inertia: bool,
+    /// Time steps of a body with inertia.
+    #[serde(default)]
+    #[schemars(extend("condition" = "`implicit` with `inertia = true`, without `layers` and coupling"))]
+    pub motion: MotionSteps,
     /// Position and velocity at time zero.
     #[serde(default)]
     #[schemars(extend("otherwise" = "at rest", "condition" = "with `inertia = true`"))]
@@ -77,10 +81,24 @@ pub struct LargeStrain {
     /// Conditions on faces.
     #[serde(default)]
     #[schemars(
-        extend("otherwise" = "free", "condition" = "without inertia, not on a ball"),
+        extend(
+            "otherwise" = "free",
+            "condition" = "not on a ball; with explicit motion loads only"
+        ),
         transform = Keys(FaceName::ALL.map(FaceName::as_str))
     )]
     pub faces: BTreeMap<FaceName, HeldFace>,
+}
+
+/// Time steps of a solid of large strain with inertia.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum MotionSteps {
+    /// As short as the speed of sound requires; the body touches what lies below.
+    #[default]
+    Explicit,
+    /// Of any length, one a communication step, with Newton's method; faces may be held and moved.
+    Implicit,
 }
 
 fn three() -> usize {
@@ -237,7 +255,8 @@ pub struct LargeStrainMesh {
     pub spacing: Option<f64>,
 }
 
-/// Condition on a face of a solid of large strain: one of them, or `roller` with `displacement`.
+/// Condition on a face of a solid of large strain: one of them, or `roller` with `displacement`, or `pressure` with
+/// `traction`.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HeldFace {
@@ -250,6 +269,20 @@ pub struct HeldFace {
     /// Displacement along x, y and z at the start; inputs [m].
     #[schemars(transform = displacement().otherwise("free"))]
     pub displacement: Option<[f64; 3]>,
+    /// Pressure on the deformed face, into the body, at the start; an input [Pa].
+    #[schemars(transform = traction().otherwise("free"))]
+    pub pressure: Option<f64>,
+    /// Force per area of the undeformed face along x, y and z at the start; inputs [Pa].
+    #[schemars(transform = traction().otherwise("free"))]
+    pub traction: Option<[f64; 3]>,
+}
+
+/// A component of the load on a face.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LoadComponent {
+    Pressure,
+    /// Along an axis.
+    Traction(usize),
 }
 
 impl HeldFace {
@@ -259,8 +292,15 @@ impl HeldFace {
             ("clamped", self.clamped),
             ("roller", self.roller),
             ("displacement", self.displacement.is_some()),
+            ("pressure", self.pressure.is_some()),
+            ("traction", self.traction.is_some()),
         ];
         given.into_iter().filter(|(_, given)| *given).map(|(key, _)| key).collect()
+    }
+
+    /// Returns true if a load acts on the face, which is not held then.
+    pub fn is_loaded(&self) -> bool {
+        self.pressure.is_some() || self.traction.is_some()
     }
 }
 
@@ -312,15 +352,36 @@ impl LargeStrain {
         let Some(held) = self.faces.get(&face).filter(|held| held.displacement.is_some()) else {
             return Vec::new();
         };
+        let is_taken = |axis: &usize| face.normal() == Some(*axis);
+        match held.roller {
+            true => (0..3).filter(is_taken).collect(),
+            false => self.free_axes(),
+        }
+    }
+
+    /// Components of the load on a face that are inputs: the pressure, and the traction along axes that the model neither
+    /// lacks nor mirrors.
+    pub fn load_components(&self, face: FaceName) -> Vec<LoadComponent> {
+        let Some(own) = self.faces.get(&face) else { return Vec::new() };
+        let pressure = own.pressure.map(|_| LoadComponent::Pressure);
+        let axes = if own.traction.is_some() { self.free_axes() } else { Vec::new() };
+        pressure.into_iter().chain(axes.into_iter().map(LoadComponent::Traction)).collect()
+    }
+
+    /// Axes that the model neither lacks nor mirrors.
+    fn free_axes(&self) -> Vec<usize> {
         let is_round = self.is_axisymmetric();
-        let is_taken = |axis: usize| {
-            let mirrored = axis < 2 && (is_round || self.mirrors()[axis]);
-            match held.roller {
-                true => face.normal() == Some(axis),
-                false => !mirrored && (axis != 1 || self.dimension == 3),
-            }
+        let mirrors = self.mirrors();
+        let is_free = |&axis: &usize| {
+            let mirrored = axis < 2 && (is_round || mirrors[axis]);
+            !mirrored && (axis != 1 || self.dimension == 3)
         };
-        (0..3).filter(|&axis| is_taken(axis)).collect()
+        (0..3).filter(is_free).collect()
+    }
+
+    /// Returns true if the body moves above a plane or another body, which it may touch.
+    pub fn is_above(&self) -> bool {
+        self.inertia && self.motion == MotionSteps::Explicit
     }
 
     /// Planes x = 0 and y = 0 that mirror the model.
@@ -356,11 +417,23 @@ impl LargeStrain {
         self.material.iter().chain(layers).map(MaterialChoice::material).collect()
     }
 
+    /// Returns true if part of the body yields.
+    pub fn yields(&self) -> bool {
+        let law = |own: &Material| own.law.deformation().large_strain(self.initial_temperature);
+        self.materials_of_layers().into_iter().filter_map(law).any(|law| law.yields())
+    }
+
     /// Bottom and top of each layer, from the top [m].
     pub fn heights_of_layers(&self) -> Vec<[f64; 2]> {
         let [.., thickness] = self.extents();
         let own = [-thickness, 0.0];
         self.layers.as_ref().map_or(vec![own], |layers| heights(layers, -thickness))
+    }
+
+    /// Number of the layer at a height, from the top; at an interface the layer above [m].
+    pub fn layer_at(&self, z: f64) -> usize {
+        let heights = self.heights_of_layers();
+        heights.iter().position(|[low, _]| z >= *low).unwrap_or(heights.len() - 1)
     }
 
     /// Effects of the temperature on each layer, from the top.
@@ -380,7 +453,7 @@ impl LargeStrain {
         !self.inertia && self.thermal().iter().any(Thermal::acts) && materials.all(is_steady)
     }
 
-    /// Inputs: the displacements of faces, then the temperature.
+    /// Inputs: the displacements of faces, their loads, then the temperature.
     pub fn inputs(&self) -> Vec<BodyInput> {
         let of_face = |(&face, held): (&FaceName, &HeldFace)| {
             let start = held.displacement?;
@@ -393,6 +466,23 @@ impl LargeStrain {
                 bounds: displacement().bounds(),
             }))
         };
+        let of_load = |(&face, own): (&FaceName, &HeldFace)| {
+            let (pressure, dead) = (own.pressure, own.traction);
+            let input = move |component: LoadComponent| BodyInput {
+                key: load_key(face, component),
+                words: match component {
+                    LoadComponent::Pressure => "pressure on the deformed face, into the body",
+                    LoadComponent::Traction(_) => "force on the face per undeformed area",
+                },
+                quantity: Quantity::Stress,
+                start: match component {
+                    LoadComponent::Pressure => pressure.unwrap_or_default(),
+                    LoadComponent::Traction(axis) => dead.unwrap_or_default()[axis],
+                },
+                bounds: traction().bounds(),
+            };
+            self.load_components(face).into_iter().map(input)
+        };
         let temperature = self.has_temperature().then(|| BodyInput {
             key: "temperature",
             words: "uniform temperature of the body",
@@ -400,42 +490,55 @@ impl LargeStrain {
             start: self.initial_temperature,
             bounds: own_temperature().bounds(),
         });
-        self.faces.iter().filter_map(of_face).flatten().chain(temperature).collect()
+        let displacements = self.faces.iter().filter_map(of_face).flatten();
+        displacements.chain(self.faces.iter().flat_map(of_load)).chain(temperature).collect()
     }
 }
 
 impl HeldFace {
-    /// Returns true if the face is not moved along x or y at the start.
+    /// Returns true if the face is neither moved nor drawn along x or y at the start.
     fn is_straight(&self) -> bool {
-        self.displacement.is_none_or(|by| by[0] == 0.0 && by[1] == 0.0)
+        let along = [self.displacement, self.traction];
+        along.into_iter().flatten().all(|by| by[0] == 0.0 && by[1] == 0.0)
     }
 
-    /// Returns true if no input moves the face along x or y in a model of the whole body.
+    /// Returns true if no input moves or draws the face along x or y in a model of the whole body.
     fn stays_straight(&self, face: FaceName) -> bool {
-        self.displacement.is_none() || self.roller && face.normal() == Some(2)
+        let is_moved = self.displacement.is_some() && !(self.roller && face.normal() == Some(2));
+        !is_moved && self.traction.is_none()
     }
 }
 
-/// Last part of the name of an input: the displacement of a face along an axis.
+/// Last part of the name of an input of a face.
+macro_rules! face_key {
+    ($face:expr, $suffix:literal) => {
+        match $face {
+            FaceName::Top => concat!("top.", $suffix),
+            FaceName::Bottom => concat!("bottom.", $suffix),
+            FaceName::Sides => concat!("sides.", $suffix),
+            FaceName::Left => concat!("left.", $suffix),
+            FaceName::Right => concat!("right.", $suffix),
+            FaceName::Front => concat!("front.", $suffix),
+            FaceName::Back => concat!("back.", $suffix),
+        }
+    };
+}
+
 fn displacement_key(face: FaceName, axis: usize) -> &'static str {
-    macro_rules! keys {
-        ($($face:ident = $name:literal),+) => {
-            match (face, axis) {
-                $((FaceName::$face, 0) => concat!($name, ".displacement_x"),
-                  (FaceName::$face, 1) => concat!($name, ".displacement_y"),
-                  (FaceName::$face, _) => concat!($name, ".displacement_z"),)+
-            }
-        };
+    match axis {
+        0 => face_key!(face, "displacement_x"),
+        1 => face_key!(face, "displacement_y"),
+        _ => face_key!(face, "displacement_z"),
     }
-    keys!(
-        Top = "top",
-        Bottom = "bottom",
-        Sides = "sides",
-        Left = "left",
-        Right = "right",
-        Front = "front",
-        Back = "back"
-    )
+}
+
+fn load_key(face: FaceName, component: LoadComponent) -> &'static str {
+    match component {
+        LoadComponent::Pressure => face_key!(face, "pressure"),
+        LoadComponent::Traction(0) => face_key!(face, "traction_x"),
+        LoadComponent::Traction(1) => face_key!(face, "traction_y"),
+        LoadComponent::Traction(_) => face_key!(face, "traction_z"),
+    }
 }
 
 /// Names the kind of solids of large strain in the schema as scenes do, `kind = "solid"` with `strain = "finite"`, and has

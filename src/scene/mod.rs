@@ -65,7 +65,8 @@ pub use footprint::Profile;
 pub use grid::{Grid, lateral_extents};
 pub use kinds::Drawn;
 pub use large_strain::{
-    HeldFace, KernelIntegration, KernelSettings, LargeStrain, Mechanics, SmallStrain, SolidShape,
+    HeldFace, KernelIntegration, KernelSettings, LargeStrain, LoadComponent, Mechanics,
+    MotionSteps, SmallStrain, SolidShape,
 };
 pub use lattice::{Lattice, LatticeArrangement, LatticeControl, LatticeNotch, LatticeSupport};
 pub use lookup::{BodyInput, Place};

@@ -486,7 +486,7 @@ pub struct Probe {
     #[schemars(transform = any("m").condition("in the body"))]
     pub at: [f64; 3],
     /// Side of an interface between layers at which the probe reads.
-    #[schemars(extend("otherwise" = "`above`", "condition" = "at an interface only"))]
+    #[schemars(extend("otherwise" = "`above`", "condition" = "at an interface of small strain only"))]
     pub side: Option<Side>,
     /// List of outputs.
     #[schemars(length(min = 1), extend("uniqueItems" = true))]

@@ -1,7 +1,7 @@
 //! Finite elements: linear functions along each edge of quadrilaterals and hexahedra.
 
 use super::{Boundary, Form, Mesh, Samples, Space, Value};
-use crate::math::matrix3;
+use crate::math::matrix3::{self, cross};
 
 /// Gauss points of two on the unit interval.
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
@@ -91,8 +91,8 @@ pub(super) fn shape(form: Form, corner: usize, local: [f64; 3]) -> (f64, [f64; 3
     (value, slope)
 }
 
-/// Points of the boundary: two Gauss points an edge, four a face, with the functions of the edge or face and no
-/// gradients.
+/// Points of the boundary: two Gauss points an edge, four a face, with the functions of the edge or face and their
+/// gradients along it; across it they have none.
 pub(super) fn boundary(mesh: &Mesh) -> Boundary {
     let centre_of_cell = centres(mesh);
     let mut boundary = Boundary::default();
@@ -116,10 +116,11 @@ pub(super) fn boundary(mesh: &Mesh) -> Boundary {
             let inside = centre_of_cell[number];
             let outward = (0..3).map(|a| area[a] * (at[a] - inside[a])).sum::<f64>().signum();
             let weight = size / face.len() as f64 * mesh.form.depth(at);
-            let row = face.iter().zip(&parts).map(|(&node, (value, _))| Value {
+            let dual = dual(along);
+            let row = face.iter().zip(&parts).map(|(&node, (value, slope))| Value {
                 node,
                 value: *value,
-                gradient: [0.0; 3],
+                gradient: [0, 1, 2].map(|a| slope[0] * dual[0][a] + slope[1] * dual[1][a]),
             });
             boundary.samples.push(at, weight, row);
             boundary.normals.push(area.map(|x| outward * x / size));
@@ -127,6 +128,18 @@ pub(super) fn boundary(mesh: &Mesh) -> Boundary {
         }
     }
     boundary
+}
+
+/// Vectors along a surface whose products with its tangents are 1 with their own and 0 with the other.
+fn dual(tangents: [[f64; 3]; 2]) -> [[f64; 3]; 2] {
+    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let [u, v] = tangents;
+    let [uu, uv, vv] = [dot(u, u), dot(u, v), dot(v, v)];
+    let determinant = uu * vv - uv * uv;
+    [
+        [0, 1, 2].map(|a| (vv * u[a] - uv * v[a]) / determinant),
+        [0, 1, 2].map(|a| (uu * v[a] - uv * u[a]) / determinant),
+    ]
 }
 
 fn face_shape(corners: usize, [u, v]: [f64; 2]) -> Vec<(f64, [f64; 2])> {
@@ -157,8 +170,4 @@ fn centres(mesh: &Mesh) -> Vec<[f64; 3]> {
         [0, 1, 2].map(|a| cell.iter().map(|&n| mesh.nodes[n as usize][a]).sum::<f64>() / count)
     };
     mesh.faces.iter().map(|(_, face)| centre(face)).collect()
-}
-
-pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

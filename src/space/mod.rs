@@ -6,12 +6,14 @@ mod factor;
 mod finite_elements;
 mod mesh;
 mod particles;
+mod places;
 mod reproducing;
 mod samples;
 
 pub use finite_elements::finite_elements;
 pub use mesh::{Mesh, Side};
 pub use particles::particles;
+pub use places::{fit, linear_row};
 pub use reproducing::{
     Functions, Integration, Kernel, Refused, Reproducing, Row, Shape, Sides, reproducing,
 };

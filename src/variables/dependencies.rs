@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::registry::{Causality, Output, Registry, Slot};
-use crate::body::{Direct, Reading, point_quantities, totals};
+use crate::body::{Direct, Reading, direct_of_point, totals};
 use crate::inputs::{FaceInputKind, InputLayout, LoadInputs};
 use crate::scene::Scene;
 
@@ -53,7 +53,7 @@ impl<'a> Reach<'a> {
         let body = scene.body.keys().nth(output.body).expect("registered from a body");
         let direct = match output.reading {
             Reading::Point { quantity, .. } | Reading::Mean { quantity, .. } => {
-                point_quantities()[quantity].descriptor.direct
+                direct_of_point(scene, body, quantity)
             }
             Reading::Total(place) => {
                 let mut totals = totals(scene, body).into_iter();

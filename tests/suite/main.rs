@@ -24,6 +24,7 @@ mod cracks;
 mod creep;
 mod demand;
 mod derivatives;
+mod driven_solids;
 mod droplet;
 mod failure;
 mod field_means;

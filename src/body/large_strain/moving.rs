@@ -1,16 +1,19 @@
 //! A solid of large strain that moves freely above a plane or another body.
 
+use super::faces::{Faces, loaded};
+use super::probes::Probes;
 use super::snapshot::{Seen, Snapshot, columns, copies};
-use super::totals::{self, Sums};
-use super::{LargeStrainMemo, is_large, plan};
+use super::totals::Sums;
+use super::{LargeStrainMemo, View, is_large, plan};
 use crate::body::{
     Acts, Advice, Approach, Body, BodyError, Fields, Given, Giver, Link, Maxima, Memo, Reading,
     Received, Resources,
 };
+use crate::inputs::InputLayout;
 use crate::method::large_strain::{Dynamics, Failure, Motion};
 use crate::port::WallCells;
 use crate::runtime::allowance::{Allowance, cost};
-use crate::scene::LargeStrain;
+use crate::scene::{LargeStrain, Scene};
 use crate::state::{Layout, expect_like, layout_like, load, store, stored};
 
 /// A body with inertia.
@@ -18,6 +21,8 @@ pub struct MovingBody {
     name: String,
     dynamics: Dynamics,
     start: Motion,
+    faces: Faces,
+    probes: Probes,
     mirrors: [bool; 2],
     columns: Vec<[usize; 2]>,
     temperature: f64,
@@ -33,23 +38,32 @@ const ENERGY: f64 = 0.1;
 impl MovingBody {
     /// `on` holds the cells of a body below and the link with it.
     pub fn new(
+        (scene, layout): (&Scene, &InputLayout),
         (name, solid): (&str, &LargeStrain),
         on: Option<(WallCells, &Link)>,
         threads: impl Fn(bool) -> usize,
     ) -> Result<Self, BodyError> {
         let named = |failure| BodyError::LargeStrain { body: name.to_owned(), failure };
-        let threads = threads(is_large(plan::mesh(solid).cells.len() * 8));
+        let mesh = plan::mesh(solid);
+        let threads = threads(is_large(mesh.cells.len() * 8));
         let body = plan::deformable(solid, threads).map_err(named)?;
         let plane = plan::plane(solid, &body);
         let columns = columns(&body.space, solid.is_box());
         let traction = on.as_ref().map(|(_, link)| link.traction);
         let cells = on.map(|(cells, _)| cells);
-        let dynamics = Dynamics::new(body, plane, solid.gravity, solid.mirrors(), cells);
+        let faces = Faces::new(layout, (name, solid), &mesh, &body);
+        let probes = Probes::new(scene, (name, solid), &mesh, &body);
+        let probes = probes.map_err(|refused| named(refused.into()))?;
+        let loaded = loaded(solid, &body);
+        let own = (body, loaded);
+        let dynamics = Dynamics::new(own, plane, solid.gravity, solid.mirrors(), cells);
         let start = dynamics.start(solid.start.velocity);
         Ok(Self {
             name: name.to_owned(),
             start,
             dynamics,
+            faces,
+            probes,
             mirrors: solid.mirrors(),
             columns,
             temperature: solid.initial_temperature,
@@ -67,7 +81,18 @@ impl MovingBody {
     fn snapshot(&self, motion: &Motion) -> Result<Snapshot, BodyError> {
         let touch = self.dynamics.plane.touch(&self.dynamics.body, &motion.displacement);
         let seen = Seen { touch: Some(&touch), ..self.seen(motion) };
-        seen.snapshot().map_err(|failure| self.error(failure))
+        let stresses = seen.stresses().map_err(|failure| self.error(failure))?;
+        Ok(seen.snapshot(&stresses))
+    }
+
+    fn view(&self, motion: &Motion) -> Result<View, BodyError> {
+        let touch = self.dynamics.plane.touch(&self.dynamics.body, &motion.displacement);
+        let seen = Seen { touch: Some(&touch), ..self.seen(motion) };
+        let stresses = seen.stresses().map_err(|failure| self.error(failure))?;
+        let snapshot = seen.snapshot(&stresses);
+        let sums = self.sums(motion, &snapshot);
+        let probed = self.probes.read(&seen, &stresses, self.temperature);
+        Ok(View { snapshot, sums, forces: Vec::new(), probed })
     }
 
     fn seen<'a>(&'a self, motion: &'a Motion) -> Seen<'a> {
@@ -113,13 +138,13 @@ impl MovingBody {
         let fallen = now.mass * gravity * ledger.time;
         let missing = now.momentum[2] - start.momentum[2] - fallen - ledger.impulse_to_plane;
         let scale = start.momentum[2].abs() + fallen.abs() + ledger.impulse_to_plane.abs();
-        if missing.abs() > MOMENTUM * scale {
+        if self.faces.loaded() == 0 && missing.abs() > MOMENTUM * scale {
             return Err(format!("{missing:.1e} N s of momentum along z have no cause"));
         }
         let copies = copies(self.mirrors);
         let touch = self.dynamics.plane.touch(&self.dynamics.body, &motion.displacement);
         let internal = copies * (ledger.internal_work + touch.energy);
-        let work = now.mass * gravity * (now.centre - start.centre);
+        let work = now.mass * gravity * (now.centre - start.centre) + copies * ledger.load_work;
         let missing = now.kinetic + internal - start.kinetic - work;
         let scale = start.kinetic + work.abs() + copies * ledger.internal_work.abs();
         if missing.abs() > ENERGY * scale {
@@ -136,6 +161,7 @@ impl MovingBody {
         let stored = snapshot.stored - copies(self.mirrors) * touch.energy;
         Sums {
             dissipated: copies(self.mirrors) * ledger.internal_work - stored,
+            load_work: copies(self.mirrors) * ledger.load_work,
             contact_force: rate(inside + ledger.outside),
             impulse: ledger.impulse_to_plane,
             lift_off: ledger.lift_off,
@@ -184,24 +210,20 @@ impl Body for MovingBody {
         allowance: &Allowance,
     ) -> Result<Option<Given>, BodyError> {
         let mut motion = self.motion(state);
-        let advanced = self.dynamics.advance(&mut motion, acts.duration, allowance);
+        let loads = |time: f64| self.faces.prescribed(&acts.path.at(0, time)).loads;
+        let advanced = self.dynamics.advance(&mut motion, acts.duration, &loads, allowance);
         advanced.map_err(|failure| self.error(failure))?;
         store(&mut motion, state);
         Ok(self.given(state))
     }
 
     fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError> {
-        let Reading::Total(place) = *reading else { return Err(BodyError::NoSuchReading) };
         let memo = LargeStrainMemo::of_mut(memo);
-        let (snapshot, sums) = match memo.0 {
+        let view = match memo.0.take() {
             Some(known) => known,
-            None => {
-                let motion = self.motion(state);
-                let snapshot = self.snapshot(&motion)?;
-                *memo.0.insert((snapshot, self.sums(&motion, &snapshot)))
-            }
+            None => self.view(&self.motion(state))?,
         };
-        Ok(totals::read(&snapshot, &sums, place))
+        memo.0.insert(view).read(reading)
     }
 
     fn fields(&self, state: &[f64], _: &mut Memo) -> Result<Fields, BodyError> {

@@ -119,7 +119,9 @@ const LEAST_IN_LAYER: usize = 2;
 pub fn kernels(solid: &LargeStrain, mesh: &Mesh) -> Reproducing {
     let KernelSettings { basis, support, integration } = solid.rkpm.unwrap_or_default();
     let order = basis as f64;
-    let is_held = |side: &Side| solid.faces.keys().any(|&face| is_on(solid, face, *side));
+    let is_held = |side: &Side| {
+        solid.faces.iter().any(|(&face, held)| !held.is_loaded() && is_on(solid, face, *side))
+    };
     let held: Vec<Side> = mesh.faces.iter().map(|(side, _)| *side).filter(is_held).collect();
     let kernel = match solid.mechanics {
         Mechanics::Efg => Kernel::QuarticSpline,

@@ -1,11 +1,12 @@
-//! A solid of large strain in equilibrium under the displacements of its faces and its temperature.
+//! A solid of large strain in equilibrium under the displacements of its faces, its loads and its temperature.
 
-use std::ops::Range;
 use std::slice::from_mut;
 
-use super::snapshot::{Seen, Snapshot, columns, copies};
-use super::totals::{self, Sums, moved_faces};
-use super::{is_large, plan};
+use super::faces::{Faces, Prescribed, loaded};
+use super::probes::Probes;
+use super::snapshot::{Seen, columns, copies};
+use super::totals::Sums;
+use super::{View, is_large, plan};
 use crate::body::{
     Acts, Advice, Approach, Body, BodyError, Fields, Given, Giver, Maxima, Memo, Reading, Received,
     Resources,
@@ -13,11 +14,10 @@ use crate::body::{
 use crate::inputs::InputLayout;
 use crate::laws::solid::large_strain::Thermal;
 use crate::method::large_strain::{
-    Conditions, Course, Deformable, Equilibrium, Failure, Rest, STEPS, WORK,
+    Conditions, Course, Equilibrium, FaceLoad, Failure, Rest, STEPS, WORK,
 };
 use crate::runtime::allowance::{Allowance, Interrupt, cost};
-use crate::scene::LargeStrain;
-use crate::space::{Form, Mesh};
+use crate::scene::{LargeStrain, Scene};
 use crate::state::{
     Field, Fields as StateFields, Layout, Per, expect_like, layout_like, load, store, stored,
 };
@@ -27,44 +27,23 @@ pub struct RestingBody {
     name: String,
     equilibrium: Equilibrium,
     start: Resting,
-    /// Conditions on each node along x, y and z.
-    holds: Vec<[Hold; 3]>,
+    faces: Faces,
+    probes: Probes,
     /// Weight of each node [N].
     weight: Vec<[f64; 3]>,
-    /// Axes along which the displacements of faces are prescribed, face by face.
-    moved: Vec<Vec<usize>>,
     mirrors: [bool; 2],
     columns: Vec<[usize; 2]>,
     /// Temperature at the start [K].
     temperature: f64,
     /// Effects of the temperature on each layer.
     thermal: Vec<Thermal>,
-    /// Places of the displacements, and of the temperature if it acts, among the inputs.
-    inputs: Range<usize>,
     notes: Vec<String>,
-}
-
-/// Displacements and temperature that the inputs prescribe at a time.
-#[derive(Debug, Clone, PartialEq)]
-struct Prescribed {
-    /// Displacements of the moved faces [m].
-    faces: Vec<[f64; 3]>,
-    /// [K]
-    temperature: f64,
-}
-
-impl Prescribed {
-    fn middle(&self, other: &Self) -> Self {
-        let half = |(a, b): (&[f64; 3], &[f64; 3])| [0, 1, 2].map(|n| 0.5 * (a[n] + b[n]));
-        let faces = self.faces.iter().zip(&other.faces).map(half).collect();
-        Self { faces, temperature: 0.5 * (self.temperature + other.temperature) }
-    }
 }
 
 /// Memo of the body: what the inputs prescribe, and what is read of the equilibrium under it.
 struct RestingMemo {
     to: Prescribed,
-    seen: Option<(Snapshot, Sums, Vec<[f64; 3]>)>,
+    seen: Option<View>,
 }
 
 impl RestingMemo {
@@ -72,15 +51,6 @@ impl RestingMemo {
         let memo: &mut (dyn std::any::Any + Send + Sync) = memo.as_mut();
         memo.downcast_mut().expect("a memo is that of the body that made it")
     }
-}
-
-/// Condition on a node along an axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Hold {
-    Free,
-    Fixed,
-    /// Moves with a face, by its number among those that are moved.
-    With(usize),
 }
 
 /// State of the body.
@@ -93,6 +63,9 @@ struct Resting {
     /// Work of the stresses and of expansion, and energy stored [J].
     work: f64,
     stored: f64,
+    /// Work of the loads on faces [J], and these loads.
+    load_work: f64,
+    loads: Vec<[f64; 4]>,
     rest: Rest,
     /// Forces on the faces that are moved [N].
     forces: Vec<[f64; 3]>,
@@ -116,6 +89,11 @@ impl StateFields for Resting {
             (body("temperature", "temperature [K]"), from_mut(&mut self.temperature)),
             (body("work", "work of stresses and expansion [J]"), from_mut(&mut self.work)),
             (body("stored", "energy stored [J]"), from_mut(&mut self.stored)),
+            (body("load_work", "work of loads on faces [J]"), from_mut(&mut self.load_work)),
+            (
+                of("loads", "pressure and traction on loaded faces [Pa]", Per::Face, 4),
+                self.loads.as_flattened_mut(),
+            ),
             (
                 of("forces", "forces on moved faces [N]", Per::Face, 3),
                 self.forces.as_flattened_mut(),
@@ -128,7 +106,7 @@ impl StateFields for Resting {
 
 impl RestingBody {
     pub fn new(
-        layout: &InputLayout,
+        (scene, layout): (&Scene, &InputLayout),
         (name, solid): (&str, &LargeStrain),
         threads: impl Fn(bool) -> usize,
     ) -> Result<Self, BodyError> {
@@ -137,44 +115,31 @@ impl RestingBody {
         let threads = threads(is_large(mesh.cells.len() * 8));
         let body = plan::deformable(solid, threads).map_err(named)?;
         let weight = body.mass.iter().map(|m| [0.0, 0.0, -m * solid.gravity]).collect();
-        let holds = holds(solid, &mesh, &body);
-        let held: Vec<[bool; 3]> =
-            holds.iter().map(|holds| holds.map(|hold| hold != Hold::Free)).collect();
-        let equilibrium = Equilibrium::new(body, &held).map_err(named)?;
-        let moved: Vec<Vec<usize>> =
-            moved_faces(solid).into_iter().map(|face| solid.moved_axes(face)).collect();
-        let forces = vec![[0.0; 3]; moved.len()];
+        let faces = Faces::new(layout, (name, solid), &mesh, &body);
+        let probes = Probes::new(scene, (name, solid), &mesh, &body);
+        let probes = probes.map_err(|refused| named(refused.into()))?;
+        let loaded = loaded(solid, &body);
+        let equilibrium = Equilibrium::new(body, &faces.held(), loaded).map_err(named)?;
+        let forces = vec![[0.0; 3]; faces.moved()];
+        let loads = vec![[0.0; 4]; faces.loaded()];
         let columns = columns(&equilibrium.body.space, solid.is_box());
         let temperature = solid.initial_temperature;
         let rest = equilibrium.rest();
-        let start = Resting { temperature, rest, forces, ..Resting::default() };
+        let start = Resting { temperature, loads, rest, forces, ..Resting::default() };
         let own = Self {
             name: name.to_owned(),
             equilibrium,
             start,
-            holds,
+            faces,
+            probes,
             weight,
-            moved,
             mirrors: solid.mirrors(),
             columns,
             temperature,
             thermal: solid.thermal(),
-            inputs: layout.of_body(name),
             notes: super::forecast::notes(solid),
         };
         Ok(own)
-    }
-
-    /// Returns the displacements and the temperature that all inputs prescribe.
-    fn prescribed(&self, inputs: &[f64]) -> Prescribed {
-        let mut own = inputs[self.inputs.clone()].iter();
-        let of_face = |axes: &Vec<usize>| {
-            let mut displacement = [0.0; 3];
-            axes.iter().zip(&mut own).for_each(|(&axis, &value)| displacement[axis] = value);
-            displacement
-        };
-        let faces = self.moved.iter().map(of_face).collect();
-        Prescribed { faces, temperature: own.next().copied().unwrap_or(self.temperature) }
     }
 
     /// The step of each layer over a time [s] in which the temperature changes linearly [K].
@@ -208,11 +173,21 @@ impl RestingBody {
         halvings: u32,
         allowance: &Allowance,
     ) -> Result<(), Failure> {
-        let conditions = self.conditions(&to.faces);
+        let conditions = self.conditions(to);
         let course = self.course([state.temperature, to.temperature], dt)?;
         let expansion = self.work_of_expansion(state, to.temperature)?;
+        let from = self.loads_at(&state.rest, &self.held(state).loads);
+        let displaced = state.rest.displacement.clone();
         match self.equilibrium.step(&mut state.rest, &conditions, &course, allowance) {
             Ok(found) => {
+                let forces = self.loads_at(&state.rest, &to.loads);
+                let of_node = |node: usize| -> f64 {
+                    let force = |a: usize| 0.5 * (from[node][a] + forces[node][a]);
+                    let way = |a: usize| state.rest.displacement[node][a] - displaced[node][a];
+                    (0..3).map(|a| force(a) * way(a)).sum()
+                };
+                state.load_work += (0..forces.len()).map(of_node).sum::<f64>();
+                state.loads = to.loads.iter().map(FaceLoad::numbers).collect();
                 let before = state.stored;
                 state.work += match self.remembers() {
                     // Elastic work is what is stored.
@@ -223,7 +198,7 @@ impl RestingBody {
                 state.time += dt;
                 state.temperature = to.temperature;
                 state.steps += 1.0;
-                state.forces = self.forces(&found.reactions);
+                state.forces = self.faces.forces(&found.reactions);
                 Ok(())
             }
             Err(failure @ Failure::Halted(_)) => Err(failure),
@@ -261,47 +236,26 @@ impl RestingBody {
         Ok(present)
     }
 
-    fn conditions(&self, to: &[[f64; 3]]) -> Conditions {
-        let of_node = |holds: &[Hold; 3]| {
-            [0, 1, 2].map(|a| match holds[a] {
-                Hold::Free | Hold::Fixed => 0.0,
-                Hold::With(face) => to[face][a],
-            })
-        };
-        let displacements = self.holds.iter().map(of_node).collect();
-        Conditions { forces: self.weight.clone(), displacements }
+    fn conditions(&self, to: &Prescribed) -> Conditions {
+        let displacements = self.faces.displacements(&to.places);
+        Conditions { forces: self.weight.clone(), displacements, loads: to.loads.clone() }
     }
 
-    /// Returns the displacements and the temperature under which a state is in equilibrium.
-    fn held(&self, state: &Resting) -> Prescribed {
-        let mut places = vec![[0.0; 3]; self.moved.len()];
-        for (holds, u) in self.holds.iter().zip(&state.rest.displacement) {
-            for a in 0..3 {
-                if let Hold::With(face) = holds[a] {
-                    places[face][a] = u[a];
-                }
-            }
-        }
-        Prescribed { faces: places, temperature: state.temperature }
-    }
-
-    /// Forces on the moved faces, images included; those of images along mirrored axes cancel.
-    fn forces(&self, reactions: &[[f64; 3]]) -> Vec<[f64; 3]> {
-        let mut forces = vec![[0.0; 3]; self.moved.len()];
-        for (holds, reaction) in self.holds.iter().zip(reactions) {
-            for a in 0..3 {
-                if let Hold::With(face) = holds[a] {
-                    let mirrored = a < 2 && (self.mirrors[a] || self.is_round());
-                    let copies = if mirrored { 0.0 } else { copies(self.mirrors) };
-                    forces[face][a] += copies * reaction[a];
-                }
-            }
-        }
+    /// Forces of loads on the nodes of a body [N].
+    fn loads_at(&self, rest: &Rest, loads: &[FaceLoad]) -> Vec<[f64; 3]> {
+        let Equilibrium { body, loaded, .. } = &self.equilibrium;
+        let mut forces = vec![[0.0; 3]; body.nodes()];
+        loaded.add_forces(body, &rest.displacement, loads, &mut forces);
         forces
     }
 
-    fn is_round(&self) -> bool {
-        self.equilibrium.body.space.form == Form::Axisymmetric
+    /// Returns what is prescribed where a state is in equilibrium.
+    fn held(&self, state: &Resting) -> Prescribed {
+        Prescribed {
+            places: self.faces.places(&state.rest.displacement),
+            loads: state.loads.iter().copied().map(FaceLoad::of).collect(),
+            temperature: state.temperature,
+        }
     }
 
     fn resting(&self, state: &[f64]) -> Resting {
@@ -310,9 +264,20 @@ impl RestingBody {
         resting
     }
 
-    fn snapshot(&self, state: &Resting) -> Result<Snapshot, BodyError> {
+    fn view(&self, state: Resting) -> Result<View, BodyError> {
         let stretches = self.stretches(state.temperature);
-        self.seen(state, &stretches).snapshot().map_err(|failure| self.error(failure))
+        let seen = self.seen(&state, &stretches);
+        let stresses = seen.stresses().map_err(|failure| self.error(failure))?;
+        let copies = copies(self.mirrors);
+        let sums = Sums {
+            dissipated: copies * (state.work - state.stored),
+            load_work: copies * state.load_work,
+            steps: state.steps,
+            ..Sums::default()
+        };
+        let snapshot = seen.snapshot(&stresses);
+        let probed = self.probes.read(&seen, &stresses, state.temperature);
+        Ok(View { snapshot, sums, probed, forces: state.forces })
     }
 
     fn seen<'a>(&'a self, state: &'a Resting, stretches: &'a [f64]) -> Seen<'a> {
@@ -349,40 +314,18 @@ impl RestingBody {
         {
             return Err(format!("a temperature of {temperature} K"));
         }
-        for (holds, u) in self.holds.iter().zip(&state.rest.displacement) {
-            if (0..3).any(|a| holds[a] == Hold::Fixed && u[a] != 0.0) {
-                return Err("a node moves along an axis that holds it".to_owned());
-            }
+        self.faces.check(&state.rest.displacement)?;
+        if !state.loads.as_flattened().iter().all(|load| load.is_finite()) {
+            return Err("a load is not finite".to_owned());
         }
-        let snapshot = self.snapshot(state).map_err(|error| error.to_string())?;
-        let missing = snapshot.stored - copies(self.mirrors) * state.stored;
-        if missing.abs() > ENERGY * snapshot.stored.abs() {
+        let stretches = self.stretches(state.temperature);
+        let found = self.seen(state, &stretches).stresses().map_err(|error| error.to_string())?;
+        let missing = found.energy - state.stored;
+        if missing.abs() > ENERGY * found.energy.abs() {
             return Err(format!("{missing:.1e} J of the stored energy have no cause"));
         }
         Ok(())
     }
-}
-
-/// Conditions on the nodes of a mesh by the faces of a solid; where faces meet, fixed prevails over moved.
-fn holds(solid: &LargeStrain, mesh: &Mesh, body: &Deformable) -> Vec<[Hold; 3]> {
-    let fixed = |fixed: &[bool; 3]| fixed.map(|fixed| if fixed { Hold::Fixed } else { Hold::Free });
-    let mut holds: Vec<[Hold; 3]> = body.fixed.iter().map(fixed).collect();
-    let moved = moved_faces(solid);
-    for (&face, held) in &solid.faces {
-        let number = moved.iter().position(|&other| other == face);
-        for (side, corners) in mesh.faces.iter().filter(|(side, _)| plan::is_on(solid, face, *side))
-        {
-            for &node in corners {
-                for (axis, hold) in holds[node as usize].iter_mut().enumerate() {
-                    let is_free = held.roller && plan::normal(*side) != axis;
-                    if *hold != Hold::Fixed && !is_free {
-                        *hold = number.map_or(Hold::Fixed, Hold::With);
-                    }
-                }
-            }
-        }
-    }
-    holds
 }
 
 impl Body for RestingBody {
@@ -409,7 +352,7 @@ impl Body for RestingBody {
     }
 
     fn memo(&self, inputs: &[f64], _: &[Received]) -> Memo {
-        Box::new(RestingMemo { to: self.prescribed(inputs), seen: None })
+        Box::new(RestingMemo { to: self.faces.prescribed(inputs), seen: None })
     }
 
     fn forget_state(&self, memo: &mut Memo) {
@@ -425,13 +368,13 @@ impl Body for RestingBody {
     ) -> Result<Option<Given>, BodyError> {
         let mut resting = self.resting(state);
         // Inputs that have jumped act at once, before stress relaxes.
-        let from = self.prescribed(&acts.path.at(0, 0.0));
+        let from = self.faces.prescribed(&acts.path.at(0, 0.0));
         let jumps = resting.steps == 0.0 || self.held(&resting) != from;
         if jumps && self.remembers() {
             let settled = self.settle(&mut resting, &from, 0.0, HALVINGS, allowance);
             settled.map_err(|failure| self.error(failure))?;
         }
-        let to = self.prescribed(&acts.path.at(0, acts.duration));
+        let to = self.faces.prescribed(&acts.path.at(0, acts.duration));
         let settled = self.settle(&mut resting, &to, acts.duration, HALVINGS, allowance);
         settled.map_err(|failure| self.error(failure))?;
         store(&mut resting, state);
@@ -439,23 +382,16 @@ impl Body for RestingBody {
     }
 
     fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError> {
-        let Reading::Total(place) = *reading else { return Err(BodyError::NoSuchReading) };
         let memo = RestingMemo::of_mut(memo);
-        if memo.seen.is_none() {
-            let present = self.present(state, &memo.to)?;
-            let dissipated = copies(self.mirrors) * (present.work - present.stored);
-            let sums = Sums { dissipated, steps: present.steps, ..Sums::default() };
-            memo.seen = Some((self.snapshot(&present)?, sums, present.forces));
-        }
-        let (snapshot, sums, forces) = memo.seen.as_ref().expect("made above");
-        Ok(match totals::force(place) {
-            Some((face, axis)) => forces[face][axis],
-            None => totals::read(snapshot, sums, place),
-        })
+        let view = match memo.seen.take() {
+            Some(known) => known,
+            None => self.view(self.present(state, &memo.to)?)?,
+        };
+        memo.seen.insert(view).read(reading)
     }
 
     fn follows_at_once(&self, reading: &Reading) -> bool {
-        matches!(reading, Reading::Total(_))
+        matches!(reading, Reading::Total(_) | Reading::Point { .. })
     }
 
     fn fields(&self, state: &[f64], memo: &mut Memo) -> Result<Fields, BodyError> {

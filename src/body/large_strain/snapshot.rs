@@ -1,7 +1,7 @@
 //! Measures of a deformed solid of large strain.
 
 use crate::laws::solid::large_strain::Deformed;
-use crate::method::large_strain::{Course, Deformable, Failure, Touch};
+use crate::method::large_strain::{Course, Deformable, Failure, Stresses, Touch};
 use crate::method::sph::ParticleFields;
 use crate::space::{Form, Space};
 
@@ -72,12 +72,16 @@ pub struct Seen<'a> {
 }
 
 impl Seen<'_> {
-    pub fn snapshot(&self) -> Result<Snapshot, Failure> {
-        let body = self.body;
+    /// Stresses of the points.
+    pub fn stresses(&self) -> Result<Stresses, Failure> {
         let mut history = self.history.to_vec();
+        let team = &self.body.team();
+        self.body.respond(self.displacement, &self.over(), &mut history, team)
+    }
+
+    pub fn snapshot(&self, stresses: &Stresses) -> Snapshot {
+        let body = self.body;
         let team = &body.team();
-        let over = self.over();
-        let stresses = body.respond(self.displacement, &over, &mut history, team)?;
         let copies = copies(self.mirrors);
         let moved = body.displacements(self.displacement);
         let places = || body.space.nodes.iter().zip(&moved);
@@ -97,7 +101,7 @@ impl Seen<'_> {
             width: if is_half { 2.0 * right } else { right - left },
             height: high - low,
             centre: moment / mass + self.lifted,
-            von_mises: body.greatest_von_mises(self.displacement, &stresses, team),
+            von_mises: body.greatest_von_mises(self.displacement, stresses, team),
             least_jacobian: stresses.least,
             stored: copies * (stresses.energy + energy_of_contact),
             mass: copies * mass,
@@ -117,7 +121,7 @@ impl Seen<'_> {
                 snapshot.momentum[axis] = 0.0;
             }
         }
-        Ok(snapshot)
+        snapshot
     }
 
     /// Change of the columns' directions over the length of the strip between them [1/m].

@@ -3,12 +3,13 @@
 use super::snapshot::Snapshot;
 use crate::body::{Descriptor, Direct};
 use crate::quantity::Quantity;
-use crate::scene::{FaceName, LargeStrain};
+use crate::scene::{FaceName, HeldFace, LargeStrain};
 
 /// Integrals over time of a body, in addition to its [`Snapshot`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Sums {
     pub dissipated: f64,
+    pub load_work: f64,
     pub contact_force: f64,
     pub impulse: f64,
     pub lift_off: f64,
@@ -31,6 +32,10 @@ enum Offered {
     All,
     /// Those with inertia.
     Moving,
+    /// Those above a plane or another body.
+    Above,
+    /// Those with loads on their faces.
+    Loaded,
     /// Those on a solid, over whose edge they may reach.
     OnASolid,
     /// Boxes in a plane.
@@ -42,7 +47,7 @@ enum Read {
     Sums(fn(&Sums) -> f64),
 }
 
-const TOTALS: [Total; 20] = [
+const TOTALS: [Total; 21] = [
     all("width", "extent along x", Quantity::Length, |s| s.width),
     all("height", "extent along z", Quantity::Length, |s| s.height),
     all("centre_z", "height of the centre of mass", Quantity::Length, |s| s.centre),
@@ -59,30 +64,44 @@ const TOTALS: [Total; 20] = [
         of: Offered::All,
         read: Read::Sums(|sums| sums.dissipated),
     },
+    Total {
+        key: "load_work",
+        words: "work of pressures and tractions on its faces since time zero",
+        quantity: Quantity::Energy,
+        of: Offered::Loaded,
+        read: Read::Sums(|sums| sums.load_work),
+    },
     moving("kinetic", "kinetic energy", Quantity::Energy, |s| s.kinetic),
     moving("momentum_x", "momentum along x", Quantity::Momentum, |s| s.momentum[0]),
     moving("momentum_y", "momentum along y", Quantity::Momentum, |s| s.momentum[1]),
     moving("momentum_z", "momentum along z", Quantity::Momentum, |s| s.momentum[2]),
-    moving(
-        "contact_radius",
-        "largest distance of a point in contact from the middle of the contact",
-        Quantity::Length,
-        |s| s.contact_radius,
-    ),
-    sum(
+    Total {
+        key: "contact_radius",
+        words: "largest distance of a point in contact from the middle of the contact",
+        quantity: Quantity::Length,
+        of: Offered::Above,
+        read: Read::Snapshot(|s| s.contact_radius),
+    },
+    above(
         "contact_force",
         "force on what lies below, mean over the last exchange",
         Quantity::Force,
         |s| s.contact_force,
     ),
-    sum(
+    above(
         "impulse_z",
         "impulse along z on what lies below, into it negative",
         Quantity::Momentum,
         |s| -s.impulse,
     ),
-    sum("lift_off_time", "time of the last lift-off, 0 before", Quantity::Time, |s| s.lift_off),
-    sum("steps", "time steps made inside the unit", Quantity::Ratio, |s| s.steps),
+    above("lift_off_time", "time of the last lift-off, 0 before", Quantity::Time, |s| s.lift_off),
+    Total {
+        key: "steps",
+        words: "time steps made inside the unit",
+        quantity: Quantity::Ratio,
+        of: Offered::Moving,
+        read: Read::Sums(|sums| sums.steps),
+    },
     Total {
         key: "force_outside",
         words: "force beyond the edge of the solid, which does not act on it, mean over the last exchange",
@@ -127,13 +146,13 @@ const fn moving(
     Total { key, words, quantity, of: Offered::Moving, read: Read::Snapshot(read) }
 }
 
-const fn sum(
+const fn above(
     key: &'static str,
     words: &'static str,
     quantity: Quantity,
     read: fn(&Sums) -> f64,
 ) -> Total {
-    Total { key, words, quantity, of: Offered::Moving, read: Read::Sums(read) }
+    Total { key, words, quantity, of: Offered::Above, read: Read::Sums(read) }
 }
 
 /// Returns the totals that a solid offers, each with its place: first those of the table, then the forces of faces whose
@@ -144,6 +163,8 @@ pub fn offered_totals(solid: &LargeStrain, is_coupled: bool) -> Vec<(usize, Desc
         _ if place == STEPS_AT_REST => !solid.inertia,
         Offered::All => true,
         Offered::Moving => solid.inertia,
+        Offered::Above => solid.is_above(),
+        Offered::Loaded => solid.faces.values().any(HeldFace::is_loaded),
         Offered::OnASolid => is_coupled,
         Offered::PlaneBox => is_plane && solid.is_box(),
     };
@@ -171,6 +192,12 @@ pub fn offered_totals(solid: &LargeStrain, is_coupled: bool) -> Vec<(usize, Desc
 pub fn moved_faces(solid: &LargeStrain) -> Vec<FaceName> {
     let moved = solid.faces.iter().filter(|(_, face)| face.displacement.is_some());
     moved.map(|(&face, _)| face).collect()
+}
+
+/// Faces with loads, in their order.
+pub fn loaded_faces(solid: &LargeStrain) -> Vec<FaceName> {
+    let loaded = solid.faces.iter().filter(|(_, face)| face.is_loaded());
+    loaded.map(|(&face, _)| face).collect()
 }
 
 /// Place of a force among those of the faces.

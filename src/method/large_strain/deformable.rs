@@ -4,7 +4,8 @@ use std::ops::Range;
 
 use super::{Course, Failure};
 use crate::laws::solid::large_strain::{Deformed, LargeStrainLaw};
-use crate::math::matrix3::{IDENTITY, Matrix3, contraction};
+use crate::laws::solid::stress::von_mises;
+use crate::math::matrix3::{IDENTITY, Matrix3, contraction, packed};
 use crate::runtime::parallel::Team;
 use crate::space::{Form, Samples, Space};
 
@@ -165,6 +166,27 @@ impl Deformable {
         &self.layers[self.layer_of_group[group]].law
     }
 
+    /// Returns true if part of the body yields.
+    pub fn yields(&self) -> bool {
+        self.layers.iter().any(|layer| layer.law.yields())
+    }
+
+    /// Accumulated plastic strain of each point for a history of all.
+    pub fn plastic_strains(&self, history: &[f64]) -> Vec<f64> {
+        let of_group = |group: usize| {
+            let (law, points) = (self.law_of(group), self.space.groups[group].len());
+            let own = &history[self.history_of(group)];
+            let length = law.history();
+            (0..points).map(move |n| law.plastic_strain(&own[length * n..length * (n + 1)]))
+        };
+        (0..self.space.groups.len()).flat_map(of_group).collect()
+    }
+
+    /// Returns true if the derivatives of the stresses of all layers are symmetric.
+    pub fn has_symmetric_tangent(&self) -> bool {
+        self.layers.iter().all(|layer| layer.law.is_symmetric())
+    }
+
     /// Largest modulus of plane waves of a layer [Pa].
     pub fn wave_modulus(&self) -> f64 {
         self.layers.iter().map(|layer| layer.law.wave_modulus()).fold(0.0, f64::max)
@@ -318,10 +340,15 @@ impl Deformable {
 
     /// Internal forces on the nodes [N], which resist the deformation.
     pub fn forces(&self, stresses: &Stresses, team: &Team) -> Vec<[f64; 3]> {
+        self.forces_of(&stresses.loads, team)
+    }
+
+    /// The same of the volume times P of each point [N m].
+    pub fn forces_of(&self, loads: &[Matrix3], team: &Team) -> Vec<[f64; 3]> {
         team.map(self.uses.len(), |node| {
             let mut force = [0.0; 3];
             for Use { point, gradient, hoop } in &self.uses[node] {
-                let load = &stresses.loads[*point as usize];
+                let load = &loads[*point as usize];
                 for (total, row) in force.iter_mut().zip(load) {
                     *total -= row[0] * gradient[0] + row[1] * gradient[1] + row[2] * gradient[2];
                 }
@@ -341,13 +368,20 @@ impl Deformable {
         team.map(stresses.loads.len(), of_point).into_iter().sum()
     }
 
+    /// Cauchy stress of a point [Pa].
+    pub fn cauchy(&self, u: &[[f64; 3]], stresses: &Stresses, point: usize) -> Matrix3 {
+        let at = Deformed::of(self.gradient(&self.space.volume, point, u));
+        let scale = 1.0 / (at.dilatation * self.space.volume.weights[point]);
+        let load = &stresses.loads[point];
+        let entry = |a: usize, b: usize| {
+            scale * (0..3).map(|k| load[a][k] * at.gradient[b][k]).sum::<f64>()
+        };
+        std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)))
+    }
+
     /// Largest von Mises stress of a point [Pa].
     pub fn greatest_von_mises(&self, u: &[[f64; 3]], stresses: &Stresses, team: &Team) -> f64 {
-        let of_point = |point: usize| {
-            let at = Deformed::of(self.gradient(&self.space.volume, point, u));
-            let scale = 1.0 / (at.dilatation * self.space.volume.weights[point]);
-            von_mises(&cauchy(&stresses.loads[point], &at.gradient, scale))
-        };
+        let of_point = |point: usize| von_mises(packed(&self.cauchy(u, stresses, point)));
         team.map(stresses.loads.len(), of_point).into_iter().fold(0.0, f64::max)
     }
 
@@ -399,18 +433,4 @@ const TINY: f64 = 1e-7;
 fn rough(node: usize) -> [f64; 3] {
     let number = |n: usize| 2.0 * (n as f64 * 0.618_033_988_749_895).fract() - 1.0;
     [number(3 * node + 1), number(3 * node + 2), number(3 * node + 3)]
-}
-
-/// Cauchy stress from P times a volume.
-fn cauchy(load: &Matrix3, gradient: &Matrix3, scale: f64) -> Matrix3 {
-    let entry =
-        |a: usize, b: usize| scale * (0..3).map(|k| load[a][k] * gradient[b][k]).sum::<f64>();
-    std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)))
-}
-
-fn von_mises(stress: &Matrix3) -> f64 {
-    let mean = (stress[0][0] + stress[1][1] + stress[2][2]) / 3.0;
-    let mut deviator = *stress;
-    (0..3).for_each(|a| deviator[a][a] -= mean);
-    (1.5 * contraction(&deviator, &deviator)).sqrt()
 }

@@ -2,7 +2,10 @@
 //!
 //! Momentum is conserved to rounding, and energy to the square of the time step.
 
-use super::{Course, Deformable, Failure, Ledger, Motion, Plane, Stresses, Touch};
+use super::statics::sum;
+use super::{
+    Course, Deformable, FaceLoad, Failure, Ledger, LoadedFaces, Motion, Plane, Stresses, Touch,
+};
 use crate::port::WallCells;
 use crate::runtime::allowance::Allowance;
 use crate::runtime::parallel::Team;
@@ -11,6 +14,7 @@ use crate::space::Form;
 /// A body that moves.
 pub struct Dynamics {
     pub body: Deformable,
+    pub loaded: LoadedFaces,
     /// The plane below.
     pub plane: Plane,
     /// [m/s²]
@@ -30,23 +34,29 @@ const STEPS: &str = "time steps of a solid of large strain";
 /// Numbers that a time step updates for each point of the volume, or as many as take as long.
 const WORK: usize = 60;
 
-/// Stresses and contact at a moment.
+/// Loads on faces at a time [s] after the beginning of an advance.
+pub type Loads<'a> = &'a dyn Fn(f64) -> Vec<FaceLoad>;
+
+/// Stresses, contact and loads at a moment.
 struct Moment {
     stresses: Stresses,
     touch: Touch,
+    /// Forces of loads, and of all, on the nodes [N].
+    loads: Vec<[f64; 3]>,
     forces: Vec<[f64; 3]>,
 }
 
 impl Dynamics {
     pub fn new(
-        body: Deformable,
+        (body, loaded): (Deformable, LoadedFaces),
         plane: Plane,
         gravity: f64,
         mirrors: [bool; 2],
         cells: Option<WallCells>,
     ) -> Self {
         let frequencies = [body.highest_frequency(), frequency_of_contact(&body, &plane)];
-        Self { body, plane, gravity: [0.0, 0.0, -gravity], mirrors, cells, frequencies }
+        let gravity = [0.0, 0.0, -gravity];
+        Self { body, loaded, plane, gravity, mirrors, cells, frequencies }
     }
 
     /// The state at time zero, in which all nodes have one velocity [m/s].
@@ -84,35 +94,44 @@ impl Dynamics {
         SHARE * 2.0 / (own * own * stiffening + of_contact * of_contact).sqrt()
     }
 
-    fn at(&self, motion: &mut Motion, dt: f64, team: &Team) -> Result<Moment, Failure> {
-        let over = self.body.in_all(Course::of(dt));
-        let stresses = self.body.respond(&motion.displacement, &over, &mut motion.history, team)?;
-        let mut forces = self.body.forces(&stresses, team);
-        let touch = self.plane.touch(&self.body, &motion.displacement);
+    fn at(
+        &self,
+        motion: &mut Motion,
+        dt: f64,
+        loads: &[FaceLoad],
+        team: &Team,
+    ) -> Result<Moment, Failure> {
+        let (body, u) = (&self.body, &motion.displacement);
+        let stresses = body.respond(u, &body.in_all(Course::of(dt)), &mut motion.history, team)?;
+        let mut of_loads = vec![[0.0; 3]; u.len()];
+        self.loaded.add_forces(body, u, loads, &mut of_loads);
+        let mut forces = sum(&body.forces(&stresses, team), &of_loads);
+        let touch = self.plane.touch(body, u);
         touch.add_to(&mut forces);
-        Ok(Moment { stresses, touch, forces })
+        Ok(Moment { stresses, touch, loads: of_loads, forces })
     }
 
-    /// Advances by a duration [s].
+    /// Advances by a duration [s] under loads.
     pub fn advance(
         &self,
         motion: &mut Motion,
         duration: f64,
+        loads: Loads,
         allowance: &Allowance,
     ) -> Result<(), Failure> {
         motion.ledger.exchange.fill(0.0);
         (motion.ledger.outside, motion.ledger.duration) = (0.0, duration);
         let mut rest = duration;
         let team = &self.body.team();
-        let mut now = self.at(motion, 0.0, team)?;
+        let mut now = self.at(motion, 0.0, &loads(0.0), team)?;
         while rest > 0.0 {
             // Equal steps to the end, so that none is tiny.
             let steps = (rest / self.stable(now.stresses.stiffening)).ceil();
             allowance.foresee(steps, STEPS, self.work())?;
             allowance.spend(1.0, STEPS, self.work())?;
             let dt = rest / steps;
-            now = self.step(motion, now, dt, team)?;
             rest = if steps == 1.0 { 0.0 } else { rest - dt };
+            now = self.step(motion, now, dt, &loads(duration - rest), team)?;
         }
         Ok(())
     }
@@ -122,6 +141,7 @@ impl Dynamics {
         motion: &mut Motion,
         now: Moment,
         dt: f64,
+        loads: &[FaceLoad],
         team: &Team,
     ) -> Result<Moment, Failure> {
         self.kick(motion, &now, 0.5 * dt, team);
@@ -129,11 +149,16 @@ impl Dynamics {
         for (u, way) in motion.displacement.iter_mut().zip(&way) {
             (0..3).for_each(|a| u[a] += way[a]);
         }
-        let next = self.at(motion, dt, team)?;
+        let next = self.at(motion, dt, loads, team)?;
         self.kick(motion, &next, 0.5 * dt, team);
         let work = [&now, &next].map(|moment| self.body.work(&moment.stresses, &way, team));
+        let along = |loads: &[[f64; 3]]| {
+            let products = loads.iter().flatten().zip(way.iter().flatten());
+            products.map(|(f, u)| f * u).sum::<f64>()
+        };
         let ledger = &mut motion.ledger;
         ledger.internal_work += 0.5 * (work[0] + work[1]);
+        ledger.load_work += 0.5 * (along(&now.loads) + along(&next.loads));
         ledger.time += dt;
         ledger.steps += 1.0;
         if now.touch.force > 0.0 && next.touch.force == 0.0 {

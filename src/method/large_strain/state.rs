@@ -25,6 +25,9 @@ pub struct Ledger {
     pub steps: f64,
     /// Work of the stresses [J].
     pub internal_work: f64,
+    /// Work of the loads on faces, and of the faces that are held or moved [J].
+    pub load_work: f64,
+    pub face_work: f64,
     /// Impulse of the body on the plane [N s].
     pub impulse_to_plane: f64,
     /// Time at which the body last left the plane [s]; 0 before.
@@ -48,6 +51,8 @@ impl Fields for Motion {
                 body("internal_work", "work of the stresses [J]"),
                 from_mut(&mut ledger.internal_work),
             ),
+            (body("load_work", "work of loads on faces [J]"), from_mut(&mut ledger.load_work)),
+            (body("face_work", "work of held faces [J]"), from_mut(&mut ledger.face_work)),
             (
                 body("impulse_to_plane", "impulse on the plane below [N s]"),
                 from_mut(&mut ledger.impulse_to_plane),

@@ -1,16 +1,19 @@
 //! Equilibrium without inertia, by Newton's method with a line search.
 
-use super::tangent::{Factor, Linearised, Stiffness};
-use super::{Course, Deformable, Failure, Stresses};
+use super::path::Path;
+use super::tangent::{Factor, Linearised, Stiffness, Terms};
+use super::{Course, Deformable, FaceLoad, Failure, LoadedFaces, Stresses};
+use crate::laws::solid::large_strain::Deformed;
 use crate::runtime::allowance::Allowance;
 use crate::runtime::parallel::Team;
 
-/// A body in equilibrium under prescribed displacements and forces.
+/// A body in equilibrium under prescribed displacements, forces and loads on faces.
 pub struct Equilibrium {
     pub body: Deformable,
+    pub loaded: LoadedFaces,
     stiffness: Stiffness,
     held: Vec<[bool; 3]>,
-    /// Rounding of internal forces over the norm of displacements' strains [N].
+    /// Bound on the rounding of internal forces [N].
     rounding: f64,
 }
 
@@ -30,6 +33,8 @@ pub struct Conditions {
     pub forces: Vec<[f64; 3]>,
     /// Displacements of held nodes [m]; those of others are not read.
     pub displacements: Vec<[f64; 3]>,
+    /// Load on each loaded face.
+    pub loads: Vec<FaceLoad>,
 }
 
 /// An equilibrium.
@@ -41,7 +46,7 @@ pub struct Found {
     pub reactions: Vec<[f64; 3]>,
     /// Energy stored [J].
     pub stored: f64,
-    /// Work of the stresses over the step, by the trapezoidal rule [J].
+    /// Work of the stresses over the step, along the straight path of C [J].
     pub work: f64,
 }
 
@@ -84,12 +89,13 @@ struct Step<'a> {
 
 impl Equilibrium {
     /// `held` marks prescribed displacements, in addition to those that the body fixes.
-    pub fn new(body: Deformable, held: &[[bool; 3]]) -> Result<Self, Failure> {
+    pub fn new(body: Deformable, held: &[[bool; 3]], loaded: LoadedFaces) -> Result<Self, Failure> {
         let both = |(own, held): (&[bool; 3], &[bool; 3])| [0, 1, 2].map(|a| own[a] || held[a]);
         let held: Vec<[bool; 3]> = body.fixed.iter().zip(held).map(both).collect();
-        let stiffness = Stiffness::new(&body, &held).map_err(|_| Failure::Singular)?;
-        let rounding = ROUNDING * body.wave_modulus() * stretch(&body);
-        Ok(Self { body, stiffness, held, rounding })
+        let stiffness = Stiffness::new(&body, &held, &loaded.couplings(&body));
+        let stiffness = stiffness.map_err(|_| Failure::Singular)?;
+        let rounding = rounding(&body);
+        Ok(Self { body, loaded, stiffness, held, rounding })
     }
 
     /// The undeformed body.
@@ -110,7 +116,6 @@ impl Equilibrium {
         let step = Step { from: rest, to, over, team, allowance };
         let mut u = rest.displacement.clone();
         let mut now = self.at(&step, &u)?;
-        let before = now.stresses.clone();
         let mut residuals = Vec::new();
         if let Some(jump) = self.jump(&u, to) {
             let change = self.follow(&step, &now, &u, &jump)?;
@@ -125,16 +130,30 @@ impl Equilibrium {
             (u, now) = self.improve(&step, &u, &now)?;
             residuals.push(now.norm / now.scale);
         }
-        let way: Vec<[f64; 3]> = difference(&u, &rest.displacement);
-        let work = [&before, &now.stresses].map(|stresses| self.body.work(stresses, &way, team));
         let found = Found {
             residuals,
+            work: self.work(&step, &now.linearised),
             reactions: now.reactions,
             stored: now.stresses.energy,
-            work: 0.5 * (work[0] + work[1]),
         };
         *rest = Rest { displacement: u, history: now.history };
         Ok(found)
+    }
+
+    /// Work of the stresses over a step [J].
+    fn work(&self, step: &Step, end: &Linearised) -> f64 {
+        let body = &self.body;
+        let gradients = |all: &[Deformed]| all.iter().map(|at| at.gradient).collect::<Vec<_>>();
+        let (start, _) = body.deformations(&step.from.displacement, step.over, step.team);
+        let path = Path {
+            body,
+            start: &gradients(&start),
+            end: gradients(&end.deformations),
+            before: &step.from.history,
+            durations: step.over.iter().map(|course| course.time).collect(),
+        };
+        let stretches: Vec<f64> = step.over.iter().map(|course| course.stretch).collect();
+        path.work(&stretches, step.team)
     }
 
     /// A Newton step, halved while the residual grows or the material is turned inside out.
@@ -144,7 +163,7 @@ impl Equilibrium {
         u: &[[f64; 3]],
         now: &Trial,
     ) -> Result<(Vec<[f64; 3]>, Trial<'s>), Failure> {
-        let factor = self.factor(step, now)?;
+        let factor = self.factor(step, u, now)?;
         let mut change = self.stiffness.solve(&factor, &now.residual);
         for _ in 0..HALVINGS {
             let next = sum(u, &change);
@@ -157,10 +176,16 @@ impl Equilibrium {
         Err(Failure::NotConverged { residual: now.norm / now.scale })
     }
 
-    fn factor(&self, step: &Step, trial: &Trial) -> Result<Factor, Failure> {
-        self.stiffness
-            .factor(&self.body, &trial.linearised, step.team)
-            .map_err(|_| Failure::Singular)
+    fn factor(&self, step: &Step, u: &[[f64; 3]], trial: &Trial) -> Result<Factor, Failure> {
+        let loads = &step.to.loads;
+        let is_pressed = loads.iter().any(|load| load.pressure != 0.0);
+        let terms = Terms {
+            of_group: &|group| trial.linearised.group(&self.body, group),
+            inertia: 0.0,
+            loads: &self.loaded.stiffness(&self.body, u, loads, 1.0),
+            is_symmetric: self.body.has_symmetric_tangent() && !is_pressed,
+        };
+        self.stiffness.factor(&self.body, &terms, step.team).map_err(|_| Failure::Singular)
     }
 
     /// Changes of prescribed displacements; `None` if there are none.
@@ -187,7 +212,7 @@ impl Equilibrium {
         let force =
             |(a, b): (&[f64; 3], &[f64; 3])| [0, 1, 2].map(|n| a[n] + (b[n] - a[n]) / SMALL);
         let load: Vec<[f64; 3]> = now.residual.iter().zip(&moved.residual).map(force).collect();
-        Ok(sum(&self.stiffness.solve(&self.factor(step, now)?, &load), jump))
+        Ok(sum(&self.stiffness.solve(&self.factor(step, u, now)?, &load), jump))
     }
 
     fn at<'s>(&self, step: &Step<'s>, u: &[[f64; 3]]) -> Result<Trial<'s>, Failure> {
@@ -197,12 +222,14 @@ impl Equilibrium {
         let stresses = body.respond(u, step.over, &mut history, step.team)?;
         let (deformations, dilatations) = body.deformations(u, step.over, step.team);
         let internal = body.forces(&stresses, step.team);
-        let mut residual = sum(&internal, &step.to.forces);
+        let mut external = step.to.forces.clone();
+        self.loaded.add_forces(body, u, &step.to.loads, &mut external);
+        let mut residual = sum(&internal, &external);
         let (mut norm, mut scale) = (0.0, 0.0);
         let mut reactions = vec![[0.0; 3]; u.len()];
         for (node, held) in self.held.iter().enumerate() {
             for a in 0..3 {
-                scale += internal[node][a].powi(2) + step.to.forces[node][a].powi(2);
+                scale += internal[node][a].powi(2) + external[node][a].powi(2);
                 if held[a] {
                     reactions[node][a] = -residual[node][a];
                     residual[node][a] = 0.0;
@@ -215,6 +242,11 @@ impl Equilibrium {
         let scale = scale.sqrt().max(f64::MIN_POSITIVE);
         Ok(Trial { linearised, stresses, residual, norm: norm.sqrt(), scale, history, reactions })
     }
+}
+
+/// Bound on the rounding of the internal forces, as a norm over the nodes [N].
+pub(super) fn rounding(body: &Deformable) -> f64 {
+    ROUNDING * body.wave_modulus() * stretch(body)
 }
 
 /// Norm over the nodes of the forces of a unit stress, without cancellation [m²].
@@ -230,10 +262,10 @@ fn stretch(body: &Deformable) -> f64 {
     sums.iter().map(|sum| sum * sum).sum::<f64>().sqrt()
 }
 
-fn sum(a: &[[f64; 3]], b: &[[f64; 3]]) -> Vec<[f64; 3]> {
+pub(super) fn sum(a: &[[f64; 3]], b: &[[f64; 3]]) -> Vec<[f64; 3]> {
     a.iter().zip(b).map(|(a, b)| [0, 1, 2].map(|n| a[n] + b[n])).collect()
 }
 
-fn difference(a: &[[f64; 3]], b: &[[f64; 3]]) -> Vec<[f64; 3]> {
+pub(super) fn difference(a: &[[f64; 3]], b: &[[f64; 3]]) -> Vec<[f64; 3]> {
     a.iter().zip(b).map(|(a, b)| [0, 1, 2].map(|n| a[n] - b[n])).collect()
 }

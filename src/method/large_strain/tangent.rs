@@ -8,8 +8,10 @@ use faer::sparse::linalg::solvers::{Llt, Lu, SymbolicLlt, SymbolicLu};
 use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
 use faer::{Mat, Side};
 
+use super::load::LoadStiffness;
 use super::{Course, Deformable};
 use crate::laws::solid::large_strain::{Deformed, Tangent};
+use crate::math::matrix3::Matrix3;
 use crate::runtime::parallel::Team;
 use crate::space::Form;
 
@@ -24,6 +26,37 @@ pub struct Stiffness {
     lu: OnceLock<SymbolicLu<usize>>,
     /// For each block of assembly the unknowns of its columns.
     blocks: Vec<Block>,
+    /// Number of the further blocks of loads.
+    loads: usize,
+}
+
+/// What the matrix of a linear system consists of.
+pub struct Terms<'a> {
+    /// Stiffness of each group of points.
+    pub of_group: &'a (dyn Fn(usize) -> GroupTangent + Sync),
+    /// Multiple of the masses of the nodes [1/s²].
+    pub inertia: f64,
+    /// Stiffness of the loads on faces, of which the matrix has a block each.
+    pub loads: &'a [LoadStiffness],
+    pub is_symmetric: bool,
+}
+
+/// Derivatives of the stresses of the points of a group.
+pub struct GroupTangent {
+    /// `∂P/∂F` of each point at constant pressure of the dilatation.
+    pub points: Vec<Tangent>,
+    /// Changes of that pressure.
+    pub swellings: Vec<Swelling>,
+    /// Factor of all.
+    pub scale: f64,
+}
+
+/// Stiffness `k Σ V δF : A_p Σ V B_p : dF` of a pressure that all points of a group share.
+pub struct Swelling {
+    pub stiffness: f64,
+    /// A and B of each point.
+    pub forces: Vec<Matrix3>,
+    pub changes: Vec<Matrix3>,
 }
 
 /// Points that are assembled together, and the nodes of their rows.
@@ -43,8 +76,12 @@ pub enum Factor {
 pub struct Singular;
 
 impl Stiffness {
-    /// Creates the pattern; `held` marks prescribed displacements.
-    pub fn new(body: &Deformable, held: &[[bool; 3]]) -> Result<Self, Singular> {
+    /// Creates the pattern; `held` marks prescribed displacements, and `couplings` are the nodes of the blocks of loads.
+    pub fn new(
+        body: &Deformable,
+        held: &[[bool; 3]],
+        couplings: &[Vec<u32>],
+    ) -> Result<Self, Singular> {
         let mut count = 0;
         let mut number = |is_held: bool| {
             (!is_held).then(|| {
@@ -56,36 +93,47 @@ impl Stiffness {
             held.iter().map(|held| held.map(&mut number)).collect();
         let blocks = body.space.groups.iter().map(|group| block(body, group)).collect::<Vec<_>>();
         let mut pairs = Vec::new();
-        for block in &blocks {
-            let columns = columns(&unknowns, &block.nodes);
+        for nodes in blocks.iter().map(|block| &block.nodes).chain(couplings) {
+            let columns = columns(&unknowns, nodes);
             each_pair(&columns, |_, _, row, column| pairs.push(Pair { row, col: column }));
         }
         (0..count).for_each(|n| pairs.push(Pair { row: n, col: n }));
         let (pattern, order) = SymbolicSparseColMat::try_new_from_indices(count, count, &pairs)
             .map_err(|_| Singular)?;
         let llt = SymbolicLlt::try_new(pattern.as_ref(), Side::Lower).map_err(|_| Singular)?;
-        Ok(Self { unknowns, count, pattern, order, llt, lu: OnceLock::new(), blocks })
+        let (lu, loads) = (OnceLock::new(), couplings.len());
+        Ok(Self { unknowns, count, pattern, order, llt, lu, blocks, loads })
     }
 
-    /// Assembles and factors the stiffness of a state.
+    /// Assembles and factors a matrix.
+    ///
+    /// # Panics
+    /// If `terms` have not the loads of the pattern.
     pub fn factor(
         &self,
         body: &Deformable,
-        state: &Linearised,
+        terms: &Terms,
         team: &Team,
     ) -> Result<Factor, Singular> {
+        assert_eq!(terms.loads.len(), self.loads, "loads of another pattern");
         let mut values = Vec::with_capacity(self.entries() + self.count);
-        let matrices = team.map(self.blocks.len(), |n| element(body, state, &self.blocks[n], n));
-        for (block, matrix) in self.blocks.iter().zip(matrices) {
-            let columns = columns(&self.unknowns, &block.nodes);
-            let width = 3 * block.nodes.len();
+        let of_block = |n: usize| element(body, &(terms.of_group)(n), &self.blocks[n]);
+        let matrices = team.map(self.blocks.len(), of_block);
+        let nodes = self.blocks.iter().map(|block| &block.nodes);
+        let of_groups = nodes.zip(&matrices);
+        let of_loads = terms.loads.iter().map(|load| (&load.nodes, &load.matrix));
+        for (nodes, matrix) in of_groups.chain(of_loads) {
+            let columns = columns(&self.unknowns, nodes);
+            let width = 3 * nodes.len();
             each_pair(&columns, |a, b, _, _| values.push(matrix[a * width + b]));
         }
-        // The pattern has each diagonal entry once more, for nodes of no block.
-        values.resize(values.len() + self.count, 0.0);
+        for (unknowns, mass) in self.unknowns.iter().zip(&body.mass) {
+            let own = unknowns.iter().flatten().map(|_| terms.inertia * mass);
+            values.extend(own);
+        }
         let matrix = SparseColMat::new_from_argsort(self.pattern.clone(), &self.order, &values)
             .map_err(|_| Singular)?;
-        if !body.layers.iter().all(|layer| layer.law.is_symmetric()) {
+        if !terms.is_symmetric {
             return self.factor_indefinite(&matrix);
         }
         match Llt::try_new_with_symbolic(self.llt.clone(), matrix.as_ref(), Side::Lower) {
@@ -162,37 +210,59 @@ fn each_pair(columns: &[Option<usize>], mut take: impl FnMut(usize, usize, usize
     }
 }
 
+impl Linearised<'_> {
+    /// Derivatives of the stresses of a group's points.
+    pub fn group(&self, body: &Deformable, group: usize) -> GroupTangent {
+        let law = body.law_of(group);
+        let Course { time, stretch } = self.over[body.layer_of_group[group]];
+        let history = &self.before[body.history_of(group)];
+        let [pressure, stiffness] = law.pressure(self.dilatations[group]);
+        let length = law.history();
+        let points = body.space.groups[group].clone();
+        let deformed = &self.deformations[points];
+        let of_point = |(place, at): (usize, &Deformed)| {
+            let before = &history[length * place..length * (place + 1)];
+            law.tangent(at, time, before, pressure)
+        };
+        let cofactor =
+            |at: &Deformed| at.inverse_transposed.map(|row| row.map(|g| at.dilatation * g));
+        let forces: Vec<Matrix3> = deformed.iter().map(cofactor).collect();
+        let changes = forces.clone();
+        GroupTangent {
+            points: deformed.iter().enumerate().map(of_point).collect(),
+            swellings: vec![Swelling { stiffness, forces, changes }],
+            scale: stretch,
+        }
+    }
+}
+
 /// Stiffness matrix of a block, row by row.
-fn element(body: &Deformable, state: &Linearised, block: &Block, group: usize) -> Vec<f64> {
+fn element(body: &Deformable, group: &GroupTangent, block: &Block) -> Vec<f64> {
     let width = 3 * block.nodes.len();
     let mut matrix = vec![0.0; width * width];
-    let mut swelling = vec![0.0; width];
-    let volume = &body.space.volume;
-    let law = body.law_of(group);
-    let Course { time, stretch } = state.over[body.layer_of_group[group]];
-    let history = &state.before[body.history_of(group)];
-    let [pressure, slope] = law.pressure(state.dilatations[group]);
-    let mut whole = 0.0;
-    let length = law.history();
+    let weights = &body.space.volume.weights[block.points.clone()];
+    let whole: f64 = weights.iter().sum();
+    let mut swellings = vec![vec![[0.0; 2]; width]; group.swellings.len()];
     for (place, point) in block.points.clone().enumerate() {
-        let (at, weight) = (&state.deformations[point], volume.weights[point]);
-        whole += weight;
-        let before = &history[length * place..length * (place + 1)];
-        let tangent = law.tangent(at, time, before, pressure);
+        let weight = weights[place];
         let strains = strains(body, point, &block.nodes);
-        let cofactor = at.inverse_transposed.map(|row| row.map(|g| at.dilatation * g));
-        for (a, strain) in strains.iter().enumerate() {
-            swelling[a] +=
-                weight * strain.iter().map(|&(n, g)| cofactor[n / 3][n % 3] * g).sum::<f64>();
+        for (sums, Swelling { forces, changes, .. }) in swellings.iter_mut().zip(&group.swellings) {
+            for (sums, strain) in sums.iter_mut().zip(&strains) {
+                for (sum, of) in sums.iter_mut().zip([&forces[place], &changes[place]]) {
+                    *sum += weight * strain.iter().map(|&(n, g)| of[n / 3][n % 3] * g).sum::<f64>();
+                }
+            }
         }
-        add(&mut matrix, &strains, &tangent, weight);
+        add(&mut matrix, &strains, &group.points[place], weight);
     }
-    for a in 0..width {
-        for b in 0..width {
-            matrix[a * width + b] += slope / whole * swelling[a] * swelling[b];
+    for (sums, Swelling { stiffness, .. }) in swellings.iter().zip(&group.swellings) {
+        for a in 0..width {
+            for b in 0..width {
+                matrix[a * width + b] += stiffness / whole * sums[a][0] * sums[b][1];
+            }
         }
     }
-    matrix.iter_mut().for_each(|value| *value *= stretch);
+    matrix.iter_mut().for_each(|value| *value *= group.scale);
     matrix
 }
 

@@ -1,6 +1,6 @@
 //! Uniform strain is exact, rotation costs no energy, and tangents are derivatives, on any mesh.
 
-use super::tangent::{Linearised, Stiffness};
+use super::tangent::{Linearised, Stiffness, Terms};
 use super::*;
 use crate::laws::solid::large_strain::{Deviator, LargeStrainLaw, MaxwellBranch, Relaxing};
 use crate::math::matrix3::{IDENTITY, Matrix3};
@@ -12,7 +12,7 @@ fn law() -> LargeStrainLaw {
     LargeStrainLaw { bulk: 5.0, shear: 2.0, deviator }
 }
 
-fn bodies() -> Vec<Deformable> {
+pub(super) fn bodies() -> Vec<Deformable> {
     let meshes = [
         Mesh::of_ball(Form::Plane, 1.0, 2, 2, [false; 2]),
         Mesh::of_ball(Form::Axisymmetric, 1.0, 2, 2, [true, false]),
@@ -25,7 +25,7 @@ fn bodies() -> Vec<Deformable> {
 }
 
 /// Displacements under which the deformation gradient is uniform.
-fn uniform(body: &Deformable, gradient: &Matrix3) -> Vec<[f64; 3]> {
+pub(super) fn uniform(body: &Deformable, gradient: &Matrix3) -> Vec<[f64; 3]> {
     let moved = |at: &[f64; 3]| {
         [0, 1, 2].map(|a| (0..3).map(|b| gradient[a][b] * at[b]).sum::<f64>() - at[a])
     };
@@ -35,7 +35,7 @@ fn uniform(body: &Deformable, gradient: &Matrix3) -> Vec<[f64; 3]> {
 }
 
 /// A gradient that the form of a body allows.
-fn allowed(form: Form) -> Matrix3 {
+pub(super) fn allowed(form: Form) -> Matrix3 {
     match form {
         Form::Plane => [[1.3, 0.0, 0.4], [0.0, 1.0, 0.0], [-0.2, 0.0, 0.8]],
         Form::Axisymmetric => [[1.2, 0.0, 0.0], [0.0, 1.2, 0.0], [0.0, 0.0, 0.7]],
@@ -124,8 +124,10 @@ fn the_stiffness_is_the_derivative_of_the_forces() {
         held[0] = [true; 3];
         held[1] = [true; 3];
         held[2] = [true; 3];
-        let stiffness = Stiffness::new(&body, &held).unwrap();
-        let factor = stiffness.factor(&body, &state, team).unwrap();
+        let stiffness = Stiffness::new(&body, &held, &[]).unwrap();
+        let of_group = &|group| state.group(&body, group);
+        let terms = Terms { of_group, inertia: 0.0, loads: &[], is_symmetric: true };
+        let factor = stiffness.factor(&body, &terms, team).unwrap();
         let mut change: Vec<[f64; 3]> = (0..body.nodes())
             .map(|n| [(1.3 * n as f64).sin(), (2.1 * n as f64).cos(), (0.7 * n as f64).sin()])
             .collect();

@@ -3,8 +3,9 @@
 use super::layers::Materials;
 use super::{Checker, fits, layers, material};
 use crate::laws::Material;
+use crate::scene::LoadComponent;
 use crate::scene::large_strain::{
-    LargeStrain, LargeStrainStart, LargeStrainSymmetry, Mechanics, SolidShape,
+    LargeStrain, LargeStrainStart, LargeStrainSymmetry, Mechanics, MotionSteps, SolidShape,
 };
 use crate::scene::locate::Path;
 use crate::scene::types::FaceName;
@@ -22,12 +23,14 @@ pub fn check(checker: &mut Checker) {
         layers::materials(checker, &path, own, thickness);
         check_material(checker, &path, solid);
         check_kernels(checker, &path, solid);
-        match solid.inertia {
-            true => check_motion(checker, &path, solid),
-            false => {
-                check_faces(checker, &path, solid);
-                check_rest(checker, &path, name, solid);
-            }
+        check_faces(checker, &path, solid);
+        match (solid.inertia, solid.motion) {
+            (true, MotionSteps::Explicit) => check_explicit(checker, &path, solid),
+            (true, MotionSteps::Implicit) => check_implicit(checker, &path, name, solid),
+            (false, _) => check_rest(checker, &path, name, solid),
+        }
+        if solid.inertia {
+            check_velocity(checker, &path, solid);
         }
     }
     for (name, solid) in checker.scene.solids() {
@@ -160,14 +163,16 @@ fn check_faces(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
         let names: Vec<&str> = offered.iter().map(|face| face.as_str()).collect();
         let allowed = if names.is_empty() { "no faces".to_owned() } else { names.join(", ") };
         let fine = offered.contains(&name);
-        let message = format!("the shape has no face `{}` that can be held", name.as_str());
+        let message = format!("the shape has no face `{}` for conditions", name.as_str());
         if !checker.require(fine, &at, message, allowed) {
             continue;
         }
         let conditions = face.conditions();
-        let fine = matches!(&conditions[..], [_] | ["roller", "displacement"]);
+        let fine =
+            matches!(&conditions[..], [_] | ["roller", "displacement"] | ["pressure", "traction"]);
         let message = "a face has one condition";
-        let allowed = "one of clamped, roller, displacement; or roller with displacement";
+        let allowed = "one of clamped, roller, displacement, pressure, traction; or roller with displacement; or pressure \
+                       with traction";
         checker.require(fine, &at, message, allowed);
         let is_round = matches!(solid.shape, SolidShape::Disc(_)) && name == FaceName::Sides;
         if face.roller
@@ -177,31 +182,54 @@ fn check_faces(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
             let message = "this face has no normal along an axis";
             checker.refuse(&at.key("roller"), message, "`clamped` or `displacement` alone");
         }
-        let taken = solid.moved_axes(name);
-        for axis in (0..3).filter(|axis| !taken.contains(axis)) {
-            let moves = face.displacement.is_some_and(|by| by[axis] != 0.0);
-            let place = at.key("displacement").index(axis);
-            checker.require(
-                !moves,
-                &place,
-                "nothing is prescribed along this axis",
-                "0, or `symmetry = \"none\"`",
-            );
-        }
+        let drawn =
+            solid.load_components(name).into_iter().filter_map(|component| match component {
+                LoadComponent::Traction(axis) => Some(axis),
+                LoadComponent::Pressure => None,
+            });
+        prescribed(checker, &at.key("displacement"), face.displacement, &solid.moved_axes(name));
+        prescribed(checker, &at.key("traction"), face.traction, &drawn.collect::<Vec<_>>());
     }
 }
 
-/// Returns true if a model has a face: a plane one has none across y.
+/// Refuses values of a face along axes on which none is prescribed.
+fn prescribed(checker: &mut Checker, path: &Path, values: Option<[f64; 3]>, taken: &[usize]) {
+    for axis in (0..3).filter(|axis| !taken.contains(axis)) {
+        let message = "nothing is prescribed along this axis";
+        let fine = values.is_none_or(|values| values[axis] == 0.0);
+        checker.require(fine, &path.index(axis), message, "0, or `symmetry = \"none\"`");
+    }
+}
+
+/// Returns true if a model has a face: a plane one has none across y, and half of a body is cut where the face would be.
 fn is_there(solid: &LargeStrain, face: FaceName) -> bool {
-    let across_y = matches!(face, FaceName::Front | FaceName::Back);
-    !(across_y && solid.dimension == 2)
+    let [mirrored_x, mirrored_y] = solid.mirrors();
+    match face {
+        FaceName::Front => solid.dimension == 3 && !mirrored_y,
+        FaceName::Back => solid.dimension == 3,
+        FaceName::Left => !mirrored_x,
+        _ => true,
+    }
 }
 
-fn check_motion(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
-    if !solid.faces.is_empty() {
-        let message = "a body with inertia moves freely";
-        checker.refuse(&path.key("faces"), message, "no `faces`, or `inertia = false`");
+fn check_explicit(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
+    for (name, _) in solid.faces.iter().filter(|(_, face)| !face.is_loaded()) {
+        let message = "a body that moves explicitly is held by nothing";
+        let allowed = "`pressure` or `traction`; or `motion = \"implicit\"`, or `inertia = false`";
+        checker.refuse(&path.key("faces").key(name.as_str()), message, allowed);
     }
+}
+
+fn check_implicit(checker: &mut Checker, path: &Path, name: &str, solid: &LargeStrain) {
+    let message = "nothing is below a body that moves implicitly";
+    let fine = solid.start.height == 0.0;
+    checker.require(fine, &path.at("start.height"), message, "0, or `motion = \"explicit\"`");
+    let fine = checker.scene.coupling_from(name).is_none();
+    let allowed = "explicit, for a body with a coupling";
+    checker.require(fine, &path.key("motion"), message, allowed);
+}
+
+fn check_velocity(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
     let [u, v, _] = solid.start.velocity;
     let velocity = path.key("start").key("velocity");
     if solid.is_axisymmetric() && (u != 0.0 || v != 0.0) {
@@ -220,6 +248,9 @@ fn check_rest(checker: &mut Checker, path: &Path, name: &str, solid: &LargeStrai
         let message = "a body in equilibrium has no start of its own";
         checker.refuse(&path.key("start"), message, "no `start`, or `inertia = true`");
     }
+    let message = "a body in equilibrium takes no time steps";
+    let fine = solid.motion == MotionSteps::Explicit;
+    checker.require(fine, &path.key("motion"), message, "no `motion`, or `inertia = true`");
     if checker.scene.coupling_from(name).is_some() {
         let message = "a body in equilibrium does not stand on another";
         checker.refuse(&path.key("inertia"), message, "true, for a body with a coupling");

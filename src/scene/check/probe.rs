@@ -4,17 +4,55 @@ use super::{Checker, fits, is_in_depth, number};
 use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
 use crate::scene::types::{Disc, Gives, Probe, Shape, Solid};
+use crate::scene::{LargeStrain, SolidShape};
 
 pub fn check(checker: &mut Checker) {
     for (i, probe) in checker.scene.probe.iter().enumerate() {
         let path = Path::default().key("probe").index(i);
         checker.distinct(&path.at("gives"), &probe.gives);
+        if let Some(solid) = checker.scene.large_strain(&probe.body) {
+            large_strain(checker, &path, probe, solid);
+            continue;
+        }
         if let Some(solid) = checker.body(&path.at("in"), &probe.body) {
             place(checker, &path.at("at"), probe, &solid.shape);
             side(checker, &path.at("side"), probe, solid);
             yields(checker, &path.at("gives"), &probe.gives, (&probe.body, solid));
             cracks(checker, &path.at("gives"), &probe.gives, (&probe.body, solid));
         }
+    }
+}
+
+/// Checks a probe in a solid of large strain.
+fn large_strain(checker: &mut Checker, path: &Path, probe: &Probe, solid: &LargeStrain) {
+    if solid.extents().iter().all(|extent| *extent > 0.0) {
+        let message = format!("the point lies outside of `{}`", probe.body);
+        let at = path.at("at");
+        match (solid.plate(), solid.shape) {
+            (Some(shape), _) => {
+                checker.require(contains(&shape, probe.at), &at, message, inside(&shape));
+            }
+            (None, SolidShape::Ball(ball)) => {
+                let [x, y, z] = probe.at;
+                let fine = fits(x.hypot(y).hypot(z), ball.radius);
+                let allowed = format!("sqrt(x² + y² + z²) <= {}", number(ball.radius));
+                checker.require(fine, &at, message, allowed);
+            }
+            (None, _) => {}
+        }
+    }
+    let message = "at an interface a solid of large strain is read above it";
+    checker.require(probe.side.is_none(), &path.at("side"), message, "no `side`");
+    let yields = solid.yields();
+    for (n, gives) in probe.gives.iter().enumerate() {
+        let fine = match gives {
+            Gives::PlasticStrain => yields,
+            Gives::Damage => false,
+            _ => true,
+        };
+        let message = format!("no part of `{}` yields or cracks", probe.body);
+        let allowed = "what an elastic body gives";
+        checker.require(fine, &path.at("gives").index(n), message, allowed);
     }
 }
 

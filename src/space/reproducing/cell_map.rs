@@ -1,8 +1,9 @@
 //! Map of the unit square or cube to a cell, linear along each edge.
 
-use super::super::finite_elements::{cross, shape};
+use super::super::finite_elements::shape;
 use super::super::{Form, Mesh};
 use crate::math::gauss::gauss_on;
+use crate::math::matrix3::cross;
 
 /// A place of a cell with the derivatives of the map there.
 pub(super) struct Place {

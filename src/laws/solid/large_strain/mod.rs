@@ -61,6 +61,16 @@ impl LargeStrainLaw {
         }
     }
 
+    /// Returns true if the material yields.
+    pub fn yields(&self) -> bool {
+        matches!(self.deviator, Deviator::Plastic(_))
+    }
+
+    /// Accumulated plastic strain of a history of a point.
+    pub fn plastic_strain(&self, history: &[f64]) -> f64 {
+        if self.yields() { history[Plastic::STRAIN] } else { 0.0 }
+    }
+
     /// Returns false if the tangent is not symmetric.
     pub fn is_symmetric(&self) -> bool {
         matches!(self.deviator, Deviator::Relaxing(_))

@@ -52,6 +52,8 @@ const CONVERGED: f64 = 1e-15;
 impl Plastic {
     /// `C_p⁻¹ − 1` (xx, yy, zz, xy, yz, xz) and α.
     pub const HISTORY: usize = 7;
+    /// Place of α.
+    pub const STRAIN: usize = 6;
 
     fn yield_stress(&self, alpha: f64) -> [f64; 2] {
         let Self { yield_stress, hardening, saturation, rate } = *self;
@@ -71,9 +73,9 @@ impl Plastic {
         let modulus = shear * trace * THIRD;
         let root = (2.0 * THIRD).sqrt();
         let (mut flow, mut slope) = (0.0, 0.0);
-        if norm > root * self.yield_stress(before[6])[0] {
+        if norm > root * self.yield_stress(before[Self::STRAIN])[0] {
             for _ in 0..ITERATIONS {
-                let [now, rise] = self.yield_stress(before[6] + root * flow);
+                let [now, rise] = self.yield_stress(before[Self::STRAIN] + root * flow);
                 slope = rise;
                 let excess = norm - 2.0 * modulus * flow - root * now;
                 let change = excess / (2.0 * modulus + 2.0 * THIRD * rise);
@@ -104,7 +106,7 @@ impl Plastic {
             for (n, value) in plastic.into_iter().enumerate() {
                 history[n] = if n < 3 { value - 1.0 } else { value };
             }
-            history[6] += (2.0 * THIRD).sqrt() * step.flow;
+            history[Self::STRAIN] += (2.0 * THIRD).sqrt() * step.flow;
         }
         let stiffness = 4.0 * THIRD * step.modulus.max(shear);
         Isochoric {

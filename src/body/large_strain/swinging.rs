@@ -1,0 +1,315 @@
+//! A solid of large strain that moves by implicit steps, with faces that are held, moved or loaded.
+
+use std::slice::from_mut;
+
+use super::faces::{Faces, Prescribed, loaded};
+use super::probes::Probes;
+use super::snapshot::{Seen, Snapshot, columns, copies};
+use super::totals::Sums;
+use super::{LargeStrainMemo, View, is_large, plan};
+use crate::body::{
+    Acts, Advice, Approach, Body, BodyError, Fields, Given, Giver, Maxima, Memo, Reading, Received,
+    Resources,
+};
+use crate::inputs::InputLayout;
+use crate::method::large_strain::{
+    Drive, Failure, IMPLICIT_STEPS, IMPLICIT_WORK, ImplicitDynamics, Motion,
+};
+use crate::runtime::allowance::{Allowance, cost};
+use crate::scene::{LargeStrain, Scene};
+use crate::state::{
+    Field, Fields as StateFields, Layout, Per, expect_like, layout_like, load, store, stored,
+};
+
+/// A body with inertia whose time steps are those of communication.
+pub struct SwingingBody {
+    name: String,
+    dynamics: ImplicitDynamics,
+    start: Swinging,
+    faces: Faces,
+    probes: Probes,
+    mirrors: [bool; 2],
+    columns: Vec<[usize; 2]>,
+    temperature: f64,
+    notes: Vec<String>,
+}
+
+/// State of the body.
+#[derive(Debug, Clone, PartialEq, Default)]
+struct Swinging {
+    motion: Motion,
+    /// Forces on the faces that are moved, means over the last step [N].
+    forces: Vec<[f64; 3]>,
+}
+
+impl StateFields for Swinging {
+    fn fields(&mut self) -> Vec<(Field, &mut [f64])> {
+        let of = |name, words, per, width| Field { name, words, per, width };
+        let body = |name, words| of(name, words, Per::Body, 1);
+        let Motion { ledger, displacement, velocity, history } = &mut self.motion;
+        vec![
+            (body("time", "time since the start [s]"), from_mut(&mut ledger.time)),
+            (body("steps", "time steps made"), from_mut(&mut ledger.steps)),
+            (
+                body("internal_work", "work of the stresses [J]"),
+                from_mut(&mut ledger.internal_work),
+            ),
+            (body("load_work", "work of loads on faces [J]"), from_mut(&mut ledger.load_work)),
+            (body("face_work", "work of held faces [J]"), from_mut(&mut ledger.face_work)),
+            (
+                of("forces", "forces on moved faces in the last step [N]", Per::Face, 3),
+                self.forces.as_flattened_mut(),
+            ),
+            (of("displacement", "displacement [m]", Per::Node, 3), displacement.as_flattened_mut()),
+            (of("velocity", "velocity [m/s]", Per::Node, 3), velocity.as_flattened_mut()),
+            (of("history", "history of the law", Per::Point, 1), history),
+        ]
+    }
+}
+
+/// Halvings of a step that Newton's method does not solve.
+const HALVINGS: u32 = 10;
+/// Iterations of a usual step.
+const ITERATIONS: f64 = 5.0;
+/// Share of the energy that a balance may miss.
+const ENERGY: f64 = 1e-5;
+
+impl SwingingBody {
+    pub fn new(
+        (scene, layout): (&Scene, &InputLayout),
+        (name, solid): (&str, &LargeStrain),
+        threads: impl Fn(bool) -> usize,
+    ) -> Result<Self, BodyError> {
+        let mesh = plan::mesh(solid);
+        let named = |failure| BodyError::LargeStrain { body: name.to_owned(), failure };
+        let threads = threads(is_large(mesh.cells.len() * 8));
+        let body = plan::deformable(solid, threads).map_err(named)?;
+        let columns = columns(&body.space, solid.is_box());
+        let faces = Faces::new(layout, (name, solid), &mesh, &body);
+        let probes = Probes::new(scene, (name, solid), &mesh, &body);
+        let probes = probes.map_err(|refused| named(refused.into()))?;
+        let loaded = loaded(solid, &body);
+        let dynamics = ImplicitDynamics::new(body, &faces.held(), loaded, solid.gravity);
+        let dynamics = dynamics.map_err(named)?;
+        let motion = dynamics.start(solid.start.velocity);
+        let start = Swinging { motion, forces: vec![[0.0; 3]; faces.moved()] };
+        Ok(Self {
+            name: name.to_owned(),
+            dynamics,
+            start,
+            faces,
+            probes,
+            mirrors: solid.mirrors(),
+            columns,
+            temperature: solid.initial_temperature,
+            notes: super::forecast::notes(solid),
+        })
+    }
+
+    fn swinging(&self, state: &[f64]) -> Swinging {
+        let mut swinging = self.start.clone();
+        load(&mut swinging, state);
+        swinging
+    }
+
+    /// Moves to the places of the faces after a time [s] under the loads of its middle; halves the step where Newton's
+    /// method fails. Faces move evenly.
+    fn swing(
+        &self,
+        state: &mut Swinging,
+        (from, to): (&Prescribed, &Prescribed),
+        dt: f64,
+        halvings: u32,
+        allowance: &Allowance,
+    ) -> Result<(), Failure> {
+        let middle = from.middle(to);
+        let displacements = self.faces.displacements(&to.places);
+        let drive = Drive { displacements, loads: middle.loads.clone() };
+        match self.dynamics.step(&mut state.motion, &drive, dt, allowance) {
+            Ok(stepped) => {
+                let forces = self.faces.forces(&stepped.reactions);
+                for (sum, force) in state.forces.iter_mut().zip(&forces) {
+                    (0..3).for_each(|a| sum[a] += dt * force[a]);
+                }
+                Ok(())
+            }
+            Err(failure @ Failure::Halted(_)) => Err(failure),
+            Err(failure) if halvings == 0 => Err(failure),
+            Err(_) => {
+                self.swing(state, (from, &middle), 0.5 * dt, halvings - 1, allowance)?;
+                self.swing(state, (&middle, to), 0.5 * dt, halvings - 1, allowance)
+            }
+        }
+    }
+
+    fn snapshot(&self, motion: &Motion) -> Result<Snapshot, BodyError> {
+        let seen = self.seen(motion);
+        let stresses = seen.stresses().map_err(|failure| self.error(failure))?;
+        Ok(seen.snapshot(&stresses))
+    }
+
+    fn view(&self, Swinging { motion, forces }: Swinging) -> Result<View, BodyError> {
+        let seen = self.seen(&motion);
+        let stresses = seen.stresses().map_err(|failure| self.error(failure))?;
+        let snapshot = seen.snapshot(&stresses);
+        let sums = self.sums(&motion, &snapshot);
+        let probed = self.probes.read(&seen, &stresses, self.temperature);
+        Ok(View { snapshot, sums, forces, probed })
+    }
+
+    fn seen<'a>(&'a self, motion: &'a Motion) -> Seen<'a> {
+        Seen {
+            body: &self.dynamics.body,
+            mirrors: self.mirrors,
+            lifted: 0.0,
+            displacement: &motion.displacement,
+            stretches: &[1.0],
+            columns: &self.columns,
+            velocity: Some(&motion.velocity),
+            history: &motion.history,
+            touch: None,
+        }
+    }
+
+    fn error(&self, failure: Failure) -> BodyError {
+        let body = self.name.clone();
+        match failure {
+            Failure::Halted(halt) => BodyError::Halted { body, halt },
+            failure => BodyError::LargeStrain { body, failure },
+        }
+    }
+
+    /// Refuses a motion whose energy does not balance.
+    fn check_motion(&self, motion: &Motion) -> Result<(), String> {
+        self.faces.check(&motion.displacement)?;
+        self.faces.check(&motion.velocity)?;
+        let ledger = &motion.ledger;
+        if ledger.time < 0.0 || ledger.steps < 0.0 {
+            return Err("time and steps are not negative".to_owned());
+        }
+        let of = |motion: &Motion| self.snapshot(motion).map_err(|error| error.to_string());
+        let (now, start) = (of(motion)?, of(&self.start.motion)?);
+        let copies = copies(self.mirrors);
+        let fallen = now.mass * self.dynamics.gravity[2] * (now.centre - start.centre);
+        let inside = copies * ledger.internal_work;
+        let works = [fallen, copies * ledger.load_work, copies * ledger.face_work, -inside];
+        let missing = now.kinetic - start.kinetic - works.iter().sum::<f64>();
+        let scale = start.kinetic + works.iter().map(|work| work.abs()).sum::<f64>();
+        if missing.is_nan() || missing.abs() > ENERGY * scale {
+            return Err(format!("{missing:.1e} J of energy have no cause"));
+        }
+        Ok(())
+    }
+
+    fn sums(&self, motion: &Motion, snapshot: &Snapshot) -> Sums {
+        let (ledger, copies) = (&motion.ledger, copies(self.mirrors));
+        Sums {
+            dissipated: copies * ledger.internal_work - snapshot.stored,
+            load_work: copies * ledger.load_work,
+            steps: ledger.steps,
+            ..Sums::default()
+        }
+    }
+}
+
+impl Body for SwingingBody {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn initial_state(&self) -> Vec<f64> {
+        stored(&self.start)
+    }
+
+    fn layout(&self, state: &[f64]) -> Option<Layout> {
+        layout_like(&self.start, state)
+    }
+
+    fn check_state(&self, state: &[f64], _: &[f64]) -> Result<(), String> {
+        let name = &self.name;
+        expect_like(&self.start, state, name)?;
+        let swinging = self.swinging(state);
+        if !swinging.forces.as_flattened().iter().all(|force| force.is_finite()) {
+            return Err(format!("{name}: a force is not finite"));
+        }
+        self.check_motion(&swinging.motion).map_err(|reason| format!("{name}: {reason}"))
+    }
+
+    fn check_inputs(&self, _: &[f64]) -> Result<(), BodyError> {
+        Ok(())
+    }
+
+    fn memo(&self, _: &[f64], _: &[Received]) -> Memo {
+        Box::new(LargeStrainMemo::default())
+    }
+
+    fn forget_state(&self, memo: &mut Memo) {
+        *LargeStrainMemo::of_mut(memo) = LargeStrainMemo::default();
+    }
+
+    fn advance(
+        &self,
+        state: &mut Vec<f64>,
+        _: &Memo,
+        acts: &Acts,
+        allowance: &Allowance,
+    ) -> Result<Option<Given>, BodyError> {
+        let mut swinging = self.swinging(state);
+        swinging.forces.fill([0.0; 3]);
+        let mut from = self.faces.prescribed(&acts.path.at(0, 0.0));
+        // Faces move from where they are, even if their inputs have jumped.
+        from.places = self.faces.places(&swinging.motion.displacement);
+        let to = self.faces.prescribed(&acts.path.at(0, acts.duration));
+        let swung = self.swing(&mut swinging, (&from, &to), acts.duration, HALVINGS, allowance);
+        swung.map_err(|failure| self.error(failure))?;
+        swinging.forces.iter_mut().flatten().for_each(|force| *force /= acts.duration);
+        store(&mut swinging, state);
+        Ok(None)
+    }
+
+    fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError> {
+        let memo = LargeStrainMemo::of_mut(memo);
+        let view = match memo.0.take() {
+            Some(known) => known,
+            None => self.view(self.swinging(state))?,
+        };
+        memo.0.insert(view).read(reading)
+    }
+
+    fn fields(&self, state: &[f64], _: &mut Memo) -> Result<Fields, BodyError> {
+        let Swinging { motion, .. } = self.swinging(state);
+        Ok(Fields::Particles(self.seen(&motion).particles(self.temperature)))
+    }
+}
+
+impl Giver for SwingingBody {}
+
+impl Maxima for SwingingBody {}
+
+impl Approach for SwingingBody {}
+
+impl Advice for SwingingBody {
+    fn notes(&self) -> Vec<String> {
+        self.notes.clone()
+    }
+}
+
+impl Resources for SwingingBody {
+    fn foresee(&self, _: &[f64], dt: f64, allowance: &Allowance) -> Result<(), BodyError> {
+        let work = IMPLICIT_WORK * self.dynamics.body.space.volume.len();
+        let foreseen = allowance.foresee_step(dt, ITERATIONS, IMPLICIT_STEPS, work);
+        foreseen.map_err(|halt| BodyError::Halted { body: self.name.clone(), halt })
+    }
+
+    fn updates(&self, _: f64) -> f64 {
+        cost(ITERATIONS, IMPLICIT_WORK * self.dynamics.body.space.volume.len())
+    }
+
+    fn threads(&self) -> usize {
+        self.dynamics.body.threads
+    }
+
+    fn steps_are_deep(&self) -> bool {
+        true
+    }
+}

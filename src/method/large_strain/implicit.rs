@@ -1,0 +1,264 @@
+//! Motion with inertia by implicit steps that conserve energy and momentum; see [`path`](super::path).
+//!
+//! A step obeys `M (v₁ − v₀)/Δt = f`, `u₁ − u₀ = ½ Δt (v₀ + v₁)` with the forces f of the stresses along its way, of loads at
+//! its middle and of gravity. It is of second order, stable for any Δt, and solved by Newton's method with the exact
+//! derivative, which is not symmetric. Prescribed displacements are linear over a step; the velocity of their nodes is
+//! the mean one.
+
+use super::path::{Path, gradients};
+use super::statics::{difference, rounding, sum};
+use super::tangent::{Factor, Stiffness, Terms};
+use super::{Course, Deformable, FaceLoad, Failure, LoadedFaces, Motion};
+use crate::math::matrix3::Matrix3;
+use crate::runtime::allowance::Allowance;
+use crate::runtime::parallel::Team;
+
+/// A body that moves by implicit steps.
+pub struct ImplicitDynamics {
+    pub body: Deformable,
+    pub loaded: LoadedFaces,
+    /// [m/s²]
+    pub gravity: [f64; 3],
+    stiffness: Stiffness,
+    held: Vec<[bool; 3]>,
+    /// Bound on the rounding of internal forces [N].
+    rounding: f64,
+}
+
+/// Conditions over a step.
+pub struct Drive {
+    /// Displacements of held nodes at its end [m]; those of others are not read.
+    pub displacements: Vec<[f64; 3]>,
+    /// Load on each loaded face at its middle.
+    pub loads: Vec<FaceLoad>,
+}
+
+/// A step that was made.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Stepped {
+    /// Norm of the residual over that of the forces, after each iteration.
+    pub residuals: Vec<f64>,
+    /// Forces of held nodes on the body over the step [N].
+    pub reactions: Vec<[f64; 3]>,
+}
+
+/// Name of the iterations in messages.
+pub const IMPLICIT_STEPS: &str = "iterations of implicit steps of a solid of large strain";
+/// Numbers that an iteration updates for each point, or as many as take as long.
+pub const IMPLICIT_WORK: usize = 3000;
+/// Largest residual over the norm of all forces at nodes.
+const TOLERANCE: f64 = 1e-11;
+const ITERATIONS: usize = 25;
+/// Halvings of a Newton step before it is given up.
+const HALVINGS: usize = 8;
+/// Growth of the residual at which a Newton step is halved.
+const GROWTH: f64 = 2.0;
+/// Rounding of a displacement over its size.
+const ROUNDING: f64 = 1e-15;
+
+/// A step to be made.
+struct Step<'a> {
+    from: &'a Motion,
+    start: &'a [Matrix3],
+    to: &'a Drive,
+    dt: f64,
+    team: &'a Team,
+    allowance: &'a Allowance,
+}
+
+/// A trial of displacements at the end of a step.
+struct Trial<'a> {
+    path: Path<'a>,
+    /// Forces of the stresses and of the loads on all nodes [N].
+    internal: Vec<[f64; 3]>,
+    loads: Vec<[f64; 3]>,
+    /// Forces on free nodes that inertia does not balance.
+    residual: Vec<[f64; 3]>,
+    norm: f64,
+    scale: f64,
+    rounding: f64,
+}
+
+impl ImplicitDynamics {
+    /// `held` marks prescribed displacements, in addition to those that the body fixes.
+    pub fn new(
+        body: Deformable,
+        held: &[[bool; 3]],
+        loaded: LoadedFaces,
+        gravity: f64,
+    ) -> Result<Self, Failure> {
+        let both = |(own, held): (&[bool; 3], &[bool; 3])| [0, 1, 2].map(|a| own[a] || held[a]);
+        let held: Vec<[bool; 3]> = body.fixed.iter().zip(held).map(both).collect();
+        let stiffness = Stiffness::new(&body, &held, &loaded.couplings(&body));
+        let stiffness = stiffness.map_err(|_| Failure::Singular)?;
+        let rounding = rounding(&body);
+        Ok(Self { body, loaded, gravity: [0.0, 0.0, -gravity], stiffness, held, rounding })
+    }
+
+    /// The state at time zero, in which all free nodes have one velocity [m/s].
+    pub fn start(&self, velocity: [f64; 3]) -> Motion {
+        let at_start =
+            |held: &[bool; 3]| [0, 1, 2].map(|a| if held[a] { 0.0 } else { velocity[a] });
+        Motion {
+            displacement: vec![[0.0; 3]; self.body.nodes()],
+            velocity: self.held.iter().map(at_start).collect(),
+            history: vec![0.0; self.body.history()],
+            ..Motion::default()
+        }
+    }
+
+    /// Makes a step of a length [s]; `motion` changes only if it is made.
+    pub fn step(
+        &self,
+        motion: &mut Motion,
+        to: &Drive,
+        dt: f64,
+        allowance: &Allowance,
+    ) -> Result<Stepped, Failure> {
+        let team = &self.body.team();
+        let start = gradients(&self.body, &motion.displacement, team)?;
+        let step = Step { from: motion, start: &start, to, dt, team, allowance };
+        let (mut u, mut now) = self.first(&step)?;
+        let mut residuals = vec![now.norm / now.scale];
+        while now.norm > TOLERANCE * now.scale + now.rounding {
+            if residuals.len() > ITERATIONS {
+                return Err(Failure::NotConverged { residual: now.norm / now.scale });
+            }
+            (u, now) = self.improve(&step, &u, &now)?;
+            residuals.push(now.norm / now.scale);
+        }
+        let (internal, loads) = (now.internal, now.loads);
+        let mut history = motion.history.clone();
+        let over = self.body.in_all(Course::of(dt));
+        self.body.respond(&u, &over, &mut history, team)?;
+        let reactions = self.finish(motion, u, dt, &internal, &loads);
+        motion.history = history;
+        Ok(Stepped { residuals, reactions })
+    }
+
+    /// First trial: all nodes keep their velocities, or stay where that turns the body inside out.
+    fn first<'s>(&'s self, step: &Step<'s>) -> Result<(Vec<[f64; 3]>, Trial<'s>), Failure> {
+        let trial = |dt: f64| {
+            let Motion { displacement, velocity, .. } = step.from;
+            let mut u: Vec<[f64; 3]> = displacement.clone();
+            for (node, held) in self.held.iter().enumerate() {
+                for a in 0..3 {
+                    u[node][a] = match held[a] {
+                        true => step.to.displacements[node][a],
+                        false => u[node][a] + dt * velocity[node][a],
+                    };
+                }
+            }
+            let trial = self.at(step, &u)?;
+            Ok((u, trial))
+        };
+        match trial(step.dt) {
+            Err(Failure::Inverted { .. }) => trial(0.0),
+            other => other,
+        }
+    }
+
+    /// A Newton step, halved while the residual grows or the material is turned inside out.
+    fn improve<'s>(
+        &'s self,
+        step: &Step<'s>,
+        u: &[[f64; 3]],
+        now: &Trial<'s>,
+    ) -> Result<(Vec<[f64; 3]>, Trial<'s>), Failure> {
+        let factor = self.factor(step, u, now)?;
+        let mut change = self.stiffness.solve(&factor, &now.residual);
+        for _ in 0..HALVINGS {
+            let next = sum(u, &change);
+            match self.at(step, &next) {
+                Ok(trial) if trial.norm < GROWTH * now.norm => return Ok((next, trial)),
+                Err(Failure::Halted(halt)) => return Err(halt.into()),
+                _ => change.iter_mut().flatten().for_each(|x| *x *= 0.5),
+            }
+        }
+        Err(Failure::NotConverged { residual: now.norm / now.scale })
+    }
+
+    fn factor(&self, step: &Step, u: &[[f64; 3]], now: &Trial) -> Result<Factor, Failure> {
+        let middle = middle(&step.from.displacement, u);
+        let terms = Terms {
+            of_group: &|group| now.path.tangent(group),
+            inertia: 2.0 / (step.dt * step.dt),
+            loads: &self.loaded.stiffness(&self.body, &middle, &step.to.loads, 0.5),
+            is_symmetric: false,
+        };
+        self.stiffness.factor(&self.body, &terms, step.team).map_err(|_| Failure::Singular)
+    }
+
+    fn at<'s>(&'s self, step: &Step<'s>, u: &[[f64; 3]]) -> Result<Trial<'s>, Failure> {
+        let (body, from, dt) = (&self.body, step.from, step.dt);
+        step.allowance.spend(1.0, IMPLICIT_STEPS, IMPLICIT_WORK * body.space.volume.len())?;
+        let end = gradients(body, u, step.team)?;
+        let durations = vec![dt; body.layers.len()];
+        let path = Path { body, start: step.start, end, before: &from.history, durations };
+        let internal = body.forces_of(&path.loads(step.team), step.team);
+        let mut loads = vec![[0.0; 3]; u.len()];
+        let middle = middle(&from.displacement, u);
+        self.loaded.add_forces(body, &middle, &step.to.loads, &mut loads);
+        let mut residual = vec![[0.0; 3]; u.len()];
+        let (mut norm, mut scale, mut size) = (0.0, 0.0, 0.0);
+        for (node, held) in self.held.iter().enumerate() {
+            let mass = body.mass[node];
+            for a in (0..3).filter(|&a| !held[a]) {
+                let (before, after) = (from.displacement[node][a], u[node][a]);
+                let momentum = mass * from.velocity[node][a];
+                let external = loads[node][a] + mass * self.gravity[a];
+                let inertia = 2.0 * mass * (after - before) / (dt * dt) - 2.0 * momentum / dt;
+                let force = internal[node][a] + external - inertia;
+                residual[node][a] = force;
+                norm += force * force;
+                let largest = internal[node][a].abs().max(external.abs());
+                scale += largest.max((momentum / dt).abs()).powi(2);
+                size += (mass * before.abs().max(after.abs())).powi(2);
+            }
+        }
+        let scale = scale.sqrt().max(f64::MIN_POSITIVE);
+        let rounding = self.rounding + ROUNDING * 2.0 / (dt * dt) * size.sqrt();
+        Ok(Trial { path, internal, loads, residual, norm: norm.sqrt(), scale, rounding })
+    }
+
+    /// Ends a step with displacements u; returns the forces of held nodes.
+    fn finish(
+        &self,
+        motion: &mut Motion,
+        u: Vec<[f64; 3]>,
+        dt: f64,
+        internal: &[[f64; 3]],
+        loads: &[[f64; 3]],
+    ) -> Vec<[f64; 3]> {
+        let way = difference(&u, &motion.displacement);
+        let mut reactions = vec![[0.0; 3]; u.len()];
+        let ledger = &mut motion.ledger;
+        for (node, held) in self.held.iter().enumerate() {
+            let mass = self.body.mass[node];
+            for a in 0..3 {
+                let velocity = &mut motion.velocity[node][a];
+                let (before, way) = (*velocity, way[node][a]);
+                *velocity = if held[a] { way / dt } else { 2.0 * way / dt - before };
+                ledger.internal_work -= internal[node][a] * way;
+                ledger.load_work += loads[node][a] * way;
+                if held[a] {
+                    let own = internal[node][a] + loads[node][a] + mass * self.gravity[a];
+                    reactions[node][a] = mass * (*velocity - before) / dt - own;
+                    let kinetic = 0.5 * mass * (*velocity * *velocity - before * before);
+                    ledger.face_work += kinetic - own * way;
+                }
+            }
+        }
+        ledger.time += dt;
+        ledger.steps += 1.0;
+        motion.displacement = u;
+        reactions
+    }
+}
+
+fn middle(a: &[[f64; 3]], b: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    a.iter().zip(b).map(|(a, b)| [0, 1, 2].map(|n| 0.5 * (a[n] + b[n]))).collect()
+}
+
+#[cfg(test)]
+mod tests;

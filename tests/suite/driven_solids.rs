@@ -1,0 +1,262 @@
+//! Solids of large strain under pressures and tractions, at their probes, and in motion by implicit steps.
+
+use impinge::closed_form::{Rubber, Sides};
+
+use crate::common::{Trial, off};
+
+/// A rubber with further keys.
+fn rubber(keys: &str) -> String {
+    format!(
+        r#"
+name = "Rubber"
+stop_time = 1.0
+step = 1e-2
+[body.pad]
+kind = "solid"
+strain = "finite"
+initial_temperature = 293.15
+material = {{ model = "neo_hookean", density = 1000.0, specific_heat = 1900.0, conductivity = 0.2, young = 1e6, poisson = 0.4 }}
+{keys}
+"#
+    )
+}
+
+fn probe(name: &str, at: [f64; 3], gives: &str) -> String {
+    format!("[[probe]]\nname = \"{name}\"\nin = \"pad\"\nat = {at:?}\ngives = [{gives}]\n")
+}
+
+const BLOCK: &str = "shape = { box = [10e-3, 8e-3, 12e-3] }\nmesh = { spacing = 4e-3 }";
+const DISC: &str =
+    "shape = { disc = { radius = 5e-3, thickness = 6e-3 } }\nmesh = { spacing = 2e-3 }";
+const METHODS: [&str; 3] = ["", "mechanics = \"rkpm\"", "mechanics = \"sph\""];
+
+#[test]
+fn loads_and_stresses_follow_the_closed_form() {
+    let law = Rubber::of_young(1e6, 0.4);
+    for (shape, height) in [(BLOCK, 12e-3), (DISC, 6e-3)] {
+        for method in METHODS {
+            let faces = "faces = { top = { pressure = 0.0, traction = [0.0, 0.0, 0.0] }, bottom = { roller = true } }";
+            let symmetry = if shape == BLOCK { "symmetry = \"quarter\"" } else { "" };
+            let inside = probe("inside", [-1e-3, 2e-3, -2e-3], "\"stress\", \"displacement\"");
+            let text =
+                format!("{}{inside}", rubber(&format!("{shape}\n{method}\n{symmetry}\n{faces}")));
+            let mut trial = Trial::new(&text);
+            for (pressure, traction) in [(2e5, 0.0), (0.0, 5e5), (-3e5, 1e5), (4e5, -2e5)] {
+                trial.set("pad.top.pressure", pressure);
+                trial.set("pad.top.traction_z", traction);
+                trial.step(1.0);
+                let stretch = trial.get("pad.height") / height;
+                let lateral = law.lateral(stretch, Sides::Free);
+                let force = traction - pressure * lateral * lateral;
+                assert!(off(law.force(stretch, Sides::Free), force) < 1e-8, "{shape} {method}");
+                assert!(off(trial.get("inside.stress_zz"), force / (lateral * lateral)) < 1e-8);
+                assert!(trial.get("inside.stress_xx").abs() < 1e-8 * force.abs());
+                let moved = ["x", "y", "z"].map(|a| trial.get(&format!("inside.displacement_{a}")));
+                let expected = [-1e-3 * (lateral - 1.0), 2e-3 * (lateral - 1.0)];
+                assert!((moved[0] - expected[0]).abs() < 1e-10, "{moved:?} {expected:?}");
+                assert!((moved[1] - expected[1]).abs() < 1e-10);
+                assert!((moved[2] - (height - 2e-3) * (stretch - 1.0)).abs() < 1e-10);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_pressure_from_all_sides_shrinks_evenly() {
+    let faces = "faces = { top = { pressure = 1e6 }, sides = { pressure = 1e6 }, bottom = { roller = true } }";
+    let bulk: f64 = 1e6 / (3.0 * 0.2);
+    // ½ κ (J − 1/J) = −p.
+    let part: f64 = 1e6 / bulk;
+    let dilatation = (1.0 + part * part).sqrt() - part;
+    for keys in [
+        format!("{BLOCK}\nsymmetry = \"none\""),
+        format!("{BLOCK}\nsymmetry = \"quarter\"\nmechanics = \"efg\""),
+        DISC.to_owned(),
+        format!("{DISC}\nsymmetry = \"quarter\""),
+    ] {
+        let centre = if keys.contains("none") {
+            ", left = { roller = true }, front = { roller = true }"
+        } else {
+            ""
+        };
+        // Sides that are held are not pressed.
+        let own = match centre {
+            "" => faces.to_owned(),
+            _ => format!(
+                "faces = {{ top = {{ pressure = 1e6 }}, right = {{ pressure = 1e6 }}, back = {{ pressure = 1e6 }}, bottom = \
+                 {{ roller = true }}{centre} }}"
+            ),
+        };
+        let text = rubber(&format!("{keys}\n{own}"));
+        let all = probe("middle", [0.0, 0.0, -1e-3], "\"stress\", \"max_principal\"");
+        let mut trial = Trial::new(&format!("{text}{all}"));
+        let found = trial.get("pad.least_jacobian");
+        let round = keys.contains("disc") && keys.contains("quarter");
+        assert!(off(found, dilatation) < if round { 1e-2 } else { 1e-8 }, "{keys} {found}");
+        assert!(off(trial.get("middle.max_principal"), -1e6) < 1e-6, "{keys}");
+        assert!(trial.get("middle.von_mises") < 1e4, "{keys}");
+        trial.step(1.0);
+        assert!(trial.get("pad.load_work") > 0.0);
+    }
+}
+
+#[test]
+fn a_strip_under_a_dead_load_bends_as_the_elastica() {
+    // Plane strain with ν = 0: P L²/EI and the place of the end over L (K. Mattiasson 1981, doi 10.1002/nme.1620170113).
+    let table = [(1.0, 0.056_43, 0.301_72), (2.0, 0.160_64, 0.493_46), (5.0, 0.387_63, 0.713_79)];
+    let keys = "shape = { box = [20e-3, 1e-3, 1e-3] }\ndimension = 2\nmechanics = \"rkpm\"\nmesh = { spacing = 0.5e-3 }\n\
+                faces = { left = { clamped = true }, right = { traction = [0.0, 0.0, 0.0] } }";
+    let text = rubber(keys).replace("poisson = 0.4", "poisson = 0.0");
+    let end = probe("end", [10e-3, 0.0, -0.5e-3], "\"displacement\"");
+    let surface = probe("surface", [-7e-3, 0.0, 0.0], "\"stress\"");
+    let mut trial = Trial::new(&format!("{text}{end}{surface}"));
+    let (inertia, length) = (1e-9 / 12.0, 20e-3_f64);
+    for (number, shortening, drop) in table {
+        let force = number * 1e6 * inertia / (length * length);
+        trial.set("pad.right.traction_z", -force / 1e-3);
+        let [x, z] = ["x", "z"].map(|a| trial.get(&format!("end.displacement_{a}")) / length);
+        assert!((x + shortening).abs() < 6e-3 && (z + drop).abs() < 6e-3, "{number} {x} {z}");
+        if number == 1.0 {
+            // The stress of the beam's moment, there normal to sections that hardly turn.
+            let moment = force * (17e-3 - length * shortening);
+            let stress = trial.get("surface.stress_xx");
+            assert!(off(stress, moment * 0.5e-3 / inertia) < 0.05, "{stress}");
+        }
+        trial.step(1.0);
+        let (work, stored) = (trial.get("pad.load_work"), trial.get("pad.stored"));
+        // Of one step, by the trapezoidal rule.
+        assert!(off(work, stored) < 0.1, "{work} {stored}");
+    }
+}
+
+#[test]
+fn a_load_that_comes_at_once_dissipates_nothing_until_the_body_relaxes() {
+    let keys = "shape = { box = [10e-3, 10e-3, 40e-3] }\ndimension = 2\nmesh = { spacing = 5e-3 }\nfaces = { bottom = { clamped = \
+                true }, top = { pressure = 0.0, traction = [0.0, 0.0, 0.0] } }";
+    let text = rubber(keys)
+        .replace("young = 1e6, poisson = 0.4", "young = 3.5e9, poisson = 0.36")
+        .replace(
+            r#""neo_hookean""#,
+            r#""viscoelastic", shear_relaxation = [{ fraction = 0.5, time = 0.1 }]"#,
+        );
+    let mut trial = Trial::new(&text);
+    trial.set("pad.top.pressure", 2e7);
+    trial.set("pad.top.traction_x", 2e6);
+    trial.step(1e-9);
+    let (dissipated, stored) = (trial.get("pad.dissipated"), trial.get("pad.stored"));
+    assert!(dissipated.abs() < 2e-3 * stored, "{dissipated} {stored}");
+    trial.step(1.0);
+    assert!(trial.get("pad.dissipated") > 0.1 * stored);
+}
+
+#[test]
+fn tractions_accelerate_free_bodies() {
+    for (motion, start) in [("explicit", "start = { height = 1e-3 }"), ("implicit", "")] {
+        let keys = format!(
+            "{BLOCK}\n{start}\ninertia = true\nmotion = \"{motion}\"\ngravity = 1.0\nfaces = {{ top = {{ traction = [20.0, 0.0, 50.0] }} }}"
+        );
+        let mut trial = Trial::new(&rubber(&keys));
+        let low = trial.get("pad.centre_z");
+        for n in 1..=5 {
+            trial.step(1e-3);
+            let time = 1e-3 * f64::from(n);
+            let area = 10e-3 * 8e-3;
+            let mass = trial.get("pad.mass");
+            assert!(off(trial.get("pad.momentum_x"), 20.0 * area * time) < 1e-9, "{motion}");
+            let expected = (50.0 * area - mass) * time;
+            assert!(off(trial.get("pad.momentum_z"), expected) < 1e-9, "{motion}");
+        }
+        let [kinetic, stored, work, rise] = ["kinetic", "stored", "load_work", "centre_z"]
+            .map(|key| trial.get(&format!("pad.{key}")));
+        let lifted = trial.get("pad.mass") * (rise - low);
+        assert!(off(kinetic + stored, work - lifted) < 1e-3, "{motion} {kinetic} {stored} {work}");
+    }
+}
+
+/// A steel column between frictionless walls, that stands on its bottom and is pressed at its top.
+fn column() -> String {
+    let keys = "shape = { box = [4e-3, 1e-3, 100e-3] }\ndimension = 2\nmesh = { spacing = 2e-3 }\ninertia = true\nmotion = \"implicit\"\n\
+                faces = { bottom = { roller = true }, sides = { roller = true }, top = { pressure = 1e8 } }";
+    rubber(keys)
+        .replace("young = 1e6, poisson = 0.4", "young = 200e9, poisson = 0.3")
+        .replace("density = 1000.0", "density = 7800.0")
+}
+
+#[test]
+fn a_column_rings_with_the_period_of_its_length() {
+    let modulus = 200e9 * 0.7 / (1.3 * 0.4);
+    let (period, settled) = (0.4 / (modulus / 7800.0_f64).sqrt(), -0.1 * 1e8 / modulus);
+    let mut trial = Trial::new(&column());
+    let start = trial.get("pad.height");
+    let count = 40;
+    let mut places = Vec::new();
+    for _ in 0..2 * count {
+        trial.step(period / f64::from(count));
+        places.push((trial.get("pad.height") - start) / settled);
+    }
+    // A triangle between nothing and twice the settlement; waves that the steps do not resolve round its corners.
+    assert!((places[9] - 1.0).abs() < 0.02 && (places[29] - 1.0).abs() < 0.02, "{places:?}");
+    assert!((places[19] - 2.0).abs() < 0.12 && places[39].abs() < 0.12, "{places:?}");
+    assert!((places[49] - 1.0).abs() < 0.05 && (places[69] - 1.0).abs() < 0.05, "{places:?}");
+    let [kinetic, stored, work] =
+        ["kinetic", "stored", "load_work"].map(|key| trial.get(&format!("pad.{key}")));
+    assert!((kinetic + stored - work).abs() < 1e-6 * work.abs().max(stored));
+}
+
+#[test]
+fn a_moved_face_takes_the_body_along() {
+    let keys = format!(
+        "{BLOCK}\ninertia = true\nmotion = \"implicit\"\nfaces = {{ bottom = {{ displacement = [0.0, 0.0, 0.0] }} }}"
+    );
+    let mut trial = Trial::new(&rubber(&keys));
+    let mass = trial.get("pad.mass");
+    // Slow beside the body's own periods.
+    let (size, rate) = (1e-3, 20.0);
+    let dt = 2e-3;
+    let (mut impulse, mut work) = (0.0, 0.0);
+    for n in 1..=150 {
+        let time = dt * f64::from(n);
+        let before = size * (1.0 - (rate * (time - dt)).cos());
+        let to = size * (1.0 - (rate * time).cos());
+        trial.set("pad.bottom.displacement_z", to);
+        trial.step(dt);
+        impulse += dt * trial.get("pad.bottom.force_z");
+        work += trial.get("pad.bottom.force_z") * (to - before);
+        assert!((trial.get("pad.momentum_z") - impulse).abs() < 1e-9 * mass, "{n}");
+        let expected = mass * size * rate * (rate * time).sin();
+        assert!((trial.get("pad.momentum_z") - expected).abs() < 0.1 * mass * size * rate, "{n}");
+    }
+    let energy = trial.get("pad.kinetic") + trial.get("pad.stored");
+    // The work of the mean force misses that of the impulses on the nodes of the face.
+    assert!((energy - work).abs() < 0.05 * mass * (size * rate).powi(2), "{energy} {work}");
+}
+
+#[test]
+fn implicit_states_continue_bit_for_bit_and_forged_ones_are_refused() {
+    let keys = format!(
+        "{BLOCK}\ninertia = true\nmotion = \"implicit\"\nsymmetry = \"none\"\ngravity = 9.81\n\
+         faces = {{ bottom = {{ clamped = true }}, top = {{ traction = [1e4, 0.0, 0.0], pressure = 1e4 }} }}"
+    );
+    let text = rubber(&keys);
+    let (mut one, mut two) = (Trial::on_threads(&text, 1), Trial::on_threads(&text, 3));
+    (0..3).for_each(|_| one.step(2e-3));
+    (0..3).for_each(|_| two.step(2e-3));
+    assert_eq!(one.state, two.state);
+    let saved = one.state.clone();
+    (0..3).for_each(|_| one.step(2e-3));
+    two.restart(&saved);
+    (0..3).for_each(|_| two.step(2e-3));
+    assert_eq!(one.state, two.state);
+    let model = &one.model;
+    assert_eq!(model.check_state(&one.state), Ok(()));
+    let count = one.state.bodies[0].len();
+    let mut refused = 0;
+    for n in 0..count {
+        let mut state = one.state.clone();
+        state.bodies[0][n] = f64::NAN;
+        refused += usize::from(model.check_state(&state).is_err());
+        state.bodies[0][n] = 1e30;
+        refused += usize::from(model.check_state(&state).is_err());
+    }
+    assert!(refused * 10 >= 2 * count * 9, "{refused} of {}", 2 * count);
+}
