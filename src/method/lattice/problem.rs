@@ -6,7 +6,7 @@ use super::frame::{Frame, Support};
 use super::link::{Link, Sheet};
 use super::order::dissect;
 use super::stiffness::Pattern;
-use super::{LatticeError, LatticeState, LatticeTotals};
+use super::{Broken, LatticeError, LatticeState, LatticeTotals};
 use crate::laws::fracture::SofteningLaw;
 use crate::runtime::allowance::Allowance;
 
@@ -92,7 +92,7 @@ impl Lattice {
             Control::Opening => frame.mouth.clone(),
         };
         let control = control.ok_or(LatticeError::NoMouth)?;
-        let links = links(&plan, &particles, &frame);
+        let links = links(&plan, &particles, &frame.loaded);
         let pattern = Pattern::new(frame, &links, &dissect(&particles), threads)?;
         let (bending, closes, longest) = (plan.bending, plan.closes, plan.longest_step());
         let equilibrium = Equilibrium { links, pattern, bending, closes, control };
@@ -213,16 +213,11 @@ impl Lattice {
 
     pub fn totals(&self, state: &LatticeState) -> LatticeTotals {
         let value = |of| product(of, &state.displacement);
-        let damage = state.damage.iter().zip(&self.particles.pairs);
-        let broken = damage.filter(|(damage, _)| **damage >= 1.0).map(|(_, pair)| pair.facet);
         LatticeTotals {
             displacement: value(&self.frame().load),
             opening: self.frame().mouth.as_ref().map(value),
             elastic_energy: self.elastic_energy(state),
-            max_damage: state.damage.iter().copied().fold(0.0, f64::max),
-            broken_links: broken.clone().count(),
-            // From zero: a sum of nothing is negative zero.
-            crack_length: broken.fold(0.0, |sum, facet| sum + facet),
+            broken: Broken::of(&self.particles, &state.damage),
         }
     }
 
@@ -233,37 +228,20 @@ impl Lattice {
         self.frame().unknown.chunks_exact(3).map(of_particle).collect()
     }
 
-    /// Largest damage of the links of each particle, and the pressure in it [Pa]: a third of the trace of the stress
-    /// that follows from the forces of its links.
+    /// Largest damage of the links of each particle, and the pressure in it [Pa].
     pub fn at_particles(&self, state: &LatticeState) -> Vec<(f64, f64)> {
-        let area = self.particles.area;
-        let mut at = vec![(0.0_f64, 0.0); self.particles.places.len()];
         let deformation = self.equilibrium.deformations(&state.displacement);
-        for ((link, q), &damage) in self.links().iter().zip(&deformation).zip(&state.damage) {
+        let links = self.links().iter().zip(&deformation).zip(&state.damage);
+        let normals = links.map(|((link, q), &damage)| {
             let [normal, ..] = self.equilibrium.conjugate(link, q, damage);
-            let share = normal * link.length / (2.0 * area * self.plan.sheet.thickness);
-            for end in link.ends {
-                at[end].0 = at[end].0.max(damage);
-                at[end].1 -= share / 3.0;
-            }
-        }
-        at
+            normal
+        });
+        at_particles(&self.plan, &self.particles, (self.links(), &state.damage), normals)
     }
 
     /// Refuses a state that is not in equilibrium with what is prescribed, or whose damage no stretch explains.
     pub fn check(&self, state: &LatticeState) -> Result<(), String> {
-        let outside = state.damage.iter().find(|damage| !(0.0..=1.0).contains(*damage));
-        if let Some(damage) = outside {
-            return Err(format!("damage of {damage:e}, which is between 0 and 1"));
-        }
-        let damaged = self
-            .links()
-            .iter()
-            .zip(&state.damage)
-            .find(|(link, damage)| !link.breaks && **damage > 0.0);
-        if damaged.is_some() {
-            return Err("damage of a link that stays intact".to_owned());
-        }
+        check_damage(self.links(), &state.damage)?;
         self.equilibrium.check(&state.balanced(), &state.damage, state.prescribed)?;
         let energies = [state.work, state.dissipated + state.released, self.elastic_energy(state)];
         let missing = energies[0] - energies[1] - energies[2];
@@ -283,11 +261,42 @@ fn grows_slowly(state: &LatticeState, trial: &Trial) -> bool {
     trial.damage.iter().zip(&state.damage).all(|(new, old)| new - old <= GROWTH)
 }
 
+/// Refuses damage beyond its range, and that of links that stay intact.
+pub(super) fn check_damage(links: &[Link], damage: &[f64]) -> Result<(), String> {
+    if let Some(damage) = damage.iter().find(|damage| !(0.0..=1.0).contains(*damage)) {
+        return Err(format!("damage of {damage:e}, which is between 0 and 1"));
+    }
+    match links.iter().zip(damage).any(|(link, damage)| !link.breaks && *damage > 0.0) {
+        true => Err("damage of a link that stays intact".to_owned()),
+        false => Ok(()),
+    }
+}
+
+/// Largest damage of the links of each particle, and the pressure in it [Pa]: a third of the trace of the stress that
+/// follows from the normal forces of its links [N].
+pub(super) fn at_particles(
+    plan: &LatticePlan,
+    particles: &Particles,
+    (links, damage): (&[Link], &[f64]),
+    normals: impl Iterator<Item = f64>,
+) -> Vec<(f64, f64)> {
+    let volume = particles.area * plan.sheet.thickness;
+    let mut at = vec![(0.0_f64, 0.0); particles.places.len()];
+    for ((link, &damage), normal) in links.iter().zip(damage).zip(normals) {
+        let share = normal * link.length / (2.0 * volume);
+        for end in link.ends {
+            at[end].0 = at[end].0.max(damage);
+            at[end].1 -= share / 3.0;
+        }
+    }
+    at
+}
+
 /// The links of all pairs; those near supports and loads stay intact.
-fn links(plan: &LatticePlan, particles: &Particles, frame: &Frame) -> Vec<Link> {
+pub(super) fn links(plan: &LatticePlan, particles: &Particles, loaded: &[usize]) -> Vec<Link> {
     let places = &particles.places;
     let reach = PROTECTED * particles.spacing;
-    let is_far = |i: usize| frame.loaded.iter().all(|&j| distance(places[i], places[j]) > reach);
+    let is_far = |i: usize| loaded.iter().all(|&j| distance(places[i], places[j]) > reach);
     let far: Vec<bool> = (0..places.len()).map(is_far).collect();
     let sheet = match plan.strip.arrangement {
         Arrangement::Random { .. } => plan.sheet.of_random_links(),
