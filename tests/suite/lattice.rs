@@ -273,3 +273,37 @@ fn impossible_motion_is_refused() {
     let refusal = trial.try_step(1e-5).unwrap_err().to_string();
     assert!(refusal.contains("faster than waves"), "{refusal}");
 }
+
+/// A strip between platens breaks suddenly, and what that releases is counted; afterwards the crack is bridged by the same
+/// load in every sample, `share · strength · (w₃ − w)/(w₃ − w₂)` of the section but for its facets, which are inclined.
+#[test]
+fn torn_strips_of_all_samples_are_bridged() {
+    for (seed, arrangement) in [(0, "random"), (1, "random"), (0, "across")] {
+        let keys = format!("spacing = 1e-2\narrangement = \"{arrangement}\"\nseed = {seed}");
+        let mut trial = Trial::new(&pulled(CONCRETE, &keys));
+        move_over(&mut trial, "strip.displacement", (6e-5, 1.0), 3);
+        let bridge = 0.13 * 4.5e6 * 0.1 * 0.05 * (197.0 - 60.0) / (197.0 - 9.05);
+        let of = |key: &str| trial.get(&format!("strip.{key}"));
+        let [force, work, released, drift] =
+            ["force", "mechanical_work", "released_energy", "energy_drift"].map(of);
+        assert!((0.9..1.5).contains(&(force / bridge)), "{keys}: {force} N for {bridge} N");
+        assert!(released > 0.1 * work && drift.abs() < 1e-3 * work, "{keys}: {released} {work}");
+    }
+}
+
+/// Constants of the library that links have replace those of a table.
+#[test]
+fn substances_name_the_constants_of_links() {
+    let softening = CONCRETE.split_once("softening").unwrap().1;
+    let text = pulled(CONCRETE, "spacing = 1e-2");
+    let named = text.replace(
+        &format!("density = 2300.0, {CONCRETE}"),
+        &format!("substance = \"concrete\", softening{softening}"),
+    );
+    let [own, named] = [text, named].map(|text| {
+        let mut trial = Trial::new(&text);
+        move_over(&mut trial, "strip.displacement", (1e-6, 1.0), 1);
+        [trial.get("strip.force"), trial.get("strip.mass")]
+    });
+    assert!((named[0] / own[0] - 31.0 / 30.0).abs() < 1e-9 && named[1] == own[1], "{named:?}");
+}

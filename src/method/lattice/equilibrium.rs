@@ -3,6 +3,7 @@
 use super::LatticeError;
 use super::frame::Combination;
 use super::link::{Deformation, Link};
+use super::settling::Masses;
 use super::stiffness::Pattern;
 use super::tangent::Tangent;
 use crate::runtime::allowance::Allowance;
@@ -17,6 +18,7 @@ pub struct Equilibrium {
     pub closes: bool,
     /// The combination of displacements that is controlled.
     pub control: Combination,
+    pub masses: Masses,
 }
 
 /// Displacements of the unknowns and the load.
@@ -35,7 +37,7 @@ pub struct Trial {
     pub growing: Vec<Option<Deformation>>,
     /// Sum of the forces on each unknown, and the size of the forces that balance [N].
     pub forces: Vec<f64>,
-    size: f64,
+    pub size: f64,
 }
 
 /// An equilibrium with the response of all links in it.
@@ -168,7 +170,7 @@ impl Equilibrium {
         if grown { Err("less damage than the stretch of a link causes".to_owned()) } else { Ok(()) }
     }
 
-    fn residual(&self, trial: &Trial, force: f64) -> Vec<f64> {
+    pub fn residual(&self, trial: &Trial, force: f64) -> Vec<f64> {
         let mut residual = trial.forces.clone();
         for &(at, part) in &self.pattern.frame.load {
             residual[at] -= force * part;
@@ -257,6 +259,7 @@ pub fn product(combination: &Combination, of: &[f64]) -> f64 {
     combination.iter().map(|&(at, part)| part * of[at]).sum()
 }
 
-fn norm(values: &[f64]) -> f64 {
+/// Euclidean norm.
+pub fn norm(values: &[f64]) -> f64 {
     values.iter().map(|value| value * value).sum::<f64>().sqrt()
 }

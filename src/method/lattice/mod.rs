@@ -14,6 +14,7 @@ mod motion;
 mod motion_tests;
 mod order;
 mod problem;
+mod settling;
 mod state;
 mod stiffness;
 mod tangent;
@@ -44,6 +45,11 @@ pub enum LatticeError {
          communication steps, a smaller `spacing`, or `control = \"opening\"`)"
     )]
     NoEquilibrium { relaxations: usize },
+    #[error(
+        "links break suddenly, and after {steps} time steps the strip still moves (allowed: shorter communication steps, \
+         a smaller `spacing`, or `inertia = true`)"
+    )]
+    NotSettled { steps: usize },
     #[error(
         "the load moves at {speed:.2e} m/s, faster than waves in the strip (allowed: up to {most:.2e} m/s, by smaller \
          changes of the input or longer communication steps)"

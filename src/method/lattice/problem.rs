@@ -1,10 +1,14 @@
 //! A strip whose load moves, or whose notch opens, along a path.
 
-use super::arrangement::{Arrangement, Particles, Strip, distance};
+use std::f64::consts::PI;
+
+use super::arrangement::{Arrangement, Cell, Particles, Strip, distance};
 use super::equilibrium::{Balanced, Equilibrium, Trial, WORK, product};
-use super::frame::{Frame, Support};
+use super::frame::{COMPONENTS, Frame, Support};
+use super::frequency::highest_frequency;
 use super::link::{Link, Sheet};
 use super::order::dissect;
+use super::settling::Masses;
 use super::stiffness::Pattern;
 use super::{Broken, LatticeError, LatticeState, LatticeTotals};
 use crate::laws::fracture::SofteningLaw;
@@ -45,9 +49,13 @@ pub struct Lattice {
     longest: f64,
 }
 
+/// Name of the steps of what is prescribed in messages.
+const STEPS: &str = "steps of equilibrium";
 /// Least flexural stiffness over the axial one and the length squared: at ν = 1/3 links do not bend, and nothing else
 /// would hold the rotation of particles.
 const SPIN: f64 = 1e-9;
+/// Part of the longest stable time step that sudden breaks take.
+const STABLE: f64 = 0.8;
 /// Distance from supports and loads within which links stay intact, over the spacing.
 const PROTECTED: f64 = 2.0;
 /// Longest step over the opening of a link at the knee of its law, and shortest step over the longest.
@@ -95,7 +103,8 @@ impl Lattice {
         let links = links(&plan, &particles, &frame.loaded);
         let pattern = Pattern::new(frame, &links, &dissect(&particles), threads)?;
         let (bending, closes, longest) = (plan.bending, plan.closes, plan.longest_step());
-        let equilibrium = Equilibrium { links, pattern, bending, closes, control };
+        let masses = masses(&plan, &particles, &links, &pattern.frame);
+        let equilibrium = Equilibrium { links, pattern, bending, closes, control, masses };
         Ok(Self { plan, particles, equilibrium, longest })
     }
 
@@ -137,6 +146,7 @@ impl Lattice {
     ) -> Result<(), LatticeError> {
         let from = state.prescribed;
         let total = (target - from).abs();
+        allowance.foresee(total / self.longest, STEPS, WORK * self.unknowns())?;
         let (mut done, mut step) = (0.0, self.longest);
         while done < total {
             let rest = total - done;
@@ -187,9 +197,13 @@ impl Lattice {
     ) -> Result<(), LatticeError> {
         let stored = self.elastic_energy(state);
         let start = state.balanced();
-        let (balanced, dissipated) =
-            self.equilibrium.relax(&start, &mut state.damage, wanted, allowance)?;
-        let work = self.work(state, &balanced);
+        let damage = &mut state.damage;
+        let (balanced, dissipated) = match self.plan.control {
+            Control::Displacement => self.equilibrium.settle(&start, damage, wanted, allowance)?,
+            Control::Opening => self.equilibrium.relax(&start, damage, wanted, allowance)?,
+        };
+        // The load moves before links break: it falls by what they release.
+        let work = self.work(state, &balanced).max(state.force * self.moved(state, &balanced));
         state.work += work;
         state.dissipated += dissipated;
         state.displacement = balanced.displacement;
@@ -200,9 +214,13 @@ impl Lattice {
 
     /// Work of the mean load from a state to the next equilibrium [J].
     fn work(&self, state: &LatticeState, next: &Balanced) -> f64 {
+        0.5 * (state.force + next.force) * self.moved(state, next)
+    }
+
+    /// Motion of the load from a state to the next equilibrium [m].
+    fn moved(&self, state: &LatticeState, next: &Balanced) -> f64 {
         let load = &self.frame().load;
-        let moved = product(load, &next.displacement) - product(load, &state.displacement);
-        0.5 * (state.force + next.force) * moved
+        product(load, &next.displacement) - product(load, &state.displacement)
     }
 
     /// Elastic energy [J].
@@ -259,6 +277,25 @@ const ENERGY: f64 = 0.05;
 /// Returns true if no link gains more damage than a step may bring.
 fn grows_slowly(state: &LatticeState, trial: &Trial) -> bool {
     trial.damage.iter().zip(&state.damage).all(|(new, old)| new - old <= GROWTH)
+}
+
+/// Mass of each unknown for a density of one, which is that of all components that follow it, a stable time step, and half
+/// the critical damping of the slowest wave along the strip.
+fn masses(plan: &LatticePlan, particles: &Particles, links: &[Link], frame: &Frame) -> Masses {
+    let thickness = plan.sheet.thickness;
+    let mut of_unknowns = vec![0.0; frame.unknowns];
+    for (cell, unknown) in particles.cells.iter().zip(frame.unknown.chunks_exact(COMPONENTS)) {
+        for (at, of_cell) in unknown.iter().zip([cell.area, cell.area, cell.moment]) {
+            if let Some(at) = *at {
+                of_unknowns[at] += thickness * of_cell;
+            }
+        }
+    }
+    let inverse = |cell: &Cell| [cell.area, cell.moment].map(|of_cell| 1.0 / (thickness * of_cell));
+    let inverse: Vec<_> = particles.cells.iter().map(inverse).collect();
+    let time_step = STABLE * 2.0 / highest_frequency(links, &inverse);
+    let swing = PI * plan.sheet.young.sqrt() / plan.strip.length;
+    Masses { of_unknowns, time_step, fading: (-swing * time_step).exp() }
 }
 
 /// Refuses damage beyond its range, and that of links that stay intact.
