@@ -8,8 +8,8 @@ use impinge::laws::fracture::SofteningLaw;
 use impinge::method::lattice::{
     Arrangement, Control, Inertia, LatticePlan, MovingLattice, Sheet, Strip, Support,
 };
+use impinge::runtime::Usage;
 use impinge::runtime::allowance::Allowance;
-use impinge::runtime::usage::Usage;
 
 const SPACING: f64 = 1e-3;
 /// Links times time steps of a measurement.

