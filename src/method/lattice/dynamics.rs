@@ -64,6 +64,8 @@ struct Mover {
 struct Strained {
     forces: EndForces,
     damage: f64,
+    /// Stretch up to which damage does not grow [1].
+    reached: f64,
 }
 
 /// One change of all velocities: forces act for a time, damping fades speeds, and forces act for another time [s].
@@ -351,11 +353,15 @@ impl<'a> Run<'a> {
             angle,
             velocity,
         };
-        let strained = |&damage: &f64| Strained { forces: [0.0; 4], damage };
+        let strained = |(&damage, member): (&f64, &Member)| Strained {
+            forces: [0.0; 4],
+            damage,
+            reached: if damage < 1.0 { member.onset } else { f64::INFINITY },
+        };
         Self {
             of,
             movers: moved.map(mover).collect(),
-            strained: motion.damage.iter().map(strained).collect(),
+            strained: motion.damage.iter().zip(&of.members).map(strained).collect(),
             outside: vec![[0.0; COMPONENTS]; motion.displacement.len()],
             team: Team::new(of.threads),
             dt,
@@ -428,7 +434,7 @@ impl<'a> Run<'a> {
                 let ends = member.ends.map(|i| &movers[i as usize]);
                 let strain = member.strain(ends.map(|end| &end.pose));
                 let stretch = member.stretch(&strain.q, bending);
-                if stretch > member.onset && strained.damage < 1.0 {
+                if stretch > strained.reached {
                     dissipated += of.grow((first + k, stretch), &strain.q, ends, dt, strained);
                 }
                 let parts = remaining(closes, &strain.q, strained.damage);
@@ -506,6 +512,7 @@ impl MovingLattice {
         dt: f64,
         strained: &mut Strained,
     ) -> f64 {
+        strained.reached = stretch;
         let growth = self.links[l].softening.damage(stretch).0 - strained.damage;
         if growth <= 0.0 {
             return 0.0;

@@ -49,11 +49,16 @@ fn axis(angle: f64) -> [f64; 2] {
         return [angle.cos(), angle.sin()];
     }
     let x = angle * angle;
-    let power = |sum: f64, order: f64| 1.0 - x / (order * (order - 1.0)) * sum;
-    let cosine = [12.0, 10.0, 8.0, 6.0, 4.0, 2.0].into_iter().fold(1.0, power);
-    let sine = [11.0, 9.0, 7.0, 5.0, 3.0].into_iter().fold(1.0, power);
+    let power = |sum: f64, part: f64| 1.0 - x * part * sum;
+    let [cosine, sine] = POWERS.map(|parts| parts.into_iter().fold(1.0, power));
     [cosine, angle * sine]
 }
+
+/// Terms of the sums of powers over those before, `1/(n (n − 1))` from the last on: of the cosine and of the sine.
+const POWERS: [[f64; 6]; 2] = [
+    [1.0 / 132.0, 1.0 / 90.0, 1.0 / 56.0, 1.0 / 30.0, 1.0 / 12.0, 1.0 / 2.0],
+    [1.0 / 156.0, 1.0 / 110.0, 1.0 / 72.0, 1.0 / 42.0, 1.0 / 20.0, 1.0 / 6.0],
+];
 
 impl Member {
     pub fn new(link: &Link) -> Self {
