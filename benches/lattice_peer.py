@@ -2,9 +2,10 @@
 
     cargo bench --bench lattice --no-run; python benches/lattice_peer.py BINARY [COLUMNS ROWS]
 
-The peer is written as peridynamics programs in Numba are: a list of bonds, forces scattered to particles in a loop over
-bonds, then a loop over particles; micropolar links with small rotations, softening and breaking, without any of the
-sums of energies and balances. BINARY is the compiled bench. Both print link-steps per second of processor time.
+The peer is written as peridynamics programs in Numba are: a list of bonds, forces scattered to
+particles in a loop over bonds, then a loop over particles; micropolar links with small rotations,
+softening and breaking, without the sums of energies. BINARY is the compiled bench. Both print links
+times time steps per second of processor time.
 """
 
 import json
@@ -26,7 +27,7 @@ def lattice(columns, rows):
     j, k = np.divmod(np.arange(columns * rows), rows)
     places = SPACING * np.stack([j * math.sqrt(0.75), k + np.where(j % 2, 0.75, 0.25)], axis=1)
     pairs = []
-    for i, (column, row) in enumerate(zip(j, k)):
+    for i, (column, row) in enumerate(zip(j, k, strict=True)):
         lower = row - 1 if column % 2 == 0 else row
         for other, at in ((column, row + 1), (column + 1, lower), (column + 1, lower + 1)):
             if other < columns and 0 <= at < rows:
@@ -41,8 +42,8 @@ def advance(places, pairs, u, v, damage, constants, inverse, dt, steps):
     force = np.zeros_like(u)
     for _ in range(steps):
         force[:] = 0.0
-        for l in range(pairs.shape[0]):
-            a, b = pairs[l, 0], pairs[l, 1]
+        for link in range(pairs.shape[0]):
+            a, b = pairs[link, 0], pairs[link, 1]
             c = (places[b, 0] - places[a, 0]) / length
             s = (places[b, 1] - places[a, 1]) / length
             x, z = u[b, 0] - u[a, 0], u[b, 1] - u[a, 1]
@@ -51,15 +52,15 @@ def advance(places, pairs, u, v, damage, constants, inverse, dt, steps):
             first, second = u[a, 2] - turned, u[b, 2] - turned
             bent = max(abs(2 * first + second), abs(first + 2 * second))
             ratio = (stretched / length + 2 * BENDING * bent) / ONSET
-            if ratio > 1.0 and damage[l] < 1.0:
+            if ratio > 1.0 and damage[link] < 1.0:
                 if ratio <= KNEE:
                     new = (KNEE - SHARE) / (KNEE - 1.0) * (1.0 - 1.0 / ratio)
                 elif ratio < END:
                     new = 1.0 - SHARE / (END - KNEE) * (END / ratio - 1.0)
                 else:
                     new = 1.0
-                damage[l] = max(damage[l], new)
-            left = 1.0 - damage[l]
+                damage[link] = max(damage[link], new)
+            left = 1.0 - damage[link]
             normal = (1.0 if stretched < 0.0 else left) * axial * stretched
             own = left * flexural * (2 * first + second)
             other = left * flexural * (first + 2 * second)
@@ -102,7 +103,9 @@ def peer(columns, rows):
 def main():
     binary, *sizes = sys.argv[1:]
     columns, rows = (int(size) for size in sizes) if sizes else (200, 100)
-    own = subprocess.run([binary, str(columns), str(rows)], check=True, capture_output=True, text=True)
+    own = subprocess.run(
+        [binary, str(columns), str(rows)], check=True, capture_output=True, text=True
+    )
     speed = json.loads(own.stdout.strip().splitlines()[-1])["link_steps_per_second"]
     other = peer(columns, rows)
     print(json.dumps({"own": speed, "peer": other, "ratio": speed / other}))

@@ -32,8 +32,8 @@ const STEP: f64 = 6e-6;
 /// Memory of a particle in motion with its links [B], and its time in a time step [s].
 const MOVING_MEMORY: f64 = 1000.0;
 const MOVING: f64 = 6e-8;
-/// Least square of the highest frequency of hexagons, times the spacing over the speed of waves in a bar, and how much more
-/// that of random particles is.
+/// Least square of the highest frequency of hexagons, times the spacing over the speed of waves in a bar, and that of
+/// random particles over that of hexagons.
 const LEAST: f64 = 6.0;
 const UNEVEN: f64 = 1.6;
 
@@ -62,8 +62,8 @@ impl LatticeForecast {
     }
 }
 
-/// Estimate of the time step [s]: below a Poisson's ratio of 0.2 particles spin fastest, at `ω² s²/c² = 14.4 (1 − 3ν)/(1 −
-/// ν²)`.
+/// Estimate of the time step [s]: below a Poisson's ratio of 0.2 particles spin fastest, at
+/// `ω² s²/c² = 14.4 (1 − 3ν)/(1 − ν²)`.
 fn time_step(lattice: &Lattice) -> f64 {
     let Lattice { material, arrangement, .. } = lattice;
     let ratio = material.poisson;

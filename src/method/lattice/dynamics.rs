@@ -148,8 +148,8 @@ impl MovingLattice {
         Ok(allowance.foresee_step(duration, duration / self.longest, STEPS, self.work())?)
     }
 
-    /// Moves the load at constant speed to a displacement [m] over a communication step of a duration [s]. After an error
-    /// the state is unusable.
+    /// Moves the load at constant speed to a displacement [m] over a communication step of a duration [s]. After an
+    /// error the state is unusable.
     pub fn advance(
         &self,
         motion: &mut LatticeMotion,
@@ -445,8 +445,8 @@ impl<'a> Run<'a> {
         self.dissipated += dissipated.iter().sum::<f64>();
     }
 
-    /// Changes velocities by the forces, with those of supports and load that keep them at the speed of the load, and moves
-    /// particles on, except at the end.
+    /// Changes velocities by the forces, with those of supports and load that keep them at the speed of the load, and
+    /// moves particles on, except at the end.
     fn kick(&mut self, part: Part, speed: f64) {
         let half = 0.5 * self.dt;
         let fading = |dt: f64| (-self.of.damping * dt).exp();

@@ -73,8 +73,8 @@ impl Member {
         }
     }
 
-    /// Deformation between two poses: elongation, and the sines of the rotations of the ends relative to the chord, which
-    /// stay as small as strains however far a link turns.
+    /// Deformation between two poses: elongation, and the sines of the rotations of the ends relative to the chord,
+    /// which stay as small as strains however far a link turns.
     #[inline(always)]
     pub fn strain(&self, [a, b]: [&Pose; 2]) -> Strain {
         let [x, y] = self.span;

@@ -46,8 +46,8 @@ pub enum LatticeError {
     )]
     NoEquilibrium { relaxations: usize },
     #[error(
-        "links break suddenly, and after {steps} time steps the strip still moves (allowed: shorter communication steps, \
-         a smaller `spacing`, or `inertia = true`)"
+        "links break suddenly, and after {steps} time steps the strip still moves (allowed: shorter communication \
+         steps, a smaller `spacing`, or `inertia = true`)"
     )]
     NotSettled { steps: usize },
     #[error(
@@ -56,8 +56,8 @@ pub enum LatticeError {
     )]
     TooFast { speed: f64, most: f64 },
     #[error(
-        "{missing:.1e} J of the energy have no cause: links are crushed in less than a time step (allowed: slower changes \
-         of the input, or a stronger material)"
+        "{missing:.1e} J of the energy have no cause: links are crushed in less than a time step (allowed: slower \
+         changes of the input, or a stronger material)"
     )]
     Unbalanced { missing: f64 },
     #[error(transparent)]

@@ -70,7 +70,7 @@ fn highest_frequency_is_that_of_bloch_waves() {
     }
 }
 
-/// Voronoi cells fill the strip, and have about the inertia of hexagons, `5 s²/36` of their area, whose `s² √3/2` it is.
+/// Voronoi cells fill the strip, and have about the inertia of hexagons, `5 s²/36` of their area `s² √3/2`.
 #[test]
 fn cells_have_their_own_area_and_inertia() {
     let plan = strip(0.1, 0.05, 2e-3, 0.2);
@@ -128,8 +128,8 @@ fn members_turn_freely_and_have_a_potential() {
     }
 }
 
-/// A platen that pulls a bar at a constant speed bears `ρ c v` per area until the wave returns from the other end, after
-/// `2L/c`, and then three times as much.
+/// A platen that pulls a bar at a constant speed bears `ρ c v` per area until the wave returns from the other end,
+/// after `2L/c`, and then three times as much.
 #[test]
 fn pulled_bars_have_the_impedance_of_waves() {
     let (length, depth, speed) = (0.2, 0.04, 0.1);
@@ -151,8 +151,8 @@ fn pulled_bars_have_the_impedance_of_waves() {
     assert!((loads[1] / 3.0 - 1.0).abs() < 0.02, "{loads:?}");
 }
 
-/// Frequency of a beam on two supports whose middle is held, in halves like two beams, over `f = π/(2 l²) √(EI/(ρA))` with
-/// the correction `1 − ½(π r/l)² (1 + E/(k G))` of S. Timoshenko 1921 (doi 10.1080/14786442108636264).
+/// Frequency of a beam on two supports whose middle is held, in halves like two beams, over `f = π/(2 l²) √(EI/(ρA))`
+/// with the correction `1 − ½(π r/l)² (1 + E/(k G))` of S. Timoshenko 1921 (doi 10.1080/14786442108636264).
 fn over_timoshenko(rows: f64) -> f64 {
     let (half, depth, poisson) = (0.15, 0.02, 0.2);
     let plan = LatticePlan {

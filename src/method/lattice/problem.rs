@@ -279,8 +279,8 @@ fn grows_slowly(state: &LatticeState, trial: &Trial) -> bool {
     trial.damage.iter().zip(&state.damage).all(|(new, old)| new - old <= GROWTH)
 }
 
-/// Mass of each unknown for a density of one, which is that of all components that follow it, a stable time step, and half
-/// the critical damping of the slowest wave along the strip.
+/// Mass of each unknown for a density of one, which is that of all components that follow it, a stable time step, and
+/// half the critical damping of the slowest wave along the strip.
 fn masses(plan: &LatticePlan, particles: &Particles, links: &[Link], frame: &Frame) -> Masses {
     let thickness = plan.sheet.thickness;
     let mut of_unknowns = vec![0.0; frame.unknowns];

@@ -23,8 +23,8 @@ const NEAR: f64 = 2e-3;
 const TRIED: usize = 50;
 
 impl Equilibrium {
-    /// Lets links break suddenly while the load is held: the strip moves, damped, until it is nearly at rest. Returns the
-    /// equilibrium and the energy that damage dissipates [J].
+    /// Lets links break suddenly while the load is held: the strip moves, damped, until it is nearly at rest. Returns
+    /// the equilibrium and the energy that damage dissipates [J].
     pub fn settle(
         &self,
         start: &Balanced,
