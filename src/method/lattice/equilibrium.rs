@@ -19,6 +19,8 @@ pub struct Equilibrium {
     /// The combination of displacements that is controlled.
     pub control: Combination,
     pub masses: Masses,
+    /// Largest force of a link [N]: what is left of a torn strip balances to a part of it.
+    pub strength: f64,
 }
 
 /// Displacements of the unknowns and the load.
@@ -130,7 +132,7 @@ impl Equilibrium {
             let residual = self.residual(&trial, now.force);
             let missing = wanted - product(&self.control, &now.displacement);
             let is_there = missing.abs() <= ROUNDING * (wanted.abs() + moved);
-            if is_there && norm(&residual) <= TOLERANCE * trial.size {
+            if is_there && norm(&residual) <= TOLERANCE * self.scale(&trial) {
                 return Ok(Some(Found { balanced: now, trial, iterations }));
             }
             if iterations == MOST_ITERATIONS || !norm(&residual).is_finite() {
@@ -159,7 +161,7 @@ impl Equilibrium {
     pub fn check(&self, now: &Balanced, reached: &[f64], wanted: f64) -> Result<(), String> {
         let trial = self.trial(&now.displacement, reached);
         let residual = norm(&self.residual(&trial, now.force));
-        if residual > CHECKED * trial.size {
+        if residual > CHECKED * self.scale(&trial) {
             return Err(format!("{residual:.1e} N of {:.1e} N do not balance", trial.size));
         }
         let value = product(&self.control, &now.displacement);
@@ -168,6 +170,11 @@ impl Equilibrium {
         }
         let grown = trial.damage.iter().zip(reached).any(|(new, old)| new - old > CHECKED);
         if grown { Err("less damage than the stretch of a link causes".to_owned()) } else { Ok(()) }
+    }
+
+    /// Forces that unbalanced ones are compared with [N].
+    pub fn scale(&self, trial: &Trial) -> f64 {
+        trial.size.max(self.strength)
     }
 
     pub fn residual(&self, trial: &Trial, force: f64) -> Vec<f64> {
@@ -205,7 +212,7 @@ impl Equilibrium {
             let old = before.as_ref().unwrap_or(&trial.deformation);
             dissipated += self.dissipation([old, &trial.deformation], [reached, &trial.damage]);
             let residual = self.residual(&trial, now.force);
-            let is_balanced = norm(&residual) <= TOLERANCE * trial.size && before.is_some();
+            let is_balanced = norm(&residual) <= TOLERANCE * self.scale(&trial) && before.is_some();
             let lengthened = if relaxation < SLOW { 1.0 } else { LENGTHENED };
             for (own, new) in reached.iter_mut().zip(&trial.damage) {
                 *own = (*own + lengthened * (new - *own)).min(1.0);

@@ -104,7 +104,10 @@ impl Lattice {
         let pattern = Pattern::new(frame, &links, &dissect(&particles), threads)?;
         let (bending, closes, longest) = (plan.bending, plan.closes, plan.longest_step());
         let masses = masses(&plan, &particles, &links, &pattern.frame);
-        let equilibrium = Equilibrium { links, pattern, bending, closes, control, masses };
+        let forces = links.iter().map(|link| link.axial * link.softening.onset * link.length);
+        let strength = forces.fold(0.0, f64::max);
+        let equilibrium =
+            Equilibrium { links, pattern, bending, closes, control, masses, strength };
         Ok(Self { plan, particles, equilibrium, longest })
     }
 

@@ -52,7 +52,7 @@ impl Equilibrium {
                 load.iter().map(|&(at, part)| part * trial.forces[at] / mass[at]).sum();
             now.force = driven / compliance;
             let residual = self.residual(&trial, now.force);
-            let is_near = norm(&residual) <= NEAR * trial.size;
+            let is_near = norm(&residual) <= NEAR * self.scale(&trial);
             if step % TRIED == TRIED - 1
                 && is_near
                 && let Some(found) = self.solve(&now, reached, wanted, allowance)?
