@@ -5,7 +5,7 @@ use super::droplet::{DropletBody, ReplayBody};
 use super::error::BodyError;
 use super::filament::FilamentBody;
 use super::large_strain::{MovingBody, RestingBody, SwingingBody};
-use super::lattice::LatticeBody;
+use super::lattice::{MovingLatticeBody, RestingLatticeBody};
 use super::link::{self, Joint, Link};
 use super::reduced::ReducedBody;
 use super::reservoir::ReservoirBody;
@@ -104,8 +104,11 @@ pub fn build(
         }
     }
     for (name, lattice) in scene.lattices() {
-        let body = LatticeBody::new(layout, (name, lattice), threads)?;
-        built[place(name).expect("a body of the scene")] = Some(Box::new(body));
+        let own = (name, lattice);
+        built[place(name).expect("a body of the scene")] = Some(match lattice.inertia {
+            true => Box::new(MovingLatticeBody::new(layout, own, threads)?),
+            false => Box::new(RestingLatticeBody::new(layout, own, threads)?),
+        });
     }
     for (name, reservoir) in scene.reservoirs() {
         let cells = link::most_cells(scene, name, &built, place);

@@ -268,6 +268,13 @@ pub static STRIP: Range<'static> = Range {
     highest: 20.0,
     mistakes: LENGTHS,
 };
+pub static FADING: Range<'static> = Range {
+    what: "the damping of a strip",
+    unit: "1/s",
+    lowest: 1e-2,
+    highest: 1e8, // critical for a spacing of 0.1 mm
+    mistakes: Cow::Borrowed(&[]),
+};
 pub static TENSILE_STRENGTH: Range<'static> = Range {
     what: "the tensile strength of concrete, mortar or rock",
     unit: "Pa",

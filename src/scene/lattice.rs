@@ -42,6 +42,17 @@ pub struct Lattice {
     #[serde(default)]
     #[schemars(extend("condition" = "`opening` with `notch`"))]
     pub control: LatticeControl,
+    /// True if the strip has inertia: it moves by explicit time steps, and the load at constant speed from its displacement
+    /// at the beginning of a communication step to that at the end. Otherwise it is in equilibrium at every time.
+    #[serde(default)]
+    #[schemars(extend("condition" = "not with `control = \"opening\"`"))]
+    pub inertia: bool,
+    /// Rate at which the speed of every particle fades, `dv/dt = −damping v` [1/s].
+    #[serde(default)]
+    #[schemars(transform = within(0.0, 1e12, "1/s", "the damping of a lattice")
+        .plausible(&plausible::FADING)
+        .condition("with `inertia = true`"))]
+    pub damping: f64,
     /// True if links that are damaged bear pressure like intact ones.
     #[serde(default = "yes")]
     pub contact: bool,

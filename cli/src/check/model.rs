@@ -85,7 +85,17 @@ pub fn notes(forecast: &Forecast) -> String {
         cost(&mut text, (body.memory, body.run_time), "steps", &body.notes);
     }
     for body in &forecast.lattices {
-        let _ = writeln!(text, "  {}: {} unknowns", body.name, body.unknowns);
+        let _ = match body.time_step {
+            Some(step) => writeln!(
+                text,
+                "  {}: {} particles, about {:.0} time steps of {}",
+                body.name,
+                body.particles,
+                body.steps,
+                engineering(step, "s")
+            ),
+            None => writeln!(text, "  {}: {} unknowns", body.name, body.unknowns),
+        };
         cost(&mut text, (body.memory, body.run_time), "steps", &body.notes);
     }
     for body in &forecast.filaments {

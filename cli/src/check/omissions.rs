@@ -40,7 +40,9 @@ pub fn omissions(scene: &Scene, forecast: &Forecast) -> Vec<String> {
         );
     }
     if scene.lattices().next().is_some() {
-        list.push("inertia, weight, creep, shrinkage and heat of lattices".to_owned());
+        let rests = scene.lattices().any(|(_, lattice)| !lattice.inertia);
+        let inertia = if rests { "inertia, " } else { "" };
+        list.push(format!("{inertia}weight, creep, shrinkage and heat of lattices"));
     }
     let heavy = |&(name, droplet): &(&str, &Droplet)| {
         let bond = bond(droplet);

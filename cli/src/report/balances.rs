@@ -61,21 +61,23 @@ fn of_filament(scene: &Scene, body: &str, outputs: &Outputs) -> Option<Balance> 
     Some(balance(format!("Heat of {body}"), "J", terms, [stored + given + lost, largest]))
 }
 
-/// Energy of a lattice: work of its load, stored, dissipated and released by sudden breaks.
+/// Energy of a lattice: work of its load, stored and dissipated, released by sudden breaks or of motion.
 fn of_lattice(scene: &Scene, body: &str, outputs: &Outputs) -> Option<Balance> {
     let last = |key: &str| outputs.last(&name(scene, body, key));
     let work = last("mechanical_work")?;
-    let [stored, dissipated, released] =
-        [last("elastic_energy")?, last("dissipated_energy")?, last("released_energy")?];
-    let terms = vec![
-        term("work of the load", work),
-        term("stored", stored),
-        term("dissipated by damage", dissipated),
-        term("released by sudden breaks", released),
+    let parts = [
+        ("stored", "elastic_energy"),
+        ("dissipated by damage", "dissipated_energy"),
+        ("released by sudden breaks", "released_energy"),
+        ("of motion", "kinetic_energy"),
+        ("taken by damping", "damped_energy"),
     ];
-    let missing = work - stored - dissipated - released;
-    let largest =
-        [work, stored, dissipated].into_iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+    let parts: Vec<_> =
+        parts.iter().filter_map(|(words, key)| Some((*words, last(key)?))).collect();
+    let missing = work - parts.iter().map(|(_, energy)| energy).sum::<f64>();
+    let largest = parts.iter().fold(work.abs(), |most, (_, energy)| most.max(energy.abs()));
+    let own = parts.into_iter().map(|(words, energy)| term(words, energy));
+    let terms = [term("work of the load", work)].into_iter().chain(own).collect();
     Some(balance(format!("Energy of {body}"), "J", terms, [missing, largest]))
 }
 

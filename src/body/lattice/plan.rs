@@ -1,6 +1,8 @@
 //! Converts a lattice of a scene to the plan of its method.
 
-use crate::method::lattice::{Arrangement, Control, LatticePlan, Notch, Sheet, Strip, Support};
+use crate::method::lattice::{
+    Arrangement, Control, Inertia, LatticePlan, Notch, Sheet, Strip, Support,
+};
 use crate::scene::{Lattice, LatticeArrangement, LatticeControl, LatticeSupport};
 
 /// The plan of a checked scene's lattice.
@@ -42,4 +44,9 @@ pub fn plan_of(lattice: &Lattice) -> LatticePlan {
         scatter: lattice.scatter,
         seed: lattice.seed,
     }
+}
+
+/// Mass and damping of a lattice that moves.
+pub fn inertia_of(lattice: &Lattice) -> Inertia {
+    Inertia { density: lattice.material.density, damping: lattice.damping }
 }

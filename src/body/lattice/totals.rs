@@ -1,7 +1,7 @@
 //! Values of a lattice as a whole.
 
 use crate::body::{Descriptor, Direct};
-use crate::method::lattice::{LatticeState, LatticeTotals};
+use crate::method::lattice::{LatticeMotion, LatticeState, LatticeTotals, MotionTotals};
 use crate::quantity::Quantity;
 use crate::scene::{Lattice, LatticeControl};
 
@@ -18,18 +18,53 @@ enum Offered {
     All,
     DisplacementFollows,
     OpeningFollows,
+    /// Those in equilibrium.
+    Resting,
+    /// Those with inertia.
+    Moving,
 }
 
-/// A state with its sums, as readings see it.
-pub struct Seen<'a> {
-    pub state: &'a LatticeState,
-    pub totals: &'a LatticeTotals,
+/// Values of a state, as readings see it.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Seen {
+    pub totals: LatticeTotals,
+    /// [N]
+    pub force: f64,
+    /// [J]
+    pub work: f64,
+    pub dissipated: f64,
+    pub released: f64,
+    pub damped: f64,
+    pub kinetic: f64,
+    pub fragments: usize,
+    pub steps: f64,
     /// Mass of the strip [kg].
     pub mass: f64,
 }
 
-const TOTALS: [Total; 12] = [
-    total("force", "load", Quantity::Force, |seen| seen.state.force),
+impl Seen {
+    pub fn at_rest(state: &LatticeState, totals: LatticeTotals, mass: f64) -> Self {
+        let LatticeState { force, work, dissipated, released, .. } = *state;
+        Self { totals, force, work, dissipated, released, mass, ..Self::default() }
+    }
+
+    pub fn in_motion(motion: &LatticeMotion, totals: MotionTotals, mass: f64) -> Self {
+        let LatticeMotion { work, dissipated, damped, steps, .. } = *motion;
+        let MotionTotals { sums: totals, kinetic_energy: kinetic, fragments } = totals;
+        let force = motion.force();
+        let released = 0.0;
+        Self { totals, force, work, dissipated, released, damped, kinetic, fragments, steps, mass }
+    }
+
+    /// Work without cause [J].
+    fn drift(&self) -> f64 {
+        let gone = self.dissipated + self.released + self.damped;
+        self.work - gone - self.totals.elastic_energy - self.kinetic
+    }
+}
+
+const TOTALS: [Total; 16] = [
+    total("force", "load", Quantity::Force, |seen| seen.force),
     of(
         Offered::DisplacementFollows,
         total("displacement", "displacement of the load", Quantity::Displacement, |seen| {
@@ -45,36 +80,61 @@ const TOTALS: [Total; 12] = [
             |seen| seen.totals.opening.unwrap_or(0.0),
         ),
     ),
-    total("max_damage", "largest damage of a link", Quantity::Ratio, |seen| seen.totals.max_damage),
+    total("max_damage", "largest damage of a link", Quantity::Ratio, |seen| {
+        seen.totals.broken.max_damage
+    }),
     total("broken_links", "number of links without force", Quantity::Count, |seen| {
-        seen.totals.broken_links as f64
+        seen.totals.broken.links as f64
     }),
     total("crack_length", "length of the facets of broken links", Quantity::Length, |seen| {
-        seen.totals.crack_length
+        seen.totals.broken.length
     }),
+    of(
+        Offered::Moving,
+        total(
+            "fragments",
+            "number of parts that unbroken links connect",
+            Quantity::Count,
+            |seen| seen.fragments as f64,
+        ),
+    ),
     total("elastic_energy", "energy stored in the links", Quantity::Energy, |seen| {
         seen.totals.elastic_energy
     }),
     total("dissipated_energy", "energy that damage has dissipated", Quantity::Energy, |seen| {
-        seen.state.dissipated
+        seen.dissipated
     }),
-    total(
-        "released_energy",
-        "energy that sudden breaks have turned into motion, which is left out",
-        Quantity::Energy,
-        |seen| seen.state.released,
+    of(
+        Offered::Resting,
+        total(
+            "released_energy",
+            "energy that sudden breaks have turned into motion, which is left out",
+            Quantity::Energy,
+            |seen| seen.released,
+        ),
+    ),
+    of(
+        Offered::Moving,
+        total("kinetic_energy", "kinetic energy", Quantity::Energy, |seen| seen.kinetic),
+    ),
+    of(
+        Offered::Moving,
+        total("damped_energy", "energy that damping has taken", Quantity::Energy, |seen| {
+            seen.damped
+        }),
     ),
     total("mechanical_work", "work of the load since time zero", Quantity::Energy, |seen| {
-        seen.state.work
+        seen.work
     }),
     total(
         "energy_drift",
         "error of the energy balance: mechanical_work less the other energies",
         Quantity::Energy,
-        |seen| {
-            let state = seen.state;
-            state.work - state.dissipated - state.released - seen.totals.elastic_energy
-        },
+        Seen::drift,
+    ),
+    of(
+        Offered::Moving,
+        total("steps", "time steps made inside the unit", Quantity::Ratio, |seen| seen.steps),
     ),
     total("mass", "mass", Quantity::Mass, |seen| seen.mass),
 ];
@@ -101,6 +161,8 @@ pub fn offered_totals(lattice: &Lattice) -> Vec<(usize, Descriptor)> {
         Offered::OpeningFollows => {
             lattice.notch.is_some() && lattice.control != LatticeControl::Opening
         }
+        Offered::Resting => !lattice.inertia,
+        Offered::Moving => lattice.inertia,
     };
     let places = TOTALS.iter().enumerate().filter(|(_, total)| is_offered(total));
     places.map(|(place, total)| (place, total.descriptor)).collect()

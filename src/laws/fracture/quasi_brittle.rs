@@ -8,7 +8,10 @@ use crate::limits::{plausible, positive, within};
 
 /// A quasi-brittle material: elastic up to its strength, then it softens.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "a table, `{ substance = \"concrete\", softening = { … } }`"
+)]
 pub struct QuasiBrittle {
     /// Density ρ [kg/m³].
     #[schemars(transform = positive("kg/m³", "the density").plausible(&plausible::DENSITY))]

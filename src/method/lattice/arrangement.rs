@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::voronoi::{Rectangle, facets, random_points};
+use super::voronoi::{Rectangle, random_points, tessellate};
 
 /// A strip of a sheet, `−length/2 ≤ x ≤ length/2` and `0 ≤ y ≤ depth`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,6 +50,17 @@ pub struct Particles {
     pub spacing: f64,
     /// Area of the strip for each particle [m²].
     pub area: f64,
+    /// Cell of each particle.
+    pub cells: Vec<Cell>,
+}
+
+/// Part of a strip that moves with a particle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cell {
+    /// [m²]
+    pub area: f64,
+    /// Polar second moment of area about the particle [m⁴].
+    pub moment: f64,
 }
 
 /// Two neighbours.
@@ -64,6 +75,8 @@ pub struct Pair {
 const COLUMN: f64 = 0.866_025_403_784_438_6;
 /// Distance over the spacing below which particles are neighbours: between 1 and √3.
 const HORIZON: f64 = 1.3;
+/// Square of a hexagon's radius of gyration over that of the spacing.
+const GYRATION: f64 = 5.0 / 36.0;
 /// Part of the spacing that is rounding.
 const ROUNDING: f64 = 1e-6;
 
@@ -128,19 +141,23 @@ impl Strip {
     /// Places the particles, the outer rows half a row inside the faces, and joins neighbours except across the notch.
     pub fn fill(&self) -> Particles {
         let spacing = self.fitted_spacing();
-        let (places, pairs) = match self.arrangement {
+        let (places, pairs, cells) = match self.arrangement {
             Arrangement::Random { seed } => {
                 let half = 0.5 * self.length;
                 let whole = Rectangle { low: [-half, 0.0], high: [half, self.depth] };
                 let places = random_points(whole, spacing, seed);
-                let pairs = facets(&places, whole, spacing);
-                (places, pairs)
+                let (pairs, cells) = tessellate(&places, whole, spacing);
+                (places, pairs, cells)
             }
             _ => {
                 let places = self.hexagons(spacing);
                 let facet = spacing / 3.0_f64.sqrt();
                 let pairs = neighbours(&places, HORIZON * spacing);
-                (places, pairs.into_iter().map(|ends| Pair { ends, facet }).collect())
+                let pairs = pairs.into_iter().map(|ends| Pair { ends, facet }).collect();
+                let area = COLUMN * spacing * spacing;
+                let cell = Cell { area, moment: GYRATION * spacing * spacing * area };
+                let cells = vec![cell; places.len()];
+                (places, pairs, cells)
             }
         };
         let area = self.length * self.depth / places.len() as f64;
@@ -148,18 +165,19 @@ impl Strip {
             Arrangement::Random { .. } => area,
             _ => COLUMN * spacing * spacing,
         };
-        self.cut(Particles { places, pairs, spacing, area })
+        self.cut(Particles { places, pairs, spacing, area, cells })
     }
 
     /// Takes the particles of the notch out, and of the links across it the part of their facet that is in it: stiffness
     /// and strength follow its depth continuously.
     fn cut(&self, whole: Particles) -> Particles {
         let mut number = Vec::with_capacity(whole.places.len());
-        let mut places = Vec::new();
-        for &place in &whole.places {
+        let (mut places, mut cells) = (Vec::new(), Vec::new());
+        for (&place, &cell) in whole.places.iter().zip(&whole.cells) {
             let stays = !self.is_in_notch(place);
             number.push(stays.then_some(places.len()));
             places.extend(stays.then_some(place));
+            cells.extend(stays.then_some(cell));
         }
         let stays = |pair: &Pair| {
             let [Some(a), Some(b)] = pair.ends.map(|i| number[i]) else { return None };
@@ -167,7 +185,7 @@ impl Strip {
             (left > ROUNDING).then_some(Pair { ends: [a, b], facet: left * pair.facet })
         };
         let pairs = whole.pairs.iter().filter_map(stays).collect();
-        Particles { places, pairs, ..whole }
+        Particles { places, pairs, cells, ..whole }
     }
 
     /// Hexagons, column by column, symmetric about x = 0. With links along, one is across x = 0 in the first row

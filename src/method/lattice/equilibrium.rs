@@ -3,6 +3,7 @@
 use super::LatticeError;
 use super::frame::Combination;
 use super::link::{Deformation, Link};
+use super::settling::Masses;
 use super::stiffness::Pattern;
 use super::tangent::Tangent;
 use crate::runtime::allowance::Allowance;
@@ -17,6 +18,9 @@ pub struct Equilibrium {
     pub closes: bool,
     /// The combination of displacements that is controlled.
     pub control: Combination,
+    pub masses: Masses,
+    /// Largest force of a link [N]: what is left of a torn strip balances to a part of it.
+    pub strength: f64,
 }
 
 /// Displacements of the unknowns and the load.
@@ -35,7 +39,7 @@ pub struct Trial {
     pub growing: Vec<Option<Deformation>>,
     /// Sum of the forces on each unknown, and the size of the forces that balance [N].
     pub forces: Vec<f64>,
-    size: f64,
+    pub size: f64,
 }
 
 /// An equilibrium with the response of all links in it.
@@ -128,7 +132,7 @@ impl Equilibrium {
             let residual = self.residual(&trial, now.force);
             let missing = wanted - product(&self.control, &now.displacement);
             let is_there = missing.abs() <= ROUNDING * (wanted.abs() + moved);
-            if is_there && norm(&residual) <= TOLERANCE * trial.size {
+            if is_there && norm(&residual) <= TOLERANCE * self.scale(&trial) {
                 return Ok(Some(Found { balanced: now, trial, iterations }));
             }
             if iterations == MOST_ITERATIONS || !norm(&residual).is_finite() {
@@ -157,7 +161,7 @@ impl Equilibrium {
     pub fn check(&self, now: &Balanced, reached: &[f64], wanted: f64) -> Result<(), String> {
         let trial = self.trial(&now.displacement, reached);
         let residual = norm(&self.residual(&trial, now.force));
-        if residual > CHECKED * trial.size {
+        if residual > CHECKED * self.scale(&trial) {
             return Err(format!("{residual:.1e} N of {:.1e} N do not balance", trial.size));
         }
         let value = product(&self.control, &now.displacement);
@@ -168,7 +172,12 @@ impl Equilibrium {
         if grown { Err("less damage than the stretch of a link causes".to_owned()) } else { Ok(()) }
     }
 
-    fn residual(&self, trial: &Trial, force: f64) -> Vec<f64> {
+    /// Forces that unbalanced ones are compared with [N].
+    pub fn scale(&self, trial: &Trial) -> f64 {
+        trial.size.max(self.strength)
+    }
+
+    pub fn residual(&self, trial: &Trial, force: f64) -> Vec<f64> {
         let mut residual = trial.forces.clone();
         for &(at, part) in &self.pattern.frame.load {
             residual[at] -= force * part;
@@ -203,7 +212,7 @@ impl Equilibrium {
             let old = before.as_ref().unwrap_or(&trial.deformation);
             dissipated += self.dissipation([old, &trial.deformation], [reached, &trial.damage]);
             let residual = self.residual(&trial, now.force);
-            let is_balanced = norm(&residual) <= TOLERANCE * trial.size && before.is_some();
+            let is_balanced = norm(&residual) <= TOLERANCE * self.scale(&trial) && before.is_some();
             let lengthened = if relaxation < SLOW { 1.0 } else { LENGTHENED };
             for (own, new) in reached.iter_mut().zip(&trial.damage) {
                 *own = (*own + lengthened * (new - *own)).min(1.0);
@@ -257,6 +266,7 @@ pub fn product(combination: &Combination, of: &[f64]) -> f64 {
     combination.iter().map(|&(at, part)| part * of[at]).sum()
 }
 
-fn norm(values: &[f64]) -> f64 {
+/// Euclidean norm.
+pub fn norm(values: &[f64]) -> f64 {
     values.iter().map(|value| value * value).sum::<f64>().sqrt()
 }

@@ -35,6 +35,12 @@ pub struct Frame {
     pub loaded: Vec<usize>,
 }
 
+/// Places of three-point bending: particles with their parts, of the load and of both supports.
+pub struct Bearings {
+    pub top: Vec<(usize, f64)>,
+    pub supports: [Vec<(usize, f64)>; 2],
+}
+
 /// Depth of the rows at a face that supports and loads act on, over the spacing.
 const FACE: f64 = 0.9;
 /// Depth of the columns that platens hold, over the spacing: one of links across, two of links along.
@@ -42,7 +48,7 @@ const END: f64 = 0.6;
 
 impl Frame {
     pub fn new(particles: &Particles, strip: &Strip, support: Support) -> Self {
-        let faces = Faces { particles, depth: strip.depth };
+        let faces = Faces::new(particles, strip);
         match support {
             Support::ThreePoint { span } => Self::three_point(&faces, span, strip.notch),
             Support::Ends => Self::ends(&faces, strip),
@@ -56,8 +62,7 @@ impl Frame {
         let free = unknown.iter_mut().skip(COMPONENTS).enumerate();
         free.for_each(|(number, unknown)| *unknown = Some(number));
         let unknowns = unknown.len() - COMPONENTS;
-        let top = faces.at(0.0, Face::Upper, |_| true);
-        let supports = [-0.5, 0.5].map(|part| faces.at(part * span, Face::Lower, |_| true));
+        let Bearings { top, supports } = faces.bearings(span);
         let downwards = top.iter().map(|&(i, part)| (i, -part));
         let upwards = supports.iter().flatten().map(|&(i, part)| (i, 0.5 * part));
         let vertical: Vec<_> = downwards.chain(upwards).collect();
@@ -69,8 +74,7 @@ impl Frame {
 
     fn ends(faces: &Faces, strip: &Strip) -> Self {
         let particles = faces.particles;
-        let most = particles.places.iter().fold(0.0_f64, |most, place| most.max(place[0].abs()));
-        let is_end = |x: f64| x.abs() > most - END * particles.spacing;
+        let is_end = faces.in_platens();
         let mut unknown = Vec::with_capacity(COMPONENTS * particles.places.len());
         let mut loaded = Vec::new();
         // The right platen moves along x.
@@ -81,7 +85,7 @@ impl Frame {
                 count += 1;
                 Some(count - 1)
             };
-            if is_end(x) {
+            if is_end[i] {
                 loaded.push(i);
                 let w = if slides { next() } else { None };
                 slides = true;
@@ -96,7 +100,7 @@ impl Frame {
 }
 
 /// Rows of particles at the faces of a strip.
-struct Faces<'a> {
+pub struct Faces<'a> {
     particles: &'a Particles,
     depth: f64,
 }
@@ -107,7 +111,25 @@ enum Face {
     Upper,
 }
 
-impl Faces<'_> {
+impl<'a> Faces<'a> {
+    pub fn new(particles: &'a Particles, strip: &Strip) -> Self {
+        Self { particles, depth: strip.depth }
+    }
+
+    /// Load in the middle of the upper face, and supports at a distance [m] below.
+    pub fn bearings(&self, span: f64) -> Bearings {
+        let at = |x: f64, face| self.at(x, face, |_| true);
+        let supports = [-0.5, 0.5].map(|part| at(part * span, Face::Lower));
+        Bearings { top: at(0.0, Face::Upper), supports }
+    }
+
+    /// Returns for each particle whether it is in a platen.
+    pub fn in_platens(&self) -> Vec<bool> {
+        let Particles { places, spacing, .. } = self.particles;
+        let most = places.iter().fold(0.0_f64, |most, place| most.max(place[0].abs()));
+        places.iter().map(|[x, _]| x.abs() > most - END * spacing).collect()
+    }
+
     /// Particles nearest to a place x of a face on both sides, with parts of one that have their centre there.
     fn at(&self, x: f64, face: Face, wanted: impl Fn(f64) -> bool) -> Vec<(usize, f64)> {
         let layer = FACE * self.particles.spacing;
@@ -135,7 +157,7 @@ impl Faces<'_> {
     }
 
     /// Horizontal distance of the sides of a notch at the lower face, which turn with their particles.
-    fn mouth(&self, notch: Notch, unknown: &[Option<usize>]) -> Option<Combination> {
+    pub fn mouth(&self, notch: Notch, unknown: &[Option<usize>]) -> Option<Combination> {
         let nearest = |side: f64| {
             let of_side = self.at(notch.at, Face::Lower, |x| (x - notch.at) * side > 0.0);
             of_side.first().map(|(i, _)| *i)

@@ -1,11 +1,20 @@
 //! Quasi-brittle bodies as a lattice of particles, joined by links that soften and break.
 
 mod arrangement;
+mod dynamics;
 mod equilibrium;
+mod fragments;
 mod frame;
+mod frequency;
+mod held;
 mod link;
+mod member;
+mod motion;
+#[cfg(test)]
+mod motion_tests;
 mod order;
 mod problem;
+mod settling;
 mod state;
 mod stiffness;
 mod tangent;
@@ -14,10 +23,12 @@ mod voronoi;
 mod tests;
 
 pub use arrangement::{Arrangement, Notch, Pair, Particles, Strip};
+pub use dynamics::{Inertia, MovingLattice};
 pub use frame::Support;
 pub use link::{Link, Sheet};
+pub use motion::{LatticeMotion, MotionTotals};
 pub use problem::{Control, Lattice, LatticePlan};
-pub use state::{LatticeState, LatticeTotals};
+pub use state::{Broken, LatticeState, LatticeTotals};
 
 use crate::math::cholesky::SolverError;
 use crate::runtime::allowance::Halt;
@@ -34,6 +45,21 @@ pub enum LatticeError {
          communication steps, a smaller `spacing`, or `control = \"opening\"`)"
     )]
     NoEquilibrium { relaxations: usize },
+    #[error(
+        "links break suddenly, and after {steps} time steps the strip still moves (allowed: shorter communication \
+         steps, a smaller `spacing`, or `inertia = true`)"
+    )]
+    NotSettled { steps: usize },
+    #[error(
+        "the load moves at {speed:.2e} m/s, faster than waves in the strip (allowed: up to {most:.2e} m/s, by smaller \
+         changes of the input or longer communication steps)"
+    )]
+    TooFast { speed: f64, most: f64 },
+    #[error(
+        "{missing:.1e} J of the energy have no cause: links are crushed in less than a time step (allowed: slower \
+         changes of the input, or a stronger material)"
+    )]
+    Unbalanced { missing: f64 },
     #[error(transparent)]
     Halted(#[from] Halt),
     #[error(transparent)]

@@ -1,12 +1,16 @@
 //! A strip whose load moves, or whose notch opens, along a path.
 
-use super::arrangement::{Arrangement, Particles, Strip, distance};
+use std::f64::consts::PI;
+
+use super::arrangement::{Arrangement, Cell, Particles, Strip, distance};
 use super::equilibrium::{Balanced, Equilibrium, Trial, WORK, product};
-use super::frame::{Frame, Support};
+use super::frame::{COMPONENTS, Frame, Support};
+use super::frequency::highest_frequency;
 use super::link::{Link, Sheet};
 use super::order::dissect;
+use super::settling::Masses;
 use super::stiffness::Pattern;
-use super::{LatticeError, LatticeState, LatticeTotals};
+use super::{Broken, LatticeError, LatticeState, LatticeTotals};
 use crate::laws::fracture::SofteningLaw;
 use crate::runtime::allowance::Allowance;
 
@@ -45,9 +49,13 @@ pub struct Lattice {
     longest: f64,
 }
 
+/// Name of the steps of what is prescribed in messages.
+const STEPS: &str = "steps of equilibrium";
 /// Least flexural stiffness over the axial one and the length squared: at ν = 1/3 links do not bend, and nothing else
 /// would hold the rotation of particles.
 const SPIN: f64 = 1e-9;
+/// Part of the longest stable time step that sudden breaks take.
+const STABLE: f64 = 0.8;
 /// Distance from supports and loads within which links stay intact, over the spacing.
 const PROTECTED: f64 = 2.0;
 /// Longest step over the opening of a link at the knee of its law, and shortest step over the longest.
@@ -92,10 +100,14 @@ impl Lattice {
             Control::Opening => frame.mouth.clone(),
         };
         let control = control.ok_or(LatticeError::NoMouth)?;
-        let links = links(&plan, &particles, &frame);
+        let links = links(&plan, &particles, &frame.loaded);
         let pattern = Pattern::new(frame, &links, &dissect(&particles), threads)?;
         let (bending, closes, longest) = (plan.bending, plan.closes, plan.longest_step());
-        let equilibrium = Equilibrium { links, pattern, bending, closes, control };
+        let masses = masses(&plan, &particles, &links, &pattern.frame);
+        let forces = links.iter().map(|link| link.axial * link.softening.onset * link.length);
+        let strength = forces.fold(0.0, f64::max);
+        let equilibrium =
+            Equilibrium { links, pattern, bending, closes, control, masses, strength };
         Ok(Self { plan, particles, equilibrium, longest })
     }
 
@@ -137,6 +149,7 @@ impl Lattice {
     ) -> Result<(), LatticeError> {
         let from = state.prescribed;
         let total = (target - from).abs();
+        allowance.foresee(total / self.longest, STEPS, WORK * self.unknowns())?;
         let (mut done, mut step) = (0.0, self.longest);
         while done < total {
             let rest = total - done;
@@ -187,9 +200,13 @@ impl Lattice {
     ) -> Result<(), LatticeError> {
         let stored = self.elastic_energy(state);
         let start = state.balanced();
-        let (balanced, dissipated) =
-            self.equilibrium.relax(&start, &mut state.damage, wanted, allowance)?;
-        let work = self.work(state, &balanced);
+        let damage = &mut state.damage;
+        let (balanced, dissipated) = match self.plan.control {
+            Control::Displacement => self.equilibrium.settle(&start, damage, wanted, allowance)?,
+            Control::Opening => self.equilibrium.relax(&start, damage, wanted, allowance)?,
+        };
+        // The load moves before links break: it falls by what they release.
+        let work = self.work(state, &balanced).max(state.force * self.moved(state, &balanced));
         state.work += work;
         state.dissipated += dissipated;
         state.displacement = balanced.displacement;
@@ -200,9 +217,13 @@ impl Lattice {
 
     /// Work of the mean load from a state to the next equilibrium [J].
     fn work(&self, state: &LatticeState, next: &Balanced) -> f64 {
+        0.5 * (state.force + next.force) * self.moved(state, next)
+    }
+
+    /// Motion of the load from a state to the next equilibrium [m].
+    fn moved(&self, state: &LatticeState, next: &Balanced) -> f64 {
         let load = &self.frame().load;
-        let moved = product(load, &next.displacement) - product(load, &state.displacement);
-        0.5 * (state.force + next.force) * moved
+        product(load, &next.displacement) - product(load, &state.displacement)
     }
 
     /// Elastic energy [J].
@@ -213,16 +234,11 @@ impl Lattice {
 
     pub fn totals(&self, state: &LatticeState) -> LatticeTotals {
         let value = |of| product(of, &state.displacement);
-        let damage = state.damage.iter().zip(&self.particles.pairs);
-        let broken = damage.filter(|(damage, _)| **damage >= 1.0).map(|(_, pair)| pair.facet);
         LatticeTotals {
             displacement: value(&self.frame().load),
             opening: self.frame().mouth.as_ref().map(value),
             elastic_energy: self.elastic_energy(state),
-            max_damage: state.damage.iter().copied().fold(0.0, f64::max),
-            broken_links: broken.clone().count(),
-            // From zero: a sum of nothing is negative zero.
-            crack_length: broken.fold(0.0, |sum, facet| sum + facet),
+            broken: Broken::of(&self.particles, &state.damage),
         }
     }
 
@@ -233,37 +249,20 @@ impl Lattice {
         self.frame().unknown.chunks_exact(3).map(of_particle).collect()
     }
 
-    /// Largest damage of the links of each particle, and the pressure in it [Pa]: a third of the trace of the stress
-    /// that follows from the forces of its links.
+    /// Largest damage of the links of each particle, and the pressure in it [Pa].
     pub fn at_particles(&self, state: &LatticeState) -> Vec<(f64, f64)> {
-        let area = self.particles.area;
-        let mut at = vec![(0.0_f64, 0.0); self.particles.places.len()];
         let deformation = self.equilibrium.deformations(&state.displacement);
-        for ((link, q), &damage) in self.links().iter().zip(&deformation).zip(&state.damage) {
+        let links = self.links().iter().zip(&deformation).zip(&state.damage);
+        let normals = links.map(|((link, q), &damage)| {
             let [normal, ..] = self.equilibrium.conjugate(link, q, damage);
-            let share = normal * link.length / (2.0 * area * self.plan.sheet.thickness);
-            for end in link.ends {
-                at[end].0 = at[end].0.max(damage);
-                at[end].1 -= share / 3.0;
-            }
-        }
-        at
+            normal
+        });
+        at_particles(&self.plan, &self.particles, (self.links(), &state.damage), normals)
     }
 
     /// Refuses a state that is not in equilibrium with what is prescribed, or whose damage no stretch explains.
     pub fn check(&self, state: &LatticeState) -> Result<(), String> {
-        let outside = state.damage.iter().find(|damage| !(0.0..=1.0).contains(*damage));
-        if let Some(damage) = outside {
-            return Err(format!("damage of {damage:e}, which is between 0 and 1"));
-        }
-        let damaged = self
-            .links()
-            .iter()
-            .zip(&state.damage)
-            .find(|(link, damage)| !link.breaks && **damage > 0.0);
-        if damaged.is_some() {
-            return Err("damage of a link that stays intact".to_owned());
-        }
+        check_damage(self.links(), &state.damage)?;
         self.equilibrium.check(&state.balanced(), &state.damage, state.prescribed)?;
         let energies = [state.work, state.dissipated + state.released, self.elastic_energy(state)];
         let missing = energies[0] - energies[1] - energies[2];
@@ -283,11 +282,61 @@ fn grows_slowly(state: &LatticeState, trial: &Trial) -> bool {
     trial.damage.iter().zip(&state.damage).all(|(new, old)| new - old <= GROWTH)
 }
 
+/// Mass of each unknown for a density of one, which is that of all components that follow it, a stable time step, and
+/// half the critical damping of the slowest wave along the strip.
+fn masses(plan: &LatticePlan, particles: &Particles, links: &[Link], frame: &Frame) -> Masses {
+    let thickness = plan.sheet.thickness;
+    let mut of_unknowns = vec![0.0; frame.unknowns];
+    for (cell, unknown) in particles.cells.iter().zip(frame.unknown.chunks_exact(COMPONENTS)) {
+        for (at, of_cell) in unknown.iter().zip([cell.area, cell.area, cell.moment]) {
+            if let Some(at) = *at {
+                of_unknowns[at] += thickness * of_cell;
+            }
+        }
+    }
+    let inverse = |cell: &Cell| [cell.area, cell.moment].map(|of_cell| 1.0 / (thickness * of_cell));
+    let inverse: Vec<_> = particles.cells.iter().map(inverse).collect();
+    let time_step = STABLE * 2.0 / highest_frequency(links, &inverse);
+    let swing = PI * plan.sheet.young.sqrt() / plan.strip.length;
+    Masses { of_unknowns, time_step, fading: (-swing * time_step).exp() }
+}
+
+/// Refuses damage beyond its range, and that of links that stay intact.
+pub(super) fn check_damage(links: &[Link], damage: &[f64]) -> Result<(), String> {
+    if let Some(damage) = damage.iter().find(|damage| !(0.0..=1.0).contains(*damage)) {
+        return Err(format!("damage of {damage:e}, which is between 0 and 1"));
+    }
+    match links.iter().zip(damage).any(|(link, damage)| !link.breaks && *damage > 0.0) {
+        true => Err("damage of a link that stays intact".to_owned()),
+        false => Ok(()),
+    }
+}
+
+/// Largest damage of the links of each particle, and the pressure in it [Pa]: a third of the trace of the stress that
+/// follows from the normal forces of its links [N].
+pub(super) fn at_particles(
+    plan: &LatticePlan,
+    particles: &Particles,
+    (links, damage): (&[Link], &[f64]),
+    normals: impl Iterator<Item = f64>,
+) -> Vec<(f64, f64)> {
+    let volume = particles.area * plan.sheet.thickness;
+    let mut at = vec![(0.0_f64, 0.0); particles.places.len()];
+    for ((link, &damage), normal) in links.iter().zip(damage).zip(normals) {
+        let share = normal * link.length / (2.0 * volume);
+        for end in link.ends {
+            at[end].0 = at[end].0.max(damage);
+            at[end].1 -= share / 3.0;
+        }
+    }
+    at
+}
+
 /// The links of all pairs; those near supports and loads stay intact.
-fn links(plan: &LatticePlan, particles: &Particles, frame: &Frame) -> Vec<Link> {
+pub(super) fn links(plan: &LatticePlan, particles: &Particles, loaded: &[usize]) -> Vec<Link> {
     let places = &particles.places;
     let reach = PROTECTED * particles.spacing;
-    let is_far = |i: usize| frame.loaded.iter().all(|&j| distance(places[i], places[j]) > reach);
+    let is_far = |i: usize| loaded.iter().all(|&j| distance(places[i], places[j]) > reach);
     let far: Vec<bool> = (0..places.len()).map(is_far).collect();
     let sheet = match plan.strip.arrangement {
         Arrangement::Random { .. } => plan.sheet.of_random_links(),

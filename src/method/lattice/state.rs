@@ -2,6 +2,7 @@
 
 use std::slice::from_mut;
 
+use super::Particles;
 use super::equilibrium::Balanced;
 use crate::state::{Field, Fields, Per};
 
@@ -31,12 +32,31 @@ pub struct LatticeTotals {
     pub opening: Option<f64>,
     /// [J]
     pub elastic_energy: f64,
+    pub broken: Broken,
+}
+
+/// Extent of the damage of a lattice.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Broken {
     /// [1]
     pub max_damage: f64,
     /// Number of links without force.
-    pub broken_links: usize,
-    /// Length of the facets of broken links [m].
-    pub crack_length: f64,
+    pub links: usize,
+    /// Length of their facets [m].
+    pub length: f64,
+}
+
+impl Broken {
+    pub fn of(particles: &Particles, damage: &[f64]) -> Self {
+        let damaged = damage.iter().zip(&particles.pairs);
+        let broken = damaged.filter(|(damage, _)| **damage >= 1.0).map(|(_, pair)| pair.facet);
+        Self {
+            max_damage: damage.iter().copied().fold(0.0, f64::max),
+            links: broken.clone().count(),
+            // From zero: a sum of nothing is negative zero.
+            length: broken.fold(0.0, |sum, facet| sum + facet),
+        }
+    }
 }
 
 impl LatticeState {

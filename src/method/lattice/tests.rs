@@ -162,7 +162,10 @@ fn single_link_follows_its_law() {
     };
     let pattern = Pattern::new(frame, &[link], &[0, 1], 1).unwrap();
     let control = vec![(0, 0.6), (1, 0.8)];
-    let own = Equilibrium { links: vec![link], pattern, bending: 0.1, closes: true, control };
+    let masses = super::settling::Masses { of_unknowns: vec![1.0; 3], time_step: 1.0, fading: 1.0 };
+    let links = vec![link];
+    let own =
+        Equilibrium { links, pattern, bending: 0.1, closes: true, control, masses, strength: 0.0 };
     let onset = softening.onset * link.length;
     let (knee, end) = (softening.knee * onset, softening.end * onset);
     let path = [

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::arrangement::{Pair, distance};
+use super::arrangement::{Cell, Pair, distance};
 
 /// Least distance of random points over the spacing: they are then about as dense as hexagons.
 const APART: f64 = 0.76;
@@ -53,10 +53,15 @@ pub fn random_points(rectangle: Rectangle, spacing: f64, seed: u32) -> Vec<[f64;
     points
 }
 
-/// Pairs of points whose cells share a facet, with its width [m].
-pub fn facets(points: &[[f64; 2]], rectangle: Rectangle, spacing: f64) -> Vec<Pair> {
+/// Pairs of points whose cells share a facet, with its width [m], and the cells.
+pub fn tessellate(
+    points: &[[f64; 2]],
+    rectangle: Rectangle,
+    spacing: f64,
+) -> (Vec<Pair>, Vec<Cell>) {
     let mut pairs = Vec::new();
-    for (i, cell) in cells(points, rectangle, spacing).iter().enumerate() {
+    let corners = cells(points, rectangle, spacing);
+    for (i, cell) in corners.iter().enumerate() {
         let mut own: Vec<Pair> = Vec::new();
         for (k, (corner, beyond)) in cell.iter().enumerate() {
             let next = cell[(k + 1) % cell.len()].0;
@@ -68,7 +73,22 @@ pub fn facets(points: &[[f64; 2]], rectangle: Rectangle, spacing: f64) -> Vec<Pa
         own.sort_by_key(|pair| pair.ends);
         pairs.extend(own);
     }
-    pairs
+    let measured = points.iter().zip(&corners).map(|(point, cell)| measure(*point, cell));
+    (pairs, measured.collect())
+}
+
+/// Area of a cell and its polar second moment about a point, of the triangles between that point and the edges.
+fn measure(point: [f64; 2], cell: &[Corner]) -> Cell {
+    let (mut area, mut moment) = (0.0, 0.0);
+    for (k, (corner, _)) in cell.iter().enumerate() {
+        let next = cell[(k + 1) % cell.len()].0;
+        let [a, b] = [corner, &next].map(|end| [end[0] - point[0], end[1] - point[1]]);
+        let twice = a[0] * b[1] - a[1] * b[0];
+        let product = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
+        area += 0.5 * twice;
+        moment += twice * (product(a, a) + product(a, b) + product(b, b)) / 12.0;
+    }
+    Cell { area, moment }
 }
 
 /// The cell of each point: the rectangle, cut by the bisectors with the points around.

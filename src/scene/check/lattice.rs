@@ -2,7 +2,7 @@
 
 use super::{Checker, fits, number};
 use crate::laws::fracture::{SofteningKeys, SofteningModel};
-use crate::scene::lattice::{Lattice, LatticeControl, LatticeSupport};
+use crate::scene::lattice::{Lattice, LatticeControl, LatticeNotch, LatticeSupport};
 use crate::scene::locate::Path;
 
 /// Most particles of a lattice.
@@ -24,7 +24,19 @@ pub fn check(checker: &mut Checker) {
         let needs = lattice.control == LatticeControl::Opening && lattice.notch.is_none();
         let message = "without a notch there is no opening to prescribe";
         checker.require(!needs, &path.key("control"), message, "\"displacement\", or a `notch`");
+        inertia(checker, &path, lattice);
     }
+}
+
+/// A load that moves is no opening that follows, and damping is that of motion.
+fn inertia(checker: &mut Checker, path: &Path, lattice: &Lattice) {
+    let follows = lattice.inertia && lattice.control == LatticeControl::Opening;
+    let message = "of a strip with inertia the load moves, and the opening follows";
+    let allowed = "\"displacement\", or `inertia = false`";
+    checker.require(!follows, &path.key("control"), message, allowed);
+    let rests = lattice.damping > 0.0 && !lattice.inertia;
+    let message = "a strip without inertia has no speed to damp";
+    checker.require(!rests, &path.key("damping"), message, "0, or `inertia = true`");
 }
 
 /// Requires the keys of the chosen model, and refuses those of the other.
@@ -87,9 +99,27 @@ fn notch(checker: &mut Checker, path: &Path, lattice: &Lattice) {
     let allowed = format!(">= {}, or a smaller `spacing`", number(lattice.spacing));
     checker.require(fits(lattice.spacing, notch.depth), &path.key("depth"), message, allowed);
     let reach = 0.5 * lattice.length - 2.0 * lattice.spacing - 0.5 * notch.width;
-    let message = "the notch reaches beyond the strip";
-    let allowed = format!("between {} and {}", number(-reach), number(reach));
-    checker.require(fits(notch.at.abs(), reach), &path.key("at"), message, allowed);
+    place(checker, &path, (notch, reach), "the notch reaches beyond the strip", "length");
+}
+
+/// Requires a notch near enough to the middle [m], or refuses its width where there is room for none.
+fn place(
+    checker: &mut Checker,
+    path: &Path,
+    (notch, reach): (LatticeNotch, f64),
+    message: &str,
+    longer: &str,
+) {
+    if reach >= 0.0 {
+        let allowed = format!("between {} and {}", number(-reach), number(reach));
+        checker.require(fits(notch.at.abs(), reach), &path.key("at"), message, allowed);
+        return;
+    }
+    let most = notch.width + 2.0 * reach;
+    let narrower = if most < 0.0 { String::new() } else { format!("up to {}, or ", number(most)) };
+    let message = "there is no room for the notch with links at both sides";
+    let allowed = format!("{narrower}more `{longer}`, or a smaller `spacing`");
+    checker.refuse(&path.key("width"), message, allowed);
 }
 
 fn support(checker: &mut Checker, path: &Path, lattice: &Lattice) {
@@ -105,8 +135,6 @@ fn support(checker: &mut Checker, path: &Path, lattice: &Lattice) {
     let notch = lattice.notch.filter(|_| checker.is_fine(&body.key("notch")));
     if let Some(notch) = notch {
         let reach = 0.5 * own.span - 0.5 * notch.width - 3.0 * lattice.spacing;
-        let message = "the notch is at a support";
-        let allowed = format!("between {} and {}", number(-reach), number(reach));
-        checker.require(fits(notch.at.abs(), reach), &body.at("notch.at"), message, allowed);
+        place(checker, &body.key("notch"), (notch, reach), "the notch is at a support", "span");
     }
 }

@@ -56,7 +56,7 @@ pub fn expand(source: &mut Source) -> Vec<(Path, Problem)> {
     let materials = Path::default().key("material");
     for name in keys(source, &materials) {
         let free = user_of(source, &name).and_then(|body| without_stress(source, &body));
-        expand_table(source, &materials.key(&name), Kind::Solid, free, &mut problems);
+        expand_table(source, &materials.key(&name), Kind::Solid, [None, free], &mut problems);
     }
     let bodies = Path::default().key("body");
     for name in keys(source, &bodies) {
@@ -64,13 +64,16 @@ pub fn expand(source: &mut Source) -> Vec<(Path, Problem)> {
         let free = without_stress(source, &body);
         for place in materials_of(source, &body) {
             name_material(source, &place);
-            expand_table(source, &place, Kind::Solid, free, &mut problems);
+            match text(source, &body.key("kind")).as_deref() {
+                Some("lattice") => expand_links(source, &body, &mut problems),
+                _ => expand_table(source, &place, Kind::Solid, [None, free], &mut problems),
+            }
         }
         let start = number(source, &body.key("initial_temperature"))
             .or_else(|| number(source, &body.key("nozzle").key("temperature")));
         let fluid = body.key("fluid");
         let own = source.value(&fluid.key("melting")).is_some();
-        expand_table(source, &fluid, Kind::Fluid, start, &mut problems);
+        expand_table(source, &fluid, Kind::Fluid, [start, None], &mut problems);
         let is_repeated = text(source, &body.key("method"))
             .is_some_and(|method| method != "sph" && method != "line");
         let insulates = number(source, &fluid.key("conductivity")) == Some(0.0);
@@ -161,13 +164,31 @@ fn identifier(name: &str) -> String {
     if name.starts_with(|c: char| c.is_ascii_digit()) { format!("_{name}") } else { name }
 }
 
-/// Replaces a fluid's name, or a table with the key `substance`, by all constants; `body` is the temperature of a fluid at
-/// time zero, and that of a solid without stress [K].
+/// Leaves a lattice those constants of a substance that links have, at its own temperature.
+fn expand_links(source: &mut Source, body: &Path, problems: &mut Vec<(Path, Problem)>) {
+    const OF_LINKS: [&str; 3] = ["density", "young", "poisson"];
+    const ROOM: f64 = 293.15;
+    let place = body.key("material");
+    let own = keys(source, &place);
+    let at = number(source, &body.key("initial_temperature")).unwrap_or(ROOM);
+    expand_table(source, &place, Kind::Solid, [Some(at), None], problems);
+    if let Some(DeValue::Table(mut table)) = source.value(&place).cloned() {
+        for key in keys(source, &place) {
+            if !OF_LINKS.contains(&key.as_str()) && !own.contains(&key) {
+                table.remove(key.as_str());
+            }
+        }
+        source.replace(&place, DeValue::Table(table));
+    }
+}
+
+/// Replaces a fluid's name, or a table with the key `substance`, by all constants. `start` is the temperature at which they
+/// are taken where the table has none, and `free` that of a solid without stress [K].
 fn expand_table(
     source: &mut Source,
     place: &Path,
     kind: Kind,
-    body: Option<f64>,
+    [start, free]: [Option<f64>; 2],
     problems: &mut Vec<(Path, Problem)>,
 ) {
     let (named, own) = match source.value(place) {
@@ -200,7 +221,6 @@ fn expand_table(
     } else {
         None
     };
-    let (start, free) = if kind == Kind::Fluid { (body, None) } else { (None, body) };
     let at = given.or(start);
     let mut known: DeTable<'static> = constants(substance, &span);
     if kind == Kind::Solid {
