@@ -100,6 +100,10 @@ pub struct Droplet {
         "condition" = "`explicit` with a constant viscosity"
     ))]
     pub viscous: ViscousAdvance,
+    /// Advance of pressure in time.
+    #[serde(default)]
+    #[schemars(extend("condition" = "`implicit` without `melting` of the fluid and without `viscous = \"explicit\"`"))]
+    pub pressure: PressureAdvance,
     /// δ of the density diffusion [1].
     #[serde(default = "default_density_diffusion")]
     #[schemars(transform = within(0.0, 1.0, "1", "").says("the density diffusion is out of bounds", "0 to 1"))]
@@ -166,6 +170,18 @@ pub enum ViscousAdvance {
     /// With other forces, in steps short enough for it.
     Explicit,
     /// Solved at the end of each step: thick fluids take fewer, longer steps.
+    Implicit,
+}
+
+/// Advance of pressure in time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum PressureAdvance {
+    /// In steps that resolve the sound of the model.
+    #[default]
+    Explicit,
+    /// Solved with viscosity at the end of each step, whose length sound does not limit: for fluid that is thick, slow or
+    /// at rest.
     Implicit,
 }
 

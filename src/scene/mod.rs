@@ -53,7 +53,7 @@ pub use constants::{
 pub use contact::FirstContact;
 pub use droplet::{
     Arrival, Coupling, Droplet, DropletMethod, DropletSymmetry, Governing, Placement, Precision,
-    ReleaseBy, ViscousAdvance, Wall, WallStart, velocity,
+    PressureAdvance, ReleaseBy, ViscousAdvance, Wall, WallStart, velocity,
 };
 pub use error::{Problem, SceneError};
 pub use filament::{

@@ -64,6 +64,25 @@ fn a_column_at_rest_stays_so_and_its_wall_carries_it() {
     assert!((flow.totals().height - (1.0 - 0.5 / 16.0)).abs() < 0.01);
 }
 
+#[test]
+fn pressure_that_is_solved_holds_a_column_at_rest_in_few_steps() {
+    let mut flow = Column::start_with(16, 1e-3, Viscous::WithPressure { rate: 1.0 });
+    flow.advance(4.0 * Column::time());
+    flow.advance(4.0 * Column::time());
+    let pressure = flow.norm(|p, i| [p.pressure[i]], |at| [Column::pressure(at)]);
+    let (force, motion) = (Column::force(&flow) - 1.0, Column::motion(&flow));
+    let totals = flow.totals();
+    let iterations = totals.iterations / totals.steps;
+    println!(
+        "relative errors: weight {force:.1e}, pressure {pressure:.1e}; motion {motion:.1e}; {} steps of {iterations:.1} \
+         iterations",
+        totals.steps
+    );
+    assert!(force.abs() < 5e-3 && pressure < 0.01 && motion < 1e-4);
+    // Sound would take twenty times as many.
+    assert!(totals.steps < 200.0 && iterations < 15.0);
+}
+
 /// Through a period and back in at its other side, again and again.
 #[test]
 fn a_uniform_motion_goes_on_through_periods() {

@@ -94,7 +94,7 @@ fn viscosity_follows_the_temperature_of_particles() {
 }
 
 /// A ball of fluid as thick as honey, or a thousand times thicker, in free space.
-fn ball(viscosity: f64) -> (DropletSph, ParticleFields) {
+fn ball(viscosity: f64, viscous: Viscous) -> (DropletSph, ParticleFields) {
     let spacing = 1e-3;
     let fluid = Fluid {
         density: 1000.0,
@@ -114,7 +114,7 @@ fn ball(viscosity: f64) -> (DropletSph, ParticleFields) {
         fluid,
         placement: Placement::Lattice,
         precision: Precision::Double,
-        viscous: IMPLICIT,
+        viscous,
         density_diffusion: 0.1,
         corrected_diffusion: true,
         shifting: false,
@@ -150,7 +150,13 @@ fn spin(particles: &ParticleFields) -> f64 {
 
 #[test]
 fn thick_fluid_spins_as_a_rigid_body() {
-    let (drop, particles) = ball(1e3);
+    for viscous in [IMPLICIT, Viscous::WithPressure { rate: 1.0 }] {
+        spins_as_a_rigid_body(viscous);
+    }
+}
+
+fn spins_as_a_rigid_body(viscous: Viscous) {
+    let (drop, particles) = ball(1e3, viscous);
     let mut state = drop.state_of(&particles);
     let energy = drop.totals(&state).kinetic_energy;
     // An eighth of a turn, through many viscous times.

@@ -4,7 +4,7 @@ use super::plan::{fine_radius, plan_of};
 use super::watch;
 use crate::advice::{HeatError, Resolution};
 use crate::method::sph::Viscous;
-use crate::scene::{Droplet, Governing, Scene, ViscousAdvance, Wall};
+use crate::scene::{Droplet, Governing, PressureAdvance, Scene, ViscousAdvance, Wall};
 
 /// Returns notes on choices and simplifications, with reasons: one sentence each.
 pub fn notes(scene: &Scene, name: &str, droplet: &Droplet) -> Vec<String> {
@@ -76,6 +76,12 @@ pub fn notes_on_walls(scene: &Scene) -> Vec<String> {
 
 /// Notes how viscosity is advanced where it is not in the usual way.
 fn note_on_viscosity(droplet: &Droplet) -> Option<String> {
+    if droplet.pressure == PressureAdvance::Implicit {
+        let note = "pressure and viscosity are solved at the end of every time step, which sound does not limit: faster \
+                    where fluid is thick, slow or at rest, slower in impacts of thin fluids. Sound is damped, so that \
+                    the first blow is blunt";
+        return Some(note.to_owned());
+    }
     let Viscous::Implicit { .. } = plan_of(droplet, None, None).viscous else { return None };
     let reason = match droplet.fluid.viscosity.constant() {
         None => "its viscosity depends on the temperature or on the shear rate",

@@ -3,7 +3,7 @@
 use crate::method::fem::Refinement;
 use crate::method::sph::{self, Demand, DropletPlan, Extent, Release, Viscous};
 use crate::port::WallCells;
-use crate::scene::{Arrival, Coupling, Droplet, Footprint, ViscousAdvance};
+use crate::scene::{Arrival, Coupling, Droplet, Footprint, PressureAdvance, ViscousAdvance};
 
 /// Returns the plan of a droplet, above the cells of a wall or in free space.
 pub fn plan_of(
@@ -14,7 +14,7 @@ pub fn plan_of(
     let fluid = &droplet.fluid;
     let release = |arrival: &Arrival| release_at(droplet, arrival);
     let expected = release(&Arrival::default());
-    let implicit = Viscous::Implicit { rate: droplet.fastest_flow() / droplet.diameter };
+    let rate = droplet.fastest_flow() / droplet.diameter;
     let plan = DropletPlan {
         dimension: droplet.dimension,
         axisymmetric: droplet.is_axisymmetric(),
@@ -32,9 +32,10 @@ pub fn plan_of(
         },
         placement: droplet.placement,
         precision: droplet.precision,
-        viscous: match droplet.viscous {
-            ViscousAdvance::Explicit => Viscous::Explicit,
-            ViscousAdvance::Auto | ViscousAdvance::Implicit => implicit,
+        viscous: match (droplet.pressure, droplet.viscous) {
+            (PressureAdvance::Implicit, _) => Viscous::WithPressure { rate },
+            (PressureAdvance::Explicit, ViscousAdvance::Explicit) => Viscous::Explicit,
+            (PressureAdvance::Explicit, _) => Viscous::Implicit { rate },
         },
         density_diffusion: droplet.density_diffusion,
         corrected_diffusion: droplet.corrected_diffusion,
@@ -52,6 +53,7 @@ pub fn plan_of(
         }),
     };
     match droplet.viscous {
+        _ if droplet.pressure == PressureAdvance::Implicit => plan,
         ViscousAdvance::Auto => plan.with_cheaper_viscosity(droplet.fastest_flow()),
         ViscousAdvance::Explicit | ViscousAdvance::Implicit => plan,
     }

@@ -5,7 +5,7 @@ use crate::body::{Descriptor, Direct};
 use crate::method::sph::DropletTotals;
 use crate::port::WallExchange;
 use crate::quantity::Quantity;
-use crate::scene::{Droplet, Scene};
+use crate::scene::{Droplet, PressureAdvance, Scene};
 
 /// A scalar of a whole droplet, and its reader.
 struct Total {
@@ -28,6 +28,8 @@ enum Offered {
     OnASolid,
     /// Those of a fluid with a yield stress.
     Yielding,
+    /// Those whose pressure is solved.
+    WithPressure,
     /// Those of a fluid that may freeze above a wall or a solid.
     Freezing,
 }
@@ -40,7 +42,7 @@ enum Read {
     Reader(fn(&mut DropletReader) -> f64),
 }
 
-const TOTALS: [Total; 37] = [
+const TOTALS: [Total; 38] = [
     of_all(
         "height",
         "height of the body of fluid above the wall, without strays",
@@ -183,6 +185,13 @@ const TOTALS: [Total; 37] = [
         Quantity::ShearRate,
         |totals| totals.creep,
     ),
+    Total {
+        key: "pressure_iterations",
+        words: "iterations of pressure and viscosity in a time step, mean since the start",
+        quantity: Quantity::Count,
+        of: Offered::WithPressure,
+        read: Read::Totals(|totals| totals.iterations / totals.steps.max(1.0)),
+    },
     freezing("solid_fraction", "frozen fraction of the mass", Quantity::Ratio, |totals| {
         totals.solid_fraction
     }),
@@ -272,12 +281,15 @@ pub fn offered_totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
     let yields =
         scene.droplet(name).is_some_and(|droplet| droplet.fluid.viscosity.yield_stress() > 0.0);
     let freezes = scene.possible_freezing_of(name).is_some();
+    let solves_pressure =
+        (scene.droplet(name)).is_some_and(|droplet| droplet.pressure == PressureAdvance::Implicit);
     let is_offered = |total: &Total| match total.of {
         Offered::All => true,
         Offered::AboveAWall => stands,
         Offered::OnDemand => on_demand,
         Offered::OnASolid => coupled,
         Offered::Yielding => yields,
+        Offered::WithPressure => solves_pressure,
         Offered::Freezing => freezes,
     };
     let totals = TOTALS.iter().enumerate().filter(|(_, total)| is_offered(total));

@@ -98,6 +98,7 @@ fn check_head(
         ("a volume", ledger.surrounded),
         ("a creep", ledger.creep.unwrap_or(0.0)),
         ("an arrest", ledger.arrest.unwrap_or(0.0)),
+        ("iterations", ledger.iterations.unwrap_or(0.0)),
     ];
     match numbers.into_iter().find(|&(_, number)| number < 0.0) {
         Some((what, number)) => Err(format!("{what} of {number}, which is below zero")),

@@ -96,6 +96,8 @@ pub struct Ledger {
     pub creep: Option<f64>,
     /// Time since which all fluid on the wall is frozen [s], 0 while some is not; `None` for fluids that stay liquid.
     pub arrest: Option<f64>,
+    /// Iterations of pressure and viscosity so far; `None` where pressure is not solved.
+    pub iterations: Option<f64>,
 }
 
 /// Dimensions of the part of a state that precedes its particles.
@@ -111,6 +113,8 @@ pub struct HeadNumbers {
     pub stressed: bool,
     /// True if the particles have heat contents.
     pub freezes: bool,
+    /// True if pressure is solved at the end of each step.
+    pub solves_pressure: bool,
 }
 
 /// Numbers that a thread copies as one piece of work.
@@ -191,6 +195,8 @@ impl Fields for Ledger {
         fields.extend(self.creep.iter_mut().map(|rate| (creep, from_mut(rate))));
         let arrest = body("arrest", "time since which all fluid on the wall is frozen [s]", 1);
         fields.extend(self.arrest.iter_mut().map(|time| (arrest, from_mut(time))));
+        let iterations = body("iterations", "iterations of pressure and viscosity so far", 1);
+        fields.extend(self.iterations.iter_mut().map(|count| (iterations, from_mut(count))));
         fields
     }
 }
@@ -236,6 +242,7 @@ impl Ledger {
             requests: head.most.map(Requests::none),
             creep: head.stressed.then_some(0.0),
             arrest: head.freezes.then_some(0.0),
+            iterations: head.solves_pressure.then_some(0.0),
             ..Self::default()
         }
     }
@@ -433,8 +440,14 @@ mod tests {
 
     #[test]
     fn state_round_trip() {
-        let head =
-            HeadNumbers { cells: 3, exponentials: 2, most: Some(2), stressed: true, freezes: true };
+        let head = HeadNumbers {
+            cells: 3,
+            exponentials: 2,
+            most: Some(2),
+            stressed: true,
+            freezes: true,
+            solves_pressure: true,
+        };
         let mut cloud = Cloud::none(head);
         for i in 0..5 {
             let x = f64::from(i);
@@ -472,6 +485,7 @@ mod tests {
             }),
             creep: Some(0.5),
             arrest: Some(0.25),
+            iterations: Some(12.0),
             ..Ledger::default()
         };
         let team = Team::new(2);

@@ -54,7 +54,7 @@ pub struct Continuity<'a, const HEAT: bool, const MOMENTS: bool> {
 const FADE: [f64; 2] = [0.4, 0.6];
 
 /// Sums for one particle, their factors included; 0 where they are not computed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ContinuityRates {
     /// dr/dt.
     pub density: f64,

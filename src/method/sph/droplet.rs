@@ -327,6 +327,7 @@ impl DropletSph {
             most,
             stressed: !self.method.flow.is_newtonian(),
             freezes: self.method.phases.is_some(),
+            solves_pressure: self.method.solves_pressure,
         }
     }
 

@@ -29,6 +29,7 @@ mod kick;
 mod lanes;
 mod loops;
 mod lumps;
+mod means;
 mod method;
 mod moment;
 mod momentum;

@@ -62,6 +62,8 @@ pub enum Viscous {
     /// Solved at the end of each step; its stability sets no limit. Time steps follow from the viscosity at a shear
     /// rate [1/s].
     Implicit { rate: f64 },
+    /// The same together with pressure: sound sets no limit either.
+    WithPressure { rate: f64 },
 }
 
 /// Constants of a fluid as particles take them, with the speed of sound of the model.

@@ -249,21 +249,28 @@ impl<'a, 'p> Stepper<'a, 'p> {
             self.push_wall(&motion.pushed);
             return Ok(motion);
         }
+        let before = match self.method.solves_pressure {
+            true => self.cloud.velocity.clone(),
+            false => Vec::new(),
+        };
         let motion = self.kick(Times { dt, tension: impulse.map(|half| 2.0 * half) });
         self.push_wall(&motion.pushed);
-        self.apply_viscosity(dt)?;
+        self.apply_viscosity(dt, &before)?;
         Ok(self.kick(Times::NONE))
     }
 
-    /// Changes velocities by viscosity over a step.
-    fn apply_viscosity(&mut self, dt: f64) -> Result<(), Failure> {
-        let (method, team) = (self.method, self.team);
-        let step =
-            viscous::advance(method, self.cloud, &self.frozen, &self.neighbours.blocks, dt, team)
-                .map_err(|reason| Failure::Viscosity { reason, time: self.ledger.time })?;
+    /// Changes velocities by viscosity over a step, and by pressure where it is solved; the velocities `before` are then
+    /// a first guess of those after it.
+    fn apply_viscosity(&mut self, dt: f64, before: &[[f64; 3]]) -> Result<(), Failure> {
+        let (method, team, blocks) = (self.method, self.team, &self.neighbours.blocks);
+        let step = viscous::advance(method, self.cloud, &self.frozen, blocks, (dt, before), team)
+            .map_err(|reason| Failure::Viscosity { reason, time: self.ledger.time })?;
         team.for_each(&mut self.cloud.velocity, |i, velocity| {
             (0..3).for_each(|a| velocity[a] += step.changes[i][a]);
         });
+        if let Some(iterations) = &mut self.ledger.iterations {
+            *iterations += step.iterations as f64;
+        }
         if let Some(stress) = &mut self.cloud.stress {
             *stress = step.stresses;
             self.ledger.creep = Some(step.creep);
@@ -392,6 +399,10 @@ impl<'a, 'p> Stepper<'a, 'p> {
     /// Computes accelerations for velocities extrapolated over some times with the accelerations of
     /// the step before.
     fn accelerate(&mut self, times: Times) {
+        if self.method.solves_pressure {
+            // Pressure and viscosity act in the next step.
+            return;
+        }
         let method = self.method;
         let cloud = &*self.cloud;
         let frozen = &self.frozen;

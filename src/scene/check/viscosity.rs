@@ -3,7 +3,7 @@
 use super::{Checker, material, number};
 use crate::laws::Viscosity;
 use crate::limits::Bounds;
-use crate::scene::droplet::{Droplet, DropletMethod, ViscousAdvance};
+use crate::scene::droplet::{Droplet, DropletMethod, PressureAdvance, ViscousAdvance};
 use crate::scene::locate::Path;
 
 /// Bounds of the reference viscosity of a law, those of a plain number [Pa s].
@@ -21,6 +21,9 @@ pub fn check(checker: &mut Checker, droplet_path: &Path, droplet: &Droplet) {
     if checker.is_fine(path) && viscosity.constant().is_none() {
         method(checker, path, droplet);
         explicit(checker, &droplet_path.key("viscous"), droplet);
+    }
+    if droplet.has_particles() && droplet.pressure == PressureAdvance::Implicit {
+        pressure(checker, droplet_path, droplet);
     }
 }
 
@@ -57,6 +60,23 @@ fn method(checker: &mut Checker, path: &Path, droplet: &Droplet) {
         _ => "a number, a law without `arrhenius`, or method = \"sph\"",
     };
     checker.refuse(path, message, allowed);
+}
+
+/// Refuses to solve pressure without viscosity, and of fluids that freeze.
+fn pressure(checker: &mut Checker, droplet_path: &Path, droplet: &Droplet) {
+    if droplet.viscous == ViscousAdvance::Explicit {
+        let message = "pressure is solved together with viscosity, which is explicit here";
+        checker.refuse(
+            &droplet_path.key("viscous"),
+            message,
+            "no `viscous`, \"auto\", \"implicit\"",
+        );
+    }
+    if droplet.fluid.melting.is_some() {
+        let message = "pressure is not solved for fluids that freeze";
+        let allowed = "\"explicit\", or no `melting` of the fluid";
+        checker.refuse(&droplet_path.key("pressure"), message, allowed);
+    }
 }
 
 /// Refuses explicit steps for viscosities that are not constant.

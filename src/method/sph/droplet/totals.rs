@@ -51,6 +51,8 @@ pub struct DropletTotals {
     /// fluids without a yield stress.
     pub yielded_mass: f64,
     pub creep: f64,
+    /// Iterations of pressure and viscosity so far; 0 where pressure is not solved.
+    pub iterations: f64,
     /// Frozen fraction of the mass, mass of frozen fluid [kg], latent heat that it has given off [J], and time since which all fluid on the wall is
     /// frozen [s], 0 while some is not; zero for fluids that stay liquid.
     pub solid_fraction: f64,
@@ -82,6 +84,7 @@ pub fn totals(
         impulse_of_gravity: ledger.impulse_of_gravity,
         heat_released: ledger.heat_released,
         steps: ledger.steps,
+        iterations: ledger.iterations.unwrap_or(0.0),
         particles: cloud.len() as f64,
         released: ledger.released,
         waiting: (ledger.requests.as_ref())

@@ -24,11 +24,11 @@ use super::super::cloud::Cloud;
 use super::super::frozen::Pieces;
 use super::super::method::Method;
 use super::super::neighbours::Block;
-use super::ViscousStep;
 use super::rate::length;
 use super::strain::Elongation;
 use super::system::{Moduli, System};
 use super::tensor::Products;
+use super::{ViscousStep, norm, residual};
 use crate::math::conjugate_gradients::{NotConverged, solve};
 use crate::runtime::parallel::Team;
 
@@ -60,12 +60,13 @@ pub fn advance(
     cloud: &Cloud,
     frozen: &Pieces,
     blocks: &[Block],
-    dt: f64,
+    (dt, before): (f64, &[[f64; 3]]),
     team: &Team,
 ) -> Result<ViscousStep, NotConverged> {
     let moduli = vec![Moduli::newtonian(method.viscosity); cloud.len()];
     let mut system = System::of(method, cloud, frozen, blocks, dt, moduli, team);
-    let mut velocity = cloud.velocity.as_flattened().to_vec();
+    let guess = if method.solves_pressure { before } else { &cloud.velocity[..] };
+    let mut velocity = guess.as_flattened().to_vec();
     let pairs = system.elongations(&velocity);
     let moduli = team.map(cloud.len(), |i| moduli_at(&system, &pairs, i));
     system.set_moduli(moduli);
@@ -87,7 +88,7 @@ pub fn advance(
         let load = residual(&system, &velocity, &forces);
         forces_left.follow(norm(&load, &cloud.mass));
         if turn.mismatch <= TOLERANCE && forces_left.is_small(ROUNDING * momentum) {
-            return Ok(turn.end(&system, &velocity));
+            return Ok(turn.end(&system, &velocity, iterations));
         }
         let (changes, spent) = solve(&system, &load, TURN, team)?;
         iterations += spent;
@@ -201,7 +202,7 @@ impl Turn {
         totals
     }
 
-    fn end(self, system: &System, velocity: &[f64]) -> ViscousStep {
+    fn end(self, system: &System, velocity: &[f64], iterations: usize) -> ViscousStep {
         let before = system.cloud.velocity.as_flattened();
         let changes: Vec<f64> = velocity.iter().zip(before).map(|(v, before)| v - before).collect();
         let stresses: Vec<Products> = (0..self.pairs.len())
@@ -218,23 +219,7 @@ impl Turn {
             by_wall,
             stresses: self.stresses,
             creep: self.creep,
+            iterations,
         }
     }
-}
-
-/// Residual of the step's equation of motion: `m (u* − u)` plus the impulses of forces, of those on frozen pieces what
-/// moves them.
-fn residual(system: &System, velocity: &[f64], forces: &[super::system::Forces]) -> Vec<f64> {
-    let before = system.cloud.velocity.as_flattened();
-    let mut load = system.load(forces);
-    for (n, load) in load.iter_mut().enumerate() {
-        *load += system.cloud.mass[n / 3] * (before[n] - velocity[n]);
-    }
-    system.reduce(&mut load);
-    load
-}
-
-/// `√(Σ r²/m)`.
-fn norm(load: &[f64], mass: &[f64]) -> f64 {
-    load.iter().enumerate().map(|(n, load)| load * load / mass[n / 3]).sum::<f64>().sqrt()
 }

@@ -33,6 +33,7 @@ mod curves;
 mod fit;
 mod flow;
 mod moments;
+mod pressure;
 mod rate;
 mod strain;
 mod stress;
@@ -53,6 +54,10 @@ use tensor::Products;
 
 /// Residual of a linear step over the change of velocities by viscosity.
 const TOLERANCE: f64 = 1e-4;
+/// Residual of a step with pressure over the impulses that drive it.
+const DRIVEN: f64 = 3e-3;
+/// The same over momenta: what moves on without a change needs no better solution.
+const CARRIED: f64 = 3e-5;
 
 /// Viscous changes of all particles over a step.
 pub struct ViscousStep {
@@ -64,19 +69,22 @@ pub struct ViscousStep {
     pub stresses: Vec<Products>,
     /// Largest shear rate of fluid that does not yield, over c₀/H.
     pub creep: f64,
+    /// Products with matrices of the step.
+    pub iterations: usize,
 }
 
-/// Computes the changes of velocity by viscosity over a time step, over H/c₀.
+/// Computes the changes of velocity by viscosity over a time step, over H/c₀. With pressure, the velocities before the
+/// step are a first guess of those after it.
 pub fn advance(
     method: &Method,
     cloud: &Cloud,
     frozen: &Pieces,
     blocks: &[Block],
-    dt: f64,
+    (dt, before): (f64, &[[f64; 3]]),
     team: &Team,
 ) -> Result<ViscousStep, NotConverged> {
     if !method.flow.is_newtonian() {
-        return flow::advance(method, cloud, frozen, blocks, dt, team);
+        return flow::advance(method, cloud, frozen, blocks, (dt, before), team);
     }
     let moduli = team.map(cloud.len(), |i| {
         let viscosity = method.flow.newtonian(cloud.temperature[i]);
@@ -84,17 +92,63 @@ pub fn advance(
         Moduli { volume: viscosity.max(method.viscosity), ..Moduli::newtonian(viscosity) }
     });
     let system = System::of(method, cloud, frozen, blocks, dt, moduli, team);
+    if method.solves_pressure {
+        return with_pressure(&system, before.as_flattened(), team);
+    }
     let velocity = cloud.velocity.as_flattened();
     let pairs = system.elongations(velocity);
     let forces = system.forces(&pairs, &system.forms(&pairs));
     let mut load = system.load(&forces);
     system.reduce(&mut load);
-    let (changes, _) = solve(&system, &load, TOLERANCE, team)?;
+    let (changes, iterations) = solve(&system, &load, TOLERANCE, team)?;
     let after: Vec<f64> = velocity.iter().zip(&changes).map(|(v, change)| v + change).collect();
     let pairs = system.elongations(&after);
     let by_wall = system.by_wall(&system.forces(&pairs, &system.forms(&pairs)), &changes);
     let changes = changes.as_chunks().0.to_vec();
-    Ok(ViscousStep { changes, by_wall, stresses: Vec::new(), creep: 0.0 })
+    Ok(ViscousStep { changes, by_wall, stresses: Vec::new(), creep: 0.0, iterations })
+}
+
+/// Computes the changes of velocity by viscosity and pressure from a guess of the velocities at the end, which at rest
+/// is the solution.
+fn with_pressure(system: &System, guess: &[f64], team: &Team) -> Result<ViscousStep, NotConverged> {
+    let mass = &system.cloud.mass;
+    let driven = system.cloud.velocity.as_flattened();
+    let pairs = system.elongations(guess);
+    let load = residual(system, guess, &system.forces(&pairs, &system.forms(&pairs)));
+    let size = norm(&load, mass);
+    let impulses = (0..driven.len()).map(|n| mass[n / 3] * (driven[n] - guess[n]));
+    let driving = norm(&impulses.collect::<Vec<_>>(), mass);
+    let momenta = driven.iter().enumerate().map(|(n, v)| mass[n / 3] * v);
+    let carried = norm(&momenta.collect::<Vec<_>>(), mass);
+    let wanted = (DRIVEN * size.max(driving)).max(CARRIED * carried);
+    let (mut after, mut iterations) = (guess.to_vec(), 0);
+    if size > wanted {
+        let (changes, spent) = solve(system, &load, wanted / size, team)?;
+        iterations = spent;
+        after.iter_mut().zip(&changes).for_each(|(v, change)| *v += change);
+    }
+    let pairs = system.elongations(&after);
+    let changes: Vec<f64> = after.iter().zip(driven).map(|(v, driven)| v - driven).collect();
+    let by_wall = system.by_wall(&system.forces(&pairs, &system.forms(&pairs)), &changes);
+    let changes = changes.as_chunks().0.to_vec();
+    Ok(ViscousStep { changes, by_wall, stresses: Vec::new(), creep: 0.0, iterations })
+}
+
+/// Residual of the step's equation of motion: `m (u* − u)` plus the impulses of forces, of those on frozen pieces what
+/// moves them.
+fn residual(system: &System, velocity: &[f64], forces: &[system::Forces]) -> Vec<f64> {
+    let before = system.cloud.velocity.as_flattened();
+    let mut load = system.load(forces);
+    for (n, load) in load.iter_mut().enumerate() {
+        *load += system.cloud.mass[n / 3] * (before[n] - velocity[n]);
+    }
+    system.reduce(&mut load);
+    load
+}
+
+/// `√(Σ r²/m)`.
+fn norm(load: &[f64], mass: &[f64]) -> f64 {
+    load.iter().enumerate().map(|(n, load)| load * load / mass[n / 3]).sum::<f64>().sqrt()
 }
 
 #[cfg(test)]

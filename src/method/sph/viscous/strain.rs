@@ -26,6 +26,8 @@ pub struct Elongation {
     pub squares: f64,
     /// `Σ V_j F (ν_i + ν_j) e x`, by fluid and by the wall.
     pub forces: [[f64; 3]; 2],
+    /// Rate of the density over itself; 0 where pressure is not solved.
+    pub compression: f64,
 }
 
 impl PairSum for Strain<'_> {
@@ -83,7 +85,7 @@ impl PairSum for Strain<'_> {
         let forces =
             [flat::<F>(scaled(by_fluid.force, scale)), flat::<F>(scaled(by_wall.force, scale))];
         let squares: f64 = (by_fluid.squares + by_wall.squares).sum().into();
-        Elongation { rates, squares: -scale * squares, forces }
+        Elongation { rates, squares: -scale * squares, forces, compression: 0.0 }
     }
 }
 

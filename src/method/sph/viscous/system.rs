@@ -7,6 +7,7 @@ use super::super::method::Method;
 use super::super::neighbours::Block;
 use super::fit::{Fit, Whitening};
 use super::moments::Moments;
+use super::pressure::PressureForces;
 use super::rate::Axes;
 use super::strain::{Elongation, Strain};
 use super::stress::Stress;
@@ -53,6 +54,8 @@ pub struct System<'a> {
     pub moduli: Vec<Moduli>,
     /// Matrices from the sums of elongations to the form of the forces, see [`Stress`].
     responses: Vec<Square<6>>,
+    /// Pressure, where it is solved.
+    pressure: Option<PressureForces<'a>>,
 }
 
 impl<'a> System<'a> {
@@ -80,6 +83,8 @@ impl<'a> System<'a> {
             fits: Vec::new(),
             moduli,
             responses: Vec::new(),
+            pressure: (method.solves_pressure)
+                .then(|| PressureForces::of(method, cloud, blocks, team)),
         };
         let records = system.records(&vec![0.0; 3 * cloud.len()]);
         let pass = Moments { images: &method.images, records: &records, weights };
@@ -132,7 +137,12 @@ impl<'a> System<'a> {
     /// Sums over the elongations of all pairs at some velocities.
     pub fn elongations(&self, velocity: &[f64]) -> Vec<Elongation> {
         let (images, records) = (&self.method.images, &self.records(velocity));
-        self.over_pairs(&Strain { images, records, weights: self.weights })
+        let mut pairs = self.over_pairs(&Strain { images, records, weights: self.weights });
+        if let Some(pressure) = &self.pressure {
+            let rates = pressure.compressions(velocity);
+            pairs.iter_mut().zip(rates).for_each(|(pairs, rate)| pairs.compression = rate);
+        }
+        pairs
     }
 
     /// Strain rate y of a particle.
@@ -163,7 +173,7 @@ impl<'a> System<'a> {
         })
     }
 
-    /// Viscous forces per volume, by fluid and by the wall.
+    /// Viscous forces per volume, by fluid and by the wall, with those of the pressure's rise over the step.
     pub fn forces(&self, pairs: &[Elongation], forms: &[Products]) -> Vec<Forces> {
         let records = self.team.map(pairs.len(), |i| {
             let ([x, y, z], [xx, yy, zz, xy, yz, _]) = (self.cloud.position[i], forms[i]);
@@ -179,16 +189,26 @@ impl<'a> System<'a> {
                 (0..3).for_each(|a| force[a] += scale * pair[a]);
             }
         });
+        if let Some(pressure) = &self.pressure {
+            let rises = self.team.map(pairs.len(), |i| self.dt * pairs[i].compression);
+            let rising = pressure.forces(&rises);
+            self.team.for_each(&mut forces, |i, forces| *forces = sum(*forces, rising[i]));
+        }
         forces
     }
 
-    /// Impulses of forces over the step.
+    /// Impulses of forces over the step, with those of the pressure before it.
     pub fn load(&self, forces: &[Forces]) -> Vec<f64> {
         let impulse = |i: usize| {
-            let [fluid, wall] = forces[i];
+            let [fluid, wall] = self.with_pressure(i, forces[i]);
             [0, 1, 2].map(|a| self.dt * self.volume(i) * (fluid[a] + wall[a]))
         };
         (0..forces.len()).flat_map(impulse).collect()
+    }
+
+    /// Forces on a particle with those of the pressure before the step.
+    fn with_pressure(&self, i: usize, forces: Forces) -> Forces {
+        self.pressure.as_ref().map_or(forces, |pressure| sum(forces, pressure.before[i]))
     }
 
     /// Replaces impulses by those that move particles as pieces allow.
@@ -217,7 +237,7 @@ impl<'a> System<'a> {
             return Vec::new();
         }
         let mut by_wall = self.team.map(forces.len(), |i| {
-            let [fluid, wall] = forces[i];
+            let [fluid, wall] = self.with_pressure(i, forces[i]);
             let force = match self.frozen.bond(i) {
                 Bond::Wall => fluid.map(|force| -force),
                 Bond::Plane => [0.0; 3],
@@ -251,6 +271,10 @@ impl<'a> System<'a> {
         let kind = self.method.pairs();
         for_all_of::<Shape, P>(pass, self.blocks, kind, self.team, Vec::new())
     }
+}
+
+fn sum(forces: Forces, others: Forces) -> Forces {
+    [0, 1].map(|by| [0, 1, 2].map(|a| forces[by][a] + others[by][a]))
 }
 
 /// Products of coordinates that a model has; across the plane of a ring the odd ones cancel.

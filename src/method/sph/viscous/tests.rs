@@ -9,6 +9,8 @@ use crate::scene::Precision;
 
 const SPACING: f64 = 1e-5;
 
+const WITH_PRESSURE: Viscous = Viscous::WithPressure { rate: 1.0 };
+
 static FLUID: Pieces = Pieces::NONE;
 
 /// Very viscous fluid of particles at unit distance over H = 3, without any drop.
@@ -142,7 +144,10 @@ fn disordered(plan: &DropletPlan, count: usize, seed: usize) -> Vec<f64> {
 
 #[test]
 fn operator_is_symmetric_and_positive() {
-    for (plan, centre) in plans() {
+    let with_pressure = |(plan, centre): (DropletPlan, f64)| {
+        (DropletPlan { viscous: WITH_PRESSURE, ..plan }, centre)
+    };
+    for (plan, centre) in plans().into_iter().chain(plans().into_iter().map(with_pressure)) {
         let (cloud, neighbours) = ball(&plan, 5.5, centre);
         let (method, team) = (Method::of(&plan), Team::new(2));
         let system = newtonian(&method, &cloud, &neighbours, 10.0, &team);
@@ -217,12 +222,18 @@ fn rigid_motion_bears_no_force() {
 
 #[test]
 fn momentum_and_angular_momentum_are_conserved() {
-    let plan = plan();
-    let (mut cloud, neighbours) = ball(&plan, 5.5, 0.0);
-    let velocity = disordered(&plan, cloud.len(), 2);
+    for viscous in [Viscous::Implicit { rate: 1.0 }, WITH_PRESSURE] {
+        conserves_momenta(&DropletPlan { viscous, ..plan() });
+    }
+}
+
+fn conserves_momenta(plan: &DropletPlan) {
+    let (mut cloud, neighbours) = ball(plan, 5.5, 0.0);
+    let velocity = disordered(plan, cloud.len(), 2);
     cloud.velocity = velocity.as_chunks().0.to_vec();
-    let (method, team) = (Method::of(&plan), Team::new(2));
-    let step = advance(&method, &cloud, &FLUID, &neighbours.blocks, 10.0, &team).unwrap();
+    let (method, team) = (Method::of(plan), Team::new(2));
+    let start = (10.0, &cloud.velocity[..]);
+    let step = advance(&method, &cloud, &FLUID, &neighbours.blocks, start, &team).unwrap();
     let (mut change, mut turn, mut whole) = ([0.0; 3], [0.0; 3], 0.0);
     for (i, v) in step.changes.iter().enumerate() {
         let (m, x) = (cloud.mass[i], cloud.position[i]);
