@@ -265,7 +265,9 @@ fn free_ball_falls_like_a_point() {
         // Steps of implicit viscosity fall ahead by half of one.
         let ahead = match plan.viscous {
             Viscous::Explicit => 1e-11,
-            Viscous::Implicit { .. } => 1.5 / drop.totals(&state).steps,
+            Viscous::Implicit { .. } | Viscous::WithPressure { .. } => {
+                1.5 / drop.totals(&state).steps
+            }
         };
         let way = gravity.map(|g| 2e-4 * g);
         assert_near(centre(&end), way, ahead * norm(way));
