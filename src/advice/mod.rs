@@ -12,6 +12,7 @@ mod moved;
 mod particles;
 mod phases;
 mod power;
+mod pressure;
 mod relations;
 mod resolution;
 mod strands;
@@ -54,6 +55,7 @@ fn found(scene: &Scene, (source, names_lines): (&Source, bool), schema: &Schema)
     values::review(&mut reviewer, schema, cold);
     phases::review(&mut reviewer, cold);
     drying::review(&mut reviewer);
+    pressure::review(&mut reviewer);
     viscosity::review(&mut reviewer);
     substances::review(&mut reviewer, schema);
     relations::review(&mut reviewer);

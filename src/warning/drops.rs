@@ -30,6 +30,11 @@ rules! {
      evaporation";
     "do not rely on volume, shape and heat beyond {shorter} s after the impact; humid air slows drying"
 
+    Check pressure_of_thin_fluid(reynolds, thick)
+    "the Reynolds number of the drop is {reynolds}: pressure that is solved at the end of steps lets the density of fluid as \
+     thin vary by several per cent, and costs more than it saves";
+    "leave out `pressure`; up to {thick} it saves time"
+
     Check film_risk_follows_step(solid, step, shorter)
     "the probability of failure of `{solid}` follows from the stress at the ends of steps, and {step} s are long beside the time \
      in which a drop spreads: it may be off by a factor of two";

@@ -56,6 +56,7 @@ mod peaks;
 mod plausibility;
 mod phases;
 mod power;
+mod pressure;
 mod recovered_stress;
 mod reduced;
 mod relaxation;

@@ -74,6 +74,8 @@ const RING_TENSION: f64 = 0.6;
 /// of sound.
 const PRESSED_OUT: f64 = 3.0;
 const PRESSED_OUT_IN_PLANE: f64 = 5.0;
+/// Rate over ν/D² at which viscosity takes a drop's speed on a wall. It matters where sound does not limit steps.
+const RESISTANCE: f64 = 10.0;
 /// Number of instants at which a run is sampled.
 const SAMPLES: usize = 200;
 
@@ -103,7 +105,7 @@ struct Drop {
 fn rates_at(plan: &DropletPlan, method: &Method, run: RunSettings, time: f64) -> Effort {
     let released = plan.drops().filter(|release| release.time <= time);
     let drops: Vec<Drop> =
-        released.map(|release| drop_at(plan, &release, run.spread, time)).collect();
+        released.map(|release| drop_at((plan, method), &release, run.spread, time)).collect();
     let particles: f64 = drops.iter().map(|drop| drop.particles).sum();
     if particles == 0.0 {
         return Effort::default();
@@ -142,7 +144,12 @@ fn rates_at(plan: &DropletPlan, method: &Method, run: RunSettings, time: f64) ->
 }
 
 /// State of a drop that spreads as `√(3 U t/D)` at first, up to the expected diameter.
-fn drop_at(plan: &DropletPlan, release: &Release, spread: Option<f64>, time: f64) -> Drop {
+fn drop_at(
+    (plan, method): (&DropletPlan, &Method),
+    release: &Release,
+    spread: Option<f64>,
+    time: f64,
+) -> Drop {
     let diameter = release.diameter;
     let gravity = plan.gravity.iter().map(|g| g * g).sum::<f64>().sqrt();
     let speed = release.velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
@@ -153,6 +160,12 @@ fn drop_at(plan: &DropletPlan, release: &Release, spread: Option<f64>, time: f64
     let fallen = falling * age + 0.5 * gravity * age * age;
     let (down, spread) = spread.map_or((0.0, 1.0), |spread| (fallen - gap, spread));
     let speed = (speed * speed + 2.0 * gravity * fallen.min(gap)).sqrt();
+    let left = if method.solves_pressure && speed > 0.0 {
+        let kinematic = method.viscosity * method.units.length * method.units.speed;
+        (-RESISTANCE * kinematic * down.max(0.0) / (speed * diameter * diameter)).exp()
+    } else {
+        1.0
+    };
     let area = (3.0 * down.max(0.0) / diameter).min(spread * spread);
     let pressed = match (down > 0.0, plan.dimension) {
         (false, _) => 1.0,
@@ -167,7 +180,7 @@ fn drop_at(plan: &DropletPlan, release: &Release, spread: Option<f64>, time: f64
     };
     Drop {
         particles: plan.particles_of(release.diameter),
-        fastest: pressed * speed,
+        fastest: pressed * speed * left,
         at_wall: on_wall.min(1.0),
         near_surface: (layer * surface).min(1.0),
     }

@@ -257,6 +257,18 @@ fn films_of_drops_that_they_were_not_fitted_on_are_warned_of() {
     }
 }
 
+#[test]
+fn pressure_that_is_solved_for_thin_fluids_is_warned_of() {
+    let said = |viscosity: &str| {
+        let text =
+            edited(&drop(WATER), "spacing = 5e-5\n", "spacing = 5e-5\npressure = \"implicit\"\n");
+        let text = edited(&text, "viscosity = 0.00028", &format!("viscosity = {viscosity}"));
+        warnings(&text).into_iter().any(|one| one.contains("costs more than it saves"))
+    };
+    // 958 kg/m³, 2 m/s, 1 mm.
+    assert!(said("0.03") && !said("0.1"));
+}
+
 /// On glass under water a probability of failure is 60 % too high with steps of a third of D/U.
 #[test]
 fn long_steps_below_films_are_warned_of_where_solids_may_fail() {
