@@ -1,4 +1,4 @@
-//! Drops whose pressure is solved at the end of steps, beside those in steps of sound.
+//! Drops whose pressure is solved with viscosity at the end of steps, beside those that solve viscosity alone.
 
 use crate::common::Trial;
 
@@ -33,10 +33,10 @@ fn thick_drops_spread_alike_in_fewer_steps() {
         (0..20).for_each(|_| trial.step(1e-3));
         trial
     };
-    let mut explicit = run("");
+    let mut sound = run("viscous = \"implicit\"");
     let mut solved = run("pressure = \"implicit\"");
     let both = |trial: [&mut Trial; 2], name: &str| trial.map(|trial| trial.get(name));
-    let mut pair = |name: &str| both([&mut explicit, &mut solved], name);
+    let mut pair = |name: &str| both([&mut sound, &mut solved], name);
     let [slow, quick] = pair("drop.steps");
     assert!(quick < 0.05 * slow, "{quick} steps for {slow}");
     let close = |[a, b]: [f64; 2], part: f64| assert!((b / a - 1.0).abs() < part, "{a} {b}");
