@@ -127,6 +127,14 @@ pub fn store(fields: &mut dyn Fields, to: &mut [f64]) -> usize {
     at
 }
 
+/// Replaces a list by the values of all fields.
+pub fn store_all(fields: &mut dyn Fields, to: &mut Vec<f64>) {
+    to.clear();
+    for (_, numbers) in fields.fields() {
+        to.extend_from_slice(numbers);
+    }
+}
+
 /// Reads all fields from the beginning of a list.
 pub fn load(fields: &mut dyn Fields, from: &[f64]) {
     let mut at = 0;

@@ -8,6 +8,7 @@ mod giver;
 mod linear;
 mod maxima;
 mod resources;
+mod structured;
 
 use std::any::Any;
 
@@ -18,6 +19,7 @@ pub use giver::{Given, Giver};
 pub use linear::Linear;
 pub use maxima::Maxima;
 pub use resources::Resources;
+pub use structured::Structured;
 
 use super::{BodyError, Reading};
 use crate::inputs::InputPath;

@@ -13,8 +13,8 @@ pub use warnings::warnings_on_strands;
 
 use crate::body::droplet::Watch;
 use crate::body::{
-    Acts, Advice, Approach, Body, BodyError, Fields, Given, Giver, Link, Maxima, Memo, Occasion,
-    Reading, Received, Resources,
+    Acts, Advice, Approach, BodyError, Given, Giver, Link, Maxima, Occasion, Reading, Resources,
+    Structured,
 };
 use crate::inputs::{InputLayout, InputPath};
 use crate::laws::Constants;
@@ -26,7 +26,7 @@ use crate::method::sph::{ParticleFields, WarmPlace};
 use crate::port::{Surface, WallCells};
 use crate::runtime::allowance::{Allowance, cost};
 use crate::scene::{Coupling, Filament, Scene};
-use crate::state::{Layout, expect_like, layout_like, load, stored};
+use crate::state::store_all;
 use crate::warning::{self, Warning};
 
 use motions::NozzleInputs;
@@ -45,10 +45,6 @@ pub struct FilamentBody {
     traction: Option<bool>,
     notes: Vec<String>,
 }
-
-/// Lazily computed readings of a state.
-#[derive(Default)]
-struct FilamentMemo(Option<(Strand, LineTotals, Deviation)>);
 
 /// Updates that a segment takes in a step, and the words for them.
 const WORK: usize = 40;
@@ -78,23 +74,6 @@ impl FilamentBody {
         }
     }
 
-    /// The strand of a state of this body.
-    fn strand(&self, state: &[f64]) -> Strand {
-        let mut strand = self.start.of_length(state.len()).unwrap_or_default();
-        load(&mut strand, state);
-        strand
-    }
-
-    fn seen<'m>(&self, state: &[f64], memo: &'m mut Memo) -> &'m (Strand, LineTotals, Deviation) {
-        let memo: &mut FilamentMemo = memo.downcast_mut().expect("a memo of the body that made it");
-        memo.0.get_or_insert_with(|| {
-            let strand = self.strand(state);
-            let totals = self.line.totals(&strand);
-            let deviation = self.target.as_ref().map(|target| target.deviation(&strand));
-            (strand, totals, deviation.unwrap_or_default())
-        })
-    }
-
     fn given_of(&self, strand: &Strand) -> Option<Given> {
         let traction = self.traction?;
         Some(Given {
@@ -111,25 +90,24 @@ impl FilamentBody {
     }
 }
 
-impl Body for FilamentBody {
+impl Structured for FilamentBody {
+    type State = Strand;
+    type View = (Strand, LineTotals, Deviation);
+
     fn name(&self) -> &str {
         &self.name
     }
 
-    fn initial_state(&self) -> Vec<f64> {
-        stored(&self.start)
+    fn start(&self) -> &Strand {
+        &self.start
     }
 
-    fn layout(&self, state: &[f64]) -> Option<Layout> {
-        layout_like(&self.start.of_length(state.len())?, state)
+    fn of_length(&self, numbers: usize) -> Option<Strand> {
+        self.start.of_length(numbers)
     }
 
-    fn check_state(&self, state: &[f64], _: &[f64]) -> Result<(), String> {
-        let name = &self.name;
-        if self.start.of_length(state.len()).is_none() {
-            return expect_like(&self.start, state, name);
-        }
-        self.line.check(&self.strand(state)).map_err(|reason| format!("{name}: {reason}"))
+    fn check(&self, state: &Strand) -> Result<(), String> {
+        self.line.check(state)
     }
 
     fn check_inputs(&self, inputs: &[f64]) -> Result<(), BodyError> {
@@ -147,51 +125,45 @@ impl Body for FilamentBody {
         }
     }
 
-    fn memo(&self, _: &[f64], _: &[Received]) -> Memo {
-        Box::new(FilamentMemo::default())
-    }
-
-    fn forget_state(&self, memo: &mut Memo) {
-        *memo = Box::new(FilamentMemo::default());
-    }
-
     fn advance(
         &self,
-        state: &mut Vec<f64>,
-        _: &Memo,
+        state: &mut Strand,
         acts: &Acts,
         allowance: &Allowance,
     ) -> Result<Option<Given>, BodyError> {
-        let mut strand = self.strand(state);
-        let spent = allowance.spend(1.0, ROUNDS, WORK * strand.len());
+        let spent = allowance.spend(1.0, ROUNDS, WORK * state.len());
         spent.map_err(|halt| BodyError::Halted { body: self.name.clone(), halt })?;
-        let motions = self.nozzle.motions(acts.path, strand.time, acts.duration);
+        let motions = self.nozzle.motions(acts.path, state.time, acts.duration);
         let nothing = Surface::default();
         let around = Around {
             surface: acts.below.unwrap_or(&nothing),
             air: self.nozzle.air(acts.path, acts.duration, self.line.plan().reference),
         };
-        let advanced = self.line.advance(&mut strand, &motions, &around);
+        let advanced = self.line.advance(state, &motions, &around);
         advanced.map_err(|failure| self.error(failure))?;
-        *state = stored(&strand);
-        if !state.iter().all(|value| value.is_finite()) {
-            return Err(BodyError::Overflow { body: self.name.clone() });
-        }
-        Ok(self.given_of(&strand))
+        Ok(self.given_of(state))
     }
 
-    fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError> {
+    fn view(&self, strand: Strand, _: &[f64]) -> Result<Self::View, BodyError> {
+        let totals = self.line.totals(&strand);
+        let deviation = self.target.as_ref().map(|target| target.deviation(&strand));
+        Ok((strand, totals, deviation.unwrap_or_default()))
+    }
+
+    fn read(
+        &self,
+        (strand, totals, deviation): &Self::View,
+        reading: &Reading,
+    ) -> Result<f64, BodyError> {
         let Reading::Total(place) = *reading else { return Err(BodyError::NoSuchReading) };
         let density = self.line.plan().fluid.density;
-        let (strand, totals, deviation) = self.seen(state, memo);
         Ok(totals::read(place, &Seen { strand, totals, deviation, density }))
     }
 
     /// Segments are drawn as particles in their middle.
-    fn fields(&self, state: &[f64], memo: &mut Memo) -> Result<Fields, BodyError> {
+    fn drawn(&self, strand: Strand, _: &[f64]) -> Result<ParticleFields, BodyError> {
         let density = self.line.plan().fluid.density;
         let freezes = self.line.plan().phases().is_some();
-        let (strand, ..) = self.seen(state, memo);
         let mut fields = ParticleFields::default();
         for segment in strand.segments() {
             let [x, y] = segment.middle();
@@ -204,14 +176,14 @@ impl Body for FilamentBody {
             fields.temperature.push(self.line.temperature(&segment));
             fields.solid_fraction.extend(freezes.then(|| self.line.frozen(&segment)));
         }
-        Ok(Fields::Particles(fields))
+        Ok(fields)
     }
 }
 
 impl Giver for FilamentBody {
     fn given(&self, state: &[f64]) -> Option<Given> {
         self.traction?;
-        self.given_of(&self.strand(state))
+        self.given_of(&self.structure(state))
     }
 }
 
@@ -224,13 +196,13 @@ impl Approach for FilamentBody {
         path: &InputPath,
         duration: f64,
     ) -> Vec<(usize, [f64; 2])> {
-        let mut strand = self.strand(state);
+        let mut strand = self.structure(state);
         let approached = self.nozzle.approached(path, strand.nozzle, duration);
         if strand.flowing == 0.0 || approached.is_empty() {
             return Vec::new();
         }
         strand.late = 1.0;
-        *state = stored(&strand);
+        store_all(&mut strand, state);
         approached
     }
 }
@@ -244,7 +216,7 @@ impl Advice for FilamentBody {
         if !matches!(occasion, Occasion::Step) {
             return Vec::new();
         }
-        let strand = self.strand(state);
+        let strand = self.structure(state);
         let spacing = self.line.plan().spacing;
         let jumped = (strand.jump > spacing).then(|| {
             warning::nozzle_jumps(format!("{:.2e}", strand.jump), format!("{spacing:.2e}"))
@@ -259,7 +231,7 @@ impl Advice for FilamentBody {
     }
 
     fn warm_places(&self, state: &[f64]) -> Option<[WarmPlace; 2]> {
-        let strand = self.strand(state);
+        let strand = self.structure(state);
         let place = |segment: Segment| {
             let [x, y] = segment.middle();
             let place = [x, y, segment.base + 0.5 * segment.height()];
@@ -273,7 +245,7 @@ impl Advice for FilamentBody {
 
 impl Resources for FilamentBody {
     fn foresee(&self, state: &[f64], dt: f64, allowance: &Allowance) -> Result<(), BodyError> {
-        let work = WORK * self.strand(state).len();
+        let work = WORK * self.structure(state).len();
         let foreseen = allowance.foresee_step(dt, 1.0, ROUNDS, work);
         foreseen.map_err(|halt| BodyError::Halted { body: self.name.clone(), halt })
     }

@@ -18,13 +18,14 @@ pub use resting::RestingBody;
 pub use swinging::SwingingBody;
 pub use totals::offered_totals;
 
-use crate::body::{BodyError, Memo, Reading};
+use crate::body::{BodyError, Reading};
+use crate::method::large_strain::Failure;
 use probes::Probed;
 use snapshot::Snapshot;
 use totals::Sums;
 
 /// What is read of a state of a solid of large strain.
-struct View {
+pub struct View {
     snapshot: Snapshot,
     sums: Sums,
     /// Forces on the faces that are moved [N].
@@ -45,14 +46,12 @@ impl View {
     }
 }
 
-/// Memo of a solid of large strain with inertia: what is read of its state.
-#[derive(Default)]
-struct LargeStrainMemo(Option<View>);
-
-impl LargeStrainMemo {
-    fn of_mut(memo: &mut Memo) -> &mut Self {
-        let memo: &mut (dyn std::any::Any + Send + Sync) = memo.as_mut();
-        memo.downcast_mut().expect("a memo is that of the body that made it")
+/// Gives a failure the name of its body.
+fn named(body: &str, failure: Failure) -> BodyError {
+    let body = body.to_owned();
+    match failure {
+        Failure::Halted(halt) => BodyError::Halted { body, halt },
+        failure => BodyError::LargeStrain { body, failure },
     }
 }
 

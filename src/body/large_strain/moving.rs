@@ -4,17 +4,17 @@ use super::faces::{Faces, loaded};
 use super::probes::Probes;
 use super::snapshot::{Seen, Snapshot, columns, copies};
 use super::totals::Sums;
-use super::{LargeStrainMemo, View, is_large, plan};
+use super::{View, is_large, named, plan};
 use crate::body::{
-    Acts, Advice, Approach, Body, BodyError, Fields, Given, Giver, Link, Maxima, Memo, Reading,
-    Received, Resources,
+    Acts, Advice, Approach, BodyError, Given, Giver, Link, Maxima, Reading, Resources, Structured,
 };
 use crate::inputs::InputLayout;
-use crate::method::large_strain::{Dynamics, Failure, Motion};
+use crate::method::large_strain::{Dynamics, Motion};
+use crate::method::sph::ParticleFields;
 use crate::port::WallCells;
 use crate::runtime::allowance::{Allowance, cost};
 use crate::scene::{LargeStrain, Scene};
-use crate::state::{Layout, expect_like, layout_like, load, store, stored};
+use crate::state::store_all;
 
 /// A body with inertia.
 pub struct MovingBody {
@@ -43,7 +43,7 @@ impl MovingBody {
         on: Option<(WallCells, &Link)>,
         threads: impl Fn(bool) -> usize,
     ) -> Result<Self, BodyError> {
-        let named = |failure| BodyError::LargeStrain { body: name.to_owned(), failure };
+        let named = |failure| named(name, failure);
         let mesh = plan::mesh(solid);
         let threads = threads(is_large(mesh.cells.len() * 8));
         let body = plan::deformable(solid, threads).map_err(named)?;
@@ -72,27 +72,11 @@ impl MovingBody {
         })
     }
 
-    fn motion(&self, state: &[f64]) -> Motion {
-        let mut motion = self.start.clone();
-        load(&mut motion, state);
-        motion
-    }
-
     fn snapshot(&self, motion: &Motion) -> Result<Snapshot, BodyError> {
         let touch = self.dynamics.plane.touch(&self.dynamics.body, &motion.displacement);
         let seen = Seen { touch: Some(&touch), ..self.seen(motion) };
-        let stresses = seen.stresses().map_err(|failure| self.error(failure))?;
+        let stresses = seen.stresses().map_err(|failure| named(&self.name, failure))?;
         Ok(seen.snapshot(&stresses))
-    }
-
-    fn view(&self, motion: &Motion) -> Result<View, BodyError> {
-        let touch = self.dynamics.plane.touch(&self.dynamics.body, &motion.displacement);
-        let seen = Seen { touch: Some(&touch), ..self.seen(motion) };
-        let stresses = seen.stresses().map_err(|failure| self.error(failure))?;
-        let snapshot = seen.snapshot(&stresses);
-        let sums = self.sums(motion, &snapshot);
-        let probed = self.probes.read(&seen, &stresses, self.temperature);
-        Ok(View { snapshot, sums, forces: Vec::new(), probed })
     }
 
     fn seen<'a>(&'a self, motion: &'a Motion) -> Seen<'a> {
@@ -106,14 +90,6 @@ impl MovingBody {
             velocity: Some(&motion.velocity),
             history: &motion.history,
             touch: None,
-        }
-    }
-
-    fn error(&self, failure: Failure) -> BodyError {
-        let name = self.name.clone();
-        match failure {
-            Failure::Halted(halt) => BodyError::Halted { body: name, halt },
-            failure => BodyError::LargeStrain { body: name, failure },
         }
     }
 
@@ -169,66 +145,64 @@ impl MovingBody {
             force_outside: rate(ledger.outside),
         }
     }
+
+    fn given_of(&self, Motion { ledger, .. }: &Motion) -> Option<Given> {
+        let traction = self.traction?;
+        let impulse = ledger.exchange.iter().map(|&impulse| [0.0, 0.0, -impulse]);
+        Some(Given {
+            duration: ledger.duration,
+            heat: vec![0.0; ledger.exchange.len()],
+            falling: Vec::new(),
+            impulse: if traction { impulse.collect() } else { Vec::new() },
+            symmetric: self.dynamics.symmetric(),
+        })
+    }
 }
 
-impl Body for MovingBody {
+impl Structured for MovingBody {
+    type State = Motion;
+    type View = View;
+
     fn name(&self) -> &str {
         &self.name
     }
 
-    fn initial_state(&self) -> Vec<f64> {
-        stored(&self.start)
+    fn start(&self) -> &Motion {
+        &self.start
     }
 
-    fn layout(&self, state: &[f64]) -> Option<Layout> {
-        layout_like(&self.start, state)
-    }
-
-    fn check_state(&self, state: &[f64], _: &[f64]) -> Result<(), String> {
-        let name = &self.name;
-        expect_like(&self.start, state, name)?;
-        self.check_motion(&self.motion(state)).map_err(|reason| format!("{name}: {reason}"))
-    }
-
-    fn check_inputs(&self, _: &[f64]) -> Result<(), BodyError> {
-        Ok(())
-    }
-
-    fn memo(&self, _: &[f64], _: &[Received]) -> Memo {
-        Box::new(LargeStrainMemo::default())
-    }
-
-    fn forget_state(&self, memo: &mut Memo) {
-        *memo = Box::new(LargeStrainMemo::default());
+    fn check(&self, state: &Motion) -> Result<(), String> {
+        self.check_motion(state)
     }
 
     fn advance(
         &self,
-        state: &mut Vec<f64>,
-        _: &Memo,
+        state: &mut Motion,
         acts: &Acts,
         allowance: &Allowance,
     ) -> Result<Option<Given>, BodyError> {
-        let mut motion = self.motion(state);
         let loads = |time: f64| self.faces.prescribed(&acts.path.at(0, time)).loads;
-        let advanced = self.dynamics.advance(&mut motion, acts.duration, &loads, allowance);
-        advanced.map_err(|failure| self.error(failure))?;
-        store(&mut motion, state);
-        Ok(self.given(state))
+        let advanced = self.dynamics.advance(state, acts.duration, &loads, allowance);
+        advanced.map_err(|failure| named(&self.name, failure))?;
+        Ok(self.given_of(state))
     }
 
-    fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError> {
-        let memo = LargeStrainMemo::of_mut(memo);
-        let view = match memo.0.take() {
-            Some(known) => known,
-            None => self.view(&self.motion(state))?,
-        };
-        memo.0.insert(view).read(reading)
+    fn view(&self, state: Motion, _: &[f64]) -> Result<View, BodyError> {
+        let touch = self.dynamics.plane.touch(&self.dynamics.body, &state.displacement);
+        let seen = Seen { touch: Some(&touch), ..self.seen(&state) };
+        let stresses = seen.stresses().map_err(|failure| named(&self.name, failure))?;
+        let snapshot = seen.snapshot(&stresses);
+        let sums = self.sums(&state, &snapshot);
+        let probed = self.probes.read(&seen, &stresses, self.temperature);
+        Ok(View { snapshot, sums, forces: Vec::new(), probed })
     }
 
-    fn fields(&self, state: &[f64], _: &mut Memo) -> Result<Fields, BodyError> {
-        let motion = self.motion(state);
-        Ok(Fields::Particles(self.seen(&motion).particles(self.temperature)))
+    fn read(&self, view: &View, reading: &Reading) -> Result<f64, BodyError> {
+        view.read(reading)
+    }
+
+    fn drawn(&self, state: Motion, _: &[f64]) -> Result<ParticleFields, BodyError> {
+        Ok(self.seen(&state).particles(self.temperature))
     }
 }
 
@@ -238,23 +212,15 @@ impl Giver for MovingBody {
         if self.traction.is_some() {
             return;
         }
-        let (before, mut motion) = (self.motion(before).ledger, self.motion(state));
+        let (before, mut motion) = (self.structure(before).ledger, self.structure(state));
         motion.ledger.duration += before.duration;
         motion.ledger.outside += before.outside;
-        store(&mut motion, state);
+        store_all(&mut motion, state);
     }
 
     fn given(&self, state: &[f64]) -> Option<Given> {
-        let traction = self.traction?;
-        let ledger = self.motion(state).ledger;
-        let impulse = ledger.exchange.iter().map(|&impulse| [0.0, 0.0, -impulse]);
-        Some(Given {
-            duration: ledger.duration,
-            heat: vec![0.0; ledger.exchange.len()],
-            falling: Vec::new(),
-            impulse: if traction { impulse.collect() } else { Vec::new() },
-            symmetric: self.dynamics.symmetric(),
-        })
+        self.traction?;
+        self.given_of(&self.structure(state))
     }
 }
 

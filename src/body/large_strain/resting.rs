@@ -6,21 +6,19 @@ use super::faces::{Faces, Prescribed, loaded};
 use super::probes::Probes;
 use super::snapshot::{Seen, columns, copies};
 use super::totals::Sums;
-use super::{View, is_large, plan};
+use super::{View, is_large, named, plan};
 use crate::body::{
-    Acts, Advice, Approach, Body, BodyError, Fields, Given, Giver, Maxima, Memo, Reading, Received,
-    Resources,
+    Acts, Advice, Approach, BodyError, Given, Giver, Maxima, Memo, Reading, Resources, Structured,
 };
 use crate::inputs::InputLayout;
 use crate::laws::solid::large_strain::Thermal;
 use crate::method::large_strain::{
     Conditions, Course, Equilibrium, FaceLoad, Failure, Rest, STEPS, WORK,
 };
+use crate::method::sph::ParticleFields;
 use crate::runtime::allowance::{Allowance, Interrupt, cost};
 use crate::scene::{LargeStrain, Scene};
-use crate::state::{
-    Field, Fields as StateFields, Layout, Per, expect_like, layout_like, load, store, stored,
-};
+use crate::state::{Field, Fields, Per};
 
 /// A body without inertia.
 pub struct RestingBody {
@@ -40,22 +38,9 @@ pub struct RestingBody {
     notes: Vec<String>,
 }
 
-/// Memo of the body: what the inputs prescribe, and what is read of the equilibrium under it.
-struct RestingMemo {
-    to: Prescribed,
-    seen: Option<View>,
-}
-
-impl RestingMemo {
-    fn of_mut(memo: &mut Memo) -> &mut Self {
-        let memo: &mut (dyn std::any::Any + Send + Sync) = memo.as_mut();
-        memo.downcast_mut().expect("a memo is that of the body that made it")
-    }
-}
-
 /// State of the body.
 #[derive(Debug, Clone, PartialEq, Default)]
-struct Resting {
+pub struct Resting {
     time: f64,
     steps: f64,
     /// [K]
@@ -78,7 +63,7 @@ const ITERATIONS: f64 = 5.0;
 /// Share of the energy that the balance of a state may miss.
 const ENERGY: f64 = 1e-6;
 
-impl StateFields for Resting {
+impl Fields for Resting {
     fn fields(&mut self) -> Vec<(Field, &mut [f64])> {
         let of = |name, words, per, width| Field { name, words, per, width };
         let body = |name, words| of(name, words, Per::Body, 1);
@@ -111,7 +96,7 @@ impl RestingBody {
         threads: impl Fn(bool) -> usize,
     ) -> Result<Self, BodyError> {
         let mesh = plan::mesh(solid);
-        let named = |failure| BodyError::LargeStrain { body: name.to_owned(), failure };
+        let named = |failure| named(name, failure);
         let threads = threads(is_large(mesh.cells.len() * 8));
         let body = plan::deformable(solid, threads).map_err(named)?;
         let weight = body.mass.iter().map(|m| [0.0, 0.0, -m * solid.gravity]).collect();
@@ -223,14 +208,14 @@ impl RestingBody {
     }
 
     /// The equilibrium under the present inputs, which may have changed since the last step.
-    fn present(&self, state: &[f64], to: &Prescribed) -> Result<Resting, BodyError> {
-        let mut present = self.resting(state);
-        if present.steps == 0.0 || self.held(&present) != *to {
+    fn present(&self, mut present: Resting, inputs: &[f64]) -> Result<Resting, BodyError> {
+        let to = self.faces.prescribed(inputs);
+        if present.steps == 0.0 || self.held(&present) != to {
             let (time, steps) = (present.time, present.steps);
             let interrupt = Interrupt::default();
             let allowance = Allowance::of_updates(&interrupt, f64::INFINITY);
-            let settled = self.settle(&mut present, to, 0.0, HALVINGS, &allowance);
-            settled.map_err(|failure| self.error(failure))?;
+            let settled = self.settle(&mut present, &to, 0.0, HALVINGS, &allowance);
+            settled.map_err(|failure| named(&self.name, failure))?;
             (present.time, present.steps) = (time, steps);
         }
         Ok(present)
@@ -258,28 +243,6 @@ impl RestingBody {
         }
     }
 
-    fn resting(&self, state: &[f64]) -> Resting {
-        let mut resting = self.start.clone();
-        load(&mut resting, state);
-        resting
-    }
-
-    fn view(&self, state: Resting) -> Result<View, BodyError> {
-        let stretches = self.stretches(state.temperature);
-        let seen = self.seen(&state, &stretches);
-        let stresses = seen.stresses().map_err(|failure| self.error(failure))?;
-        let copies = copies(self.mirrors);
-        let sums = Sums {
-            dissipated: copies * (state.work - state.stored),
-            load_work: copies * state.load_work,
-            steps: state.steps,
-            ..Sums::default()
-        };
-        let snapshot = seen.snapshot(&stresses);
-        let probed = self.probes.read(&seen, &stresses, state.temperature);
-        Ok(View { snapshot, sums, probed, forces: state.forces })
-    }
-
     fn seen<'a>(&'a self, state: &'a Resting, stretches: &'a [f64]) -> Seen<'a> {
         Seen {
             body: &self.equilibrium.body,
@@ -291,14 +254,6 @@ impl RestingBody {
             velocity: None,
             history: &state.rest.history,
             touch: None,
-        }
-    }
-
-    fn error(&self, failure: Failure) -> BodyError {
-        let body = self.name.clone();
-        match failure {
-            Failure::Halted(halt) => BodyError::Halted { body, halt },
-            failure => BodyError::LargeStrain { body, failure },
         }
     }
 
@@ -328,76 +283,70 @@ impl RestingBody {
     }
 }
 
-impl Body for RestingBody {
+impl Structured for RestingBody {
+    type State = Resting;
+    type View = View;
+
     fn name(&self) -> &str {
         &self.name
     }
 
-    fn initial_state(&self) -> Vec<f64> {
-        stored(&self.start)
+    fn start(&self) -> &Resting {
+        &self.start
     }
 
-    fn layout(&self, state: &[f64]) -> Option<Layout> {
-        layout_like(&self.start, state)
-    }
-
-    fn check_state(&self, state: &[f64], _: &[f64]) -> Result<(), String> {
-        let name = &self.name;
-        expect_like(&self.start, state, name)?;
-        self.check_resting(&self.resting(state)).map_err(|reason| format!("{name}: {reason}"))
-    }
-
-    fn check_inputs(&self, _: &[f64]) -> Result<(), BodyError> {
-        Ok(())
-    }
-
-    fn memo(&self, inputs: &[f64], _: &[Received]) -> Memo {
-        Box::new(RestingMemo { to: self.faces.prescribed(inputs), seen: None })
-    }
-
-    fn forget_state(&self, memo: &mut Memo) {
-        RestingMemo::of_mut(memo).seen = None;
+    fn check(&self, state: &Resting) -> Result<(), String> {
+        self.check_resting(state)
     }
 
     fn advance(
         &self,
-        state: &mut Vec<f64>,
-        _: &Memo,
+        state: &mut Resting,
         acts: &Acts,
         allowance: &Allowance,
     ) -> Result<Option<Given>, BodyError> {
-        let mut resting = self.resting(state);
         // Inputs that have jumped act at once, before stress relaxes.
         let from = self.faces.prescribed(&acts.path.at(0, 0.0));
-        let jumps = resting.steps == 0.0 || self.held(&resting) != from;
+        let jumps = state.steps == 0.0 || self.held(state) != from;
         if jumps && self.remembers() {
-            let settled = self.settle(&mut resting, &from, 0.0, HALVINGS, allowance);
-            settled.map_err(|failure| self.error(failure))?;
+            let settled = self.settle(state, &from, 0.0, HALVINGS, allowance);
+            settled.map_err(|failure| named(&self.name, failure))?;
         }
         let to = self.faces.prescribed(&acts.path.at(0, acts.duration));
-        let settled = self.settle(&mut resting, &to, acts.duration, HALVINGS, allowance);
-        settled.map_err(|failure| self.error(failure))?;
-        store(&mut resting, state);
+        let settled = self.settle(state, &to, acts.duration, HALVINGS, allowance);
+        settled.map_err(|failure| named(&self.name, failure))?;
         Ok(None)
     }
 
-    fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError> {
-        let memo = RestingMemo::of_mut(memo);
-        let view = match memo.seen.take() {
-            Some(known) => known,
-            None => self.view(self.present(state, &memo.to)?)?,
+    fn view(&self, state: Resting, inputs: &[f64]) -> Result<View, BodyError> {
+        let state = self.present(state, inputs)?;
+        let stretches = self.stretches(state.temperature);
+        let seen = self.seen(&state, &stretches);
+        let stresses = seen.stresses().map_err(|failure| named(&self.name, failure))?;
+        let copies = copies(self.mirrors);
+        let sums = Sums {
+            dissipated: copies * (state.work - state.stored),
+            load_work: copies * state.load_work,
+            steps: state.steps,
+            ..Sums::default()
         };
-        memo.seen.insert(view).read(reading)
+        let snapshot = seen.snapshot(&stresses);
+        let probed = self.probes.read(&seen, &stresses, state.temperature);
+        Ok(View { snapshot, sums, probed, forces: state.forces })
+    }
+
+    fn read(&self, view: &View, reading: &Reading) -> Result<f64, BodyError> {
+        view.read(reading)
     }
 
     fn follows_at_once(&self, reading: &Reading) -> bool {
         matches!(reading, Reading::Total(_) | Reading::Point { .. })
     }
 
-    fn fields(&self, state: &[f64], memo: &mut Memo) -> Result<Fields, BodyError> {
-        let present = self.present(state, &RestingMemo::of_mut(memo).to)?;
+    fn drawn(&self, state: Resting, inputs: &[f64]) -> Result<ParticleFields, BodyError> {
+        let present = self.present(state, inputs)?;
         let stretches = self.stretches(present.temperature);
-        Ok(Fields::Particles(self.seen(&present, &stretches).particles(present.temperature)))
+        Ok(self.seen(&present, &stretches).particles(present.temperature))
     }
 }
 
@@ -413,7 +362,7 @@ impl Advice for RestingBody {
     }
 
     fn temperature_set(&self, state: &[f64]) -> Option<f64> {
-        Some(self.resting(state).temperature)
+        Some(self.structure(state).temperature)
     }
 }
 

@@ -6,20 +6,18 @@ use super::faces::{Faces, Prescribed, loaded};
 use super::probes::Probes;
 use super::snapshot::{Seen, Snapshot, columns, copies};
 use super::totals::Sums;
-use super::{LargeStrainMemo, View, is_large, plan};
+use super::{View, is_large, named, plan};
 use crate::body::{
-    Acts, Advice, Approach, Body, BodyError, Fields, Given, Giver, Maxima, Memo, Reading, Received,
-    Resources,
+    Acts, Advice, Approach, BodyError, Given, Giver, Maxima, Reading, Resources, Structured,
 };
 use crate::inputs::InputLayout;
 use crate::method::large_strain::{
     Drive, Failure, IMPLICIT_STEPS, IMPLICIT_WORK, ImplicitDynamics, Motion,
 };
+use crate::method::sph::ParticleFields;
 use crate::runtime::allowance::{Allowance, cost};
 use crate::scene::{LargeStrain, Scene};
-use crate::state::{
-    Field, Fields as StateFields, Layout, Per, expect_like, layout_like, load, store, stored,
-};
+use crate::state::{Field, Fields, Per};
 
 /// A body with inertia whose time steps are those of communication.
 pub struct SwingingBody {
@@ -36,13 +34,13 @@ pub struct SwingingBody {
 
 /// State of the body.
 #[derive(Debug, Clone, PartialEq, Default)]
-struct Swinging {
+pub struct Swinging {
     motion: Motion,
     /// Forces on the faces that are moved, means over the last step [N].
     forces: Vec<[f64; 3]>,
 }
 
-impl StateFields for Swinging {
+impl Fields for Swinging {
     fn fields(&mut self) -> Vec<(Field, &mut [f64])> {
         let of = |name, words, per, width| Field { name, words, per, width };
         let body = |name, words| of(name, words, Per::Body, 1);
@@ -81,7 +79,7 @@ impl SwingingBody {
         threads: impl Fn(bool) -> usize,
     ) -> Result<Self, BodyError> {
         let mesh = plan::mesh(solid);
-        let named = |failure| BodyError::LargeStrain { body: name.to_owned(), failure };
+        let named = |failure| named(name, failure);
         let threads = threads(is_large(mesh.cells.len() * 8));
         let body = plan::deformable(solid, threads).map_err(named)?;
         let columns = columns(&body.space, solid.is_box());
@@ -104,12 +102,6 @@ impl SwingingBody {
             temperature: solid.initial_temperature,
             notes: super::forecast::notes(solid),
         })
-    }
-
-    fn swinging(&self, state: &[f64]) -> Swinging {
-        let mut swinging = self.start.clone();
-        load(&mut swinging, state);
-        swinging
     }
 
     /// Moves to the places of the faces after a time [s] under the loads of its middle; halves the step where Newton's
@@ -144,17 +136,8 @@ impl SwingingBody {
 
     fn snapshot(&self, motion: &Motion) -> Result<Snapshot, BodyError> {
         let seen = self.seen(motion);
-        let stresses = seen.stresses().map_err(|failure| self.error(failure))?;
+        let stresses = seen.stresses().map_err(|failure| named(&self.name, failure))?;
         Ok(seen.snapshot(&stresses))
-    }
-
-    fn view(&self, Swinging { motion, forces }: Swinging) -> Result<View, BodyError> {
-        let seen = self.seen(&motion);
-        let stresses = seen.stresses().map_err(|failure| self.error(failure))?;
-        let snapshot = seen.snapshot(&stresses);
-        let sums = self.sums(&motion, &snapshot);
-        let probed = self.probes.read(&seen, &stresses, self.temperature);
-        Ok(View { snapshot, sums, forces, probed })
     }
 
     fn seen<'a>(&'a self, motion: &'a Motion) -> Seen<'a> {
@@ -168,14 +151,6 @@ impl SwingingBody {
             velocity: Some(&motion.velocity),
             history: &motion.history,
             touch: None,
-        }
-    }
-
-    fn error(&self, failure: Failure) -> BodyError {
-        let body = self.name.clone();
-        match failure {
-            Failure::Halted(halt) => BodyError::Halted { body, halt },
-            failure => BodyError::LargeStrain { body, failure },
         }
     }
 
@@ -212,73 +187,61 @@ impl SwingingBody {
     }
 }
 
-impl Body for SwingingBody {
+impl Structured for SwingingBody {
+    type State = Swinging;
+    type View = View;
+
     fn name(&self) -> &str {
         &self.name
     }
 
-    fn initial_state(&self) -> Vec<f64> {
-        stored(&self.start)
+    fn start(&self) -> &Swinging {
+        &self.start
     }
 
-    fn layout(&self, state: &[f64]) -> Option<Layout> {
-        layout_like(&self.start, state)
-    }
-
-    fn check_state(&self, state: &[f64], _: &[f64]) -> Result<(), String> {
-        let name = &self.name;
-        expect_like(&self.start, state, name)?;
-        let swinging = self.swinging(state);
-        if !swinging.forces.as_flattened().iter().all(|force| force.is_finite()) {
-            return Err(format!("{name}: a force is not finite"));
+    fn check(&self, Swinging { motion, forces }: &Swinging) -> Result<(), String> {
+        if !forces.as_flattened().iter().all(|force| force.is_finite()) {
+            return Err("a force is not finite".to_owned());
         }
-        self.check_motion(&swinging.motion).map_err(|reason| format!("{name}: {reason}"))
-    }
-
-    fn check_inputs(&self, _: &[f64]) -> Result<(), BodyError> {
-        Ok(())
-    }
-
-    fn memo(&self, _: &[f64], _: &[Received]) -> Memo {
-        Box::new(LargeStrainMemo::default())
-    }
-
-    fn forget_state(&self, memo: &mut Memo) {
-        *LargeStrainMemo::of_mut(memo) = LargeStrainMemo::default();
+        self.check_motion(motion)
     }
 
     fn advance(
         &self,
-        state: &mut Vec<f64>,
-        _: &Memo,
+        state: &mut Swinging,
         acts: &Acts,
         allowance: &Allowance,
     ) -> Result<Option<Given>, BodyError> {
-        let mut swinging = self.swinging(state);
-        swinging.forces.fill([0.0; 3]);
+        state.forces.fill([0.0; 3]);
         let mut from = self.faces.prescribed(&acts.path.at(0, 0.0));
         // Faces move from where they are, even if their inputs have jumped.
-        from.places = self.faces.places(&swinging.motion.displacement);
+        from.places = self.faces.places(&state.motion.displacement);
         let to = self.faces.prescribed(&acts.path.at(0, acts.duration));
-        let swung = self.swing(&mut swinging, (&from, &to), acts.duration, HALVINGS, allowance);
-        swung.map_err(|failure| self.error(failure))?;
-        swinging.forces.iter_mut().flatten().for_each(|force| *force /= acts.duration);
-        store(&mut swinging, state);
+        let swung = self.swing(state, (&from, &to), acts.duration, HALVINGS, allowance);
+        swung.map_err(|failure| named(&self.name, failure))?;
+        state.forces.iter_mut().flatten().for_each(|force| *force /= acts.duration);
         Ok(None)
     }
 
-    fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError> {
-        let memo = LargeStrainMemo::of_mut(memo);
-        let view = match memo.0.take() {
-            Some(known) => known,
-            None => self.view(self.swinging(state))?,
-        };
-        memo.0.insert(view).read(reading)
+    fn view(&self, Swinging { motion, forces }: Swinging, _: &[f64]) -> Result<View, BodyError> {
+        let seen = self.seen(&motion);
+        let stresses = seen.stresses().map_err(|failure| named(&self.name, failure))?;
+        let snapshot = seen.snapshot(&stresses);
+        let sums = self.sums(&motion, &snapshot);
+        let probed = self.probes.read(&seen, &stresses, self.temperature);
+        Ok(View { snapshot, sums, forces, probed })
     }
 
-    fn fields(&self, state: &[f64], _: &mut Memo) -> Result<Fields, BodyError> {
-        let Swinging { motion, .. } = self.swinging(state);
-        Ok(Fields::Particles(self.seen(&motion).particles(self.temperature)))
+    fn read(&self, view: &View, reading: &Reading) -> Result<f64, BodyError> {
+        view.read(reading)
+    }
+
+    fn drawn(
+        &self,
+        Swinging { motion, .. }: Swinging,
+        _: &[f64],
+    ) -> Result<ParticleFields, BodyError> {
+        Ok(self.seen(&motion).particles(self.temperature))
     }
 }
 

@@ -11,18 +11,16 @@ pub use moving::MovingLatticeBody;
 pub use resting::RestingLatticeBody;
 pub use totals::offered_totals;
 
-use crate::body::Memo;
-use crate::method::lattice::Particles;
+use crate::body::BodyError;
+use crate::method::lattice::{LatticeError, Particles};
 use crate::method::sph::ParticleFields;
-use totals::Seen;
 
-/// Lazily computed readings of a state.
-#[derive(Default)]
-struct LatticeMemo(Option<Seen>);
-
-impl LatticeMemo {
-    fn of_mut(memo: &mut Memo) -> &mut Self {
-        memo.downcast_mut().expect("a memo of the body that made it")
+/// Gives an error the name of its body.
+fn named(body: &str, error: LatticeError) -> BodyError {
+    let body = body.to_owned();
+    match error {
+        LatticeError::Halted(halt) => BodyError::Halted { body, halt },
+        error => BodyError::Lattice { body, error },
     }
 }
 

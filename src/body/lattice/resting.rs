@@ -1,17 +1,16 @@
 //! A lattice in equilibrium with what its input prescribes.
 
 use crate::body::{
-    Acts, Advice, Approach, Body, BodyError, Fields, Given, Giver, Maxima, Memo, Reading, Received,
-    Resources,
+    Acts, Advice, Approach, BodyError, Given, Giver, Maxima, Reading, Resources, Structured,
 };
 use crate::inputs::InputLayout;
-use crate::method::lattice::{Lattice, LatticeError, LatticeState};
+use crate::method::lattice::{Lattice, LatticeState};
+use crate::method::sph::ParticleFields;
 use crate::runtime::allowance::{Allowance, cost};
 use crate::scene;
-use crate::state::{Layout, expect_like, layout_like, load, store, stored};
 
 use super::totals::{self, Seen};
-use super::{Drawn, LatticeMemo, forecast, plan};
+use super::{Drawn, forecast, named, plan};
 
 /// A lattice in equilibrium with what its input prescribes.
 pub struct RestingLatticeBody {
@@ -41,8 +40,7 @@ impl RestingLatticeBody {
     ) -> Result<Self, BodyError> {
         let plan = plan::plan_of(own);
         let threads = threads(3 * plan.strip.count() > LARGE);
-        let named = |error| BodyError::Lattice { body: name.to_owned(), error };
-        let lattice = Lattice::new(plan, threads).map_err(named)?;
+        let lattice = Lattice::new(plan, threads).map_err(|error| named(name, error))?;
         let density = own.material.density;
         let area = lattice.particles().area * lattice.particles().places.len() as f64;
         Ok(Self {
@@ -61,96 +59,55 @@ impl RestingLatticeBody {
         })
     }
 
-    fn state(&self, state: &[f64]) -> LatticeState {
-        let mut own = self.start.clone();
-        load(&mut own, state);
-        own
-    }
-
-    fn seen(&self, state: &[f64], memo: &mut Memo) -> Seen {
-        *LatticeMemo::of_mut(memo).0.get_or_insert_with(|| {
-            let own = self.state(state);
-            Seen::at_rest(&own, self.lattice.totals(&own), self.mass)
-        })
-    }
-
     fn work(&self) -> usize {
         Lattice::WORK * self.lattice.unknowns()
     }
-
-    fn error(&self, error: LatticeError) -> BodyError {
-        let body = self.name.clone();
-        match error {
-            LatticeError::Halted(halt) => BodyError::Halted { body, halt },
-            error => BodyError::Lattice { body, error },
-        }
-    }
 }
 
-impl Body for RestingLatticeBody {
+impl Structured for RestingLatticeBody {
+    type State = LatticeState;
+    type View = Seen;
+
     fn name(&self) -> &str {
         &self.name
     }
 
-    fn initial_state(&self) -> Vec<f64> {
-        stored(&self.start)
+    fn start(&self) -> &LatticeState {
+        &self.start
     }
 
-    fn layout(&self, state: &[f64]) -> Option<Layout> {
-        layout_like(&self.start, state)
-    }
-
-    fn check_state(&self, state: &[f64], _: &[f64]) -> Result<(), String> {
-        let name = &self.name;
-        expect_like(&self.start, state, name)?;
-        self.lattice.check(&self.state(state)).map_err(|reason| format!("{name}: {reason}"))
-    }
-
-    fn check_inputs(&self, _: &[f64]) -> Result<(), BodyError> {
-        Ok(())
-    }
-
-    fn memo(&self, _: &[f64], _: &[Received]) -> Memo {
-        Box::new(LatticeMemo::default())
-    }
-
-    fn forget_state(&self, memo: &mut Memo) {
-        *memo = Box::new(LatticeMemo::default());
+    fn check(&self, state: &LatticeState) -> Result<(), String> {
+        self.lattice.check(state)
     }
 
     /// Moves to the value that is prescribed at the end of the step, through those at which its motion turns.
     fn advance(
         &self,
-        state: &mut Vec<f64>,
-        _: &Memo,
+        state: &mut LatticeState,
         acts: &Acts,
         allowance: &Allowance,
     ) -> Result<Option<Given>, BodyError> {
-        let mut own = self.state(state);
         let turns = acts.path.turns(acts.duration).into_iter();
         for time in turns.filter(|&time| time < acts.duration).chain([acts.duration]) {
             let target = acts.path.at(0, time)[self.input];
-            let moved = self.lattice.advance(&mut own, target, allowance);
-            moved.map_err(|error| self.error(error))?;
-        }
-        store(&mut own, state);
-        if !state.iter().all(|value| value.is_finite()) {
-            return Err(BodyError::Overflow { body: self.name.clone() });
+            let moved = self.lattice.advance(state, target, allowance);
+            moved.map_err(|error| named(&self.name, error))?;
         }
         Ok(None)
     }
 
-    fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError> {
-        let Reading::Total(place) = *reading else { return Err(BodyError::NoSuchReading) };
-        Ok(totals::read(place, &self.seen(state, memo)))
+    fn view(&self, state: LatticeState, _: &[f64]) -> Result<Seen, BodyError> {
+        Ok(Seen::at_rest(&state, self.lattice.totals(&state), self.mass))
     }
 
-    fn fields(&self, state: &[f64], _: &mut Memo) -> Result<Fields, BodyError> {
-        let own = self.state(state);
-        let moved = self.lattice.displacements(&own).into_iter().map(|moved| [moved, [0.0; 2]]);
-        let inside = self.lattice.at_particles(&own);
-        let fields = self.drawn.particles(self.lattice.particles(), moved, inside);
-        Ok(Fields::Particles(fields))
+    fn read(&self, view: &Seen, reading: &Reading) -> Result<f64, BodyError> {
+        totals::read(reading, view)
+    }
+
+    fn drawn(&self, state: LatticeState, _: &[f64]) -> Result<ParticleFields, BodyError> {
+        let moved = self.lattice.displacements(&state).into_iter().map(|moved| [moved, [0.0; 2]]);
+        let inside = self.lattice.at_particles(&state);
+        Ok(self.drawn.particles(self.lattice.particles(), moved, inside))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Values of a lattice as a whole.
 
-use crate::body::{Descriptor, Direct};
+use crate::body::{BodyError, Descriptor, Direct, Reading};
 use crate::method::lattice::{LatticeMotion, LatticeState, LatticeTotals, MotionTotals};
 use crate::quantity::Quantity;
 use crate::scene::{Lattice, LatticeControl};
@@ -168,7 +168,10 @@ pub fn offered_totals(lattice: &Lattice) -> Vec<(usize, Descriptor)> {
     places.map(|(place, total)| (place, total.descriptor)).collect()
 }
 
-/// Reads the total at a place of the table.
-pub fn read(place: usize, seen: &Seen) -> f64 {
-    (TOTALS[place].read)(seen)
+/// Reads a total.
+pub fn read(reading: &Reading, seen: &Seen) -> Result<f64, BodyError> {
+    match *reading {
+        Reading::Total(place) => Ok((TOTALS[place].read)(seen)),
+        _ => Err(BodyError::NoSuchReading),
+    }
 }
