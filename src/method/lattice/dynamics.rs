@@ -45,6 +45,8 @@ pub struct MovingLattice {
 const STEPS: &str = "time steps of a lattice";
 /// Links or particles that one thread computes at a time.
 const BLOCK: usize = 2048;
+/// Part of the critical damping with which faces of cracks meet: they part at half of the speed.
+const RESTITUTION_DAMPING: f64 = 0.2;
 /// Part of the energies by which those of a state may differ.
 const ENERGY: f64 = 0.05;
 /// Part of what is prescribed that a state may miss, and of damage.
@@ -66,6 +68,9 @@ struct Strained {
     damage: f64,
     /// Stretch up to which damage does not grow [1].
     reached: f64,
+    /// Force of the contact's dashpot, positive in tension [N], and the rate of opening that it refers to [m/s].
+    dashpot: f64,
+    rate: f64,
 }
 
 /// One change of all velocities: forces act for a time, damping fades speeds, and forces act for another time [s].
@@ -173,6 +178,7 @@ impl MovingLattice {
             run.strain();
             run.kick(if step as f64 == steps { Part::Last } else { Part::Middle }, speed);
         }
+        run.count_contact();
         run.store(motion);
         (motion.prescribed, motion.speed) = (target, speed);
         motion.duration = duration;
@@ -260,7 +266,8 @@ impl MovingLattice {
     /// Refuses a state that breaks a law: damage that no stretch explains, supports that move, energy without cause.
     pub fn check(&self, motion: &LatticeMotion) -> Result<(), String> {
         check_damage(&self.links, &motion.damage)?;
-        if motion.steps < 0.0 || motion.duration < 0.0 || motion.damped < 0.0 {
+        let least = -CHECKED * (motion.work.abs() + motion.dissipated.abs());
+        if motion.steps < 0.0 || motion.duration < 0.0 || motion.damped < least {
             return Err("steps, their lengths and what damping takes are not negative".to_owned());
         }
         for (values, wanted) in
@@ -339,6 +346,8 @@ struct Run<'a> {
     team: Team,
     /// Time step [s].
     dt: f64,
+    /// Time for which the present forces have acted [s].
+    acted: f64,
     work: f64,
     impulse: f64,
     dissipated: f64,
@@ -357,6 +366,8 @@ impl<'a> Run<'a> {
             forces: [0.0; 4],
             damage,
             reached: if damage < 1.0 { member.onset } else { f64::INFINITY },
+            dashpot: 0.0,
+            rate: 0.0,
         };
         Self {
             of,
@@ -365,6 +376,7 @@ impl<'a> Run<'a> {
             outside: vec![[0.0; COMPONENTS]; motion.displacement.len()],
             team: Team::new(of.threads),
             dt,
+            acted: 0.0,
             work: 0.0,
             impulse: 0.0,
             dissipated: 0.0,
@@ -423,6 +435,7 @@ impl<'a> Run<'a> {
 
     /// Computes the forces of all links, and lets damage grow.
     fn strain(&mut self) {
+        self.count_contact();
         let (of, movers, dt) = (self.of, &self.movers, self.dt);
         let (bending, closes) = (of.plan.bending, of.plan.closes);
         let mut blocks: Vec<_> = self.strained.chunks_mut(BLOCK).enumerate().collect();
@@ -439,10 +452,31 @@ impl<'a> Run<'a> {
                 }
                 let parts = remaining(closes, &strain.q, strained.damage);
                 strained.forces = member.forces(&strain, parts);
+                strained.dashpot = 0.0;
+                if closes && strain.q[0] < 0.0 && strained.damage > 0.0 {
+                    of.meet(member, &strain, ends, strained);
+                }
             }
             dissipated
         });
         self.dissipated += dissipated.iter().sum::<f64>();
+    }
+
+    /// Counts what the dashpots of contacts have taken with the present forces: their work at the mean of the rates
+    /// before and after.
+    fn count_contact(&mut self) {
+        let (of, movers, acted) = (self.of, &self.movers, self.acted);
+        let taken = |(strained, member): (&Strained, &Member)| {
+            if strained.dashpot == 0.0 {
+                return 0.0;
+            }
+            let ends = member.ends.map(|i| &movers[i as usize]);
+            let strain = member.strain(ends.map(|end| &end.pose));
+            let rate = member.opening_rate(&strain, ends.map(Mover::speed));
+            0.5 * strained.dashpot * (strained.rate + rate) * acted
+        };
+        self.damped += self.strained.iter().zip(&of.members).map(taken).sum::<f64>();
+        self.acted = 0.0;
     }
 
     /// Changes velocities by the forces, with those of supports and load that keep them at the speed of the load, and
@@ -455,6 +489,7 @@ impl<'a> Run<'a> {
             Part::Middle => Kick { before: half, fading: fading(self.dt), after: half },
             Part::Last => Kick { before: half, fading: fading(half), after: 0.0 },
         };
+        self.acted += kick.before + kick.after;
         self.hold(kick, speed);
         let drift = if part == Part::Last { 0.0 } else { self.dt };
         let (of, strained, outside) = (self.of, &self.strained, &self.outside);
@@ -528,6 +563,16 @@ impl MovingLattice {
         0.5 * growth * dot(&forces, q)
     }
 
+    /// Adds the force of the dashpot of a contact. Faces of cracks that met elastically would rattle, and explicit steps
+    /// as short as the contact would heat them.
+    #[cold]
+    fn meet(&self, member: &Member, strain: &Strain, ends: [&Mover; 2], strained: &mut Strained) {
+        let masses = member.ends.map(|i| self.inverse[i as usize][0]);
+        let coefficient = strained.damage * member.dashpot(RESTITUTION_DAMPING, masses);
+        strained.rate = member.opening_rate(strain, ends.map(Mover::speed));
+        strained.dashpot = member.damp(&mut strained.forces, strain, coefficient, strained.rate);
+    }
+
     /// Forces on a particle: those of its links and those from outside.
     #[inline(always)]
     fn force(
@@ -549,6 +594,11 @@ impl MovingLattice {
 }
 
 impl Mover {
+    /// Velocity of its middle [m/s].
+    fn speed(&self) -> [f64; 2] {
+        [self.velocity[0], self.velocity[1]]
+    }
+
     /// Pose a time earlier.
     fn before(&self, dt: f64) -> Pose {
         let [u, w] = self.pose.moved;

@@ -103,6 +103,32 @@ impl Member {
         q[0] / self.length + 2.0 * bending * curved
     }
 
+    /// Rate at which the ends move apart along the chord, from their velocities [m/s].
+    pub fn opening_rate(&self, strain: &Strain, [a, b]: [[f64; 2]; 2]) -> f64 {
+        (b[0] - a[0]) * strain.chord[0] + (b[1] - a[1]) * strain.chord[1]
+    }
+
+    /// Changes the forces of a closed link by those of a dashpot, of a coefficient [N s/m] and the rate at which its ends
+    /// move apart, as far as they still press; returns the force of the dashpot, positive in tension [N].
+    pub fn damp(
+        &self,
+        forces: &mut EndForces,
+        strain: &Strain,
+        coefficient: f64,
+        rate: f64,
+    ) -> f64 {
+        let force = (coefficient * rate).min(-self.axial * strain.q[0]);
+        let [c, s] = strain.chord;
+        forces[0] -= force * c;
+        forces[1] -= force * s;
+        force
+    }
+
+    /// Coefficient of a dashpot that damps the contact of two inverse masses [1/kg] by a part of its critical damping.
+    pub fn dashpot(&self, part: f64, [a, b]: [f64; 2]) -> f64 {
+        2.0 * part * (self.axial / (a + b)).sqrt()
+    }
+
     /// Forces on the particles, of which the given parts of axial and flexural stiffness remain. They are the exact
     /// derivative of the energy up to the fourth power of the rotations.
     #[inline(always)]
