@@ -29,7 +29,7 @@ pub fn note(scene: &Scene, inputs: &[f64]) -> Option<String> {
     idle.dedup();
     let remedy = match idle.first() {
         Some(first) => format!(
-            "set {} by `--set {first}=VALUE`, over time by `--inputs`, or in the scene",
+            "set {} by `--set {first}=VALUE`, over time by `--inputs`, or where the scene has a key for it",
             idle.join(", ")
         ),
         None => "the scene has neither loads nor conditions on faces".to_owned(),

@@ -58,7 +58,7 @@ pub struct Run {
 /// Settings of a run.
 #[derive(Args)]
 pub struct Options {
-    /// Set a parameter or an input by name; `impinge check` lists them
+    /// Set a parameter or an input by name; `impinge check --list` lists them
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<Assignment>,
     /// Stop at this time instead of the scene's stop_time

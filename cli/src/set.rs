@@ -216,7 +216,7 @@ fn close_names(registry: &Registry, name: &str) -> Vec<String> {
 
 fn suggestion(close: &[String]) -> String {
     if close.is_empty() {
-        "; `impinge check` lists them".into()
+        "; `impinge check --list` lists them".into()
     } else {
         format!("; did you mean {}?", close.join(" or "))
     }

@@ -38,8 +38,7 @@ fn drying(reviewer: &mut Reviewer, (name, droplet): (&str, &Droplet)) {
     if scene.stop_time < NOTABLE * time {
         return;
     }
-    let finding =
-        warning::drop_dries(below, below_temperature, two_digits(time), two_digits(NOTABLE * time));
+    let finding = warning::drop_dries(below, below_temperature, two_digits(NOTABLE * time));
     reviewer.warn(&Path::default().key("body").key(name), finding);
 }
 

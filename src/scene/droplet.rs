@@ -100,7 +100,7 @@ pub struct Droplet {
         "condition" = "`explicit` with a constant viscosity"
     ))]
     pub viscous: ViscousAdvance,
-    /// Advance of pressure in time.
+    /// Advance of pressure in time; `implicit` is quick for fluid that is thick, slow or at rest.
     #[serde(default)]
     #[schemars(extend("condition" = "`implicit` without `melting` of the fluid and without `viscous = \"explicit\"`"))]
     pub pressure: PressureAdvance,

@@ -49,7 +49,7 @@ pub struct Lattice {
     pub inertia: bool,
     /// Rate at which the speed of every particle fades, `dv/dt = −damping v` [1/s].
     #[serde(default)]
-    #[schemars(transform = within(0.0, 1e12, "1/s", "the damping of a lattice")
+    #[schemars(transform = within(0.0, 1e5, "1/s", "the damping of a lattice")
         .plausible(&plausible::FADING)
         .condition("with `inertia = true`"))]
     pub damping: f64,

@@ -25,10 +25,10 @@ rules! {
      liquid";
     "do not rely on heat and forces from first contact on"
 
-    Check drop_dries(below, temperature, time, shorter)
-    "a drop at rest on `{below}` at {temperature} K would dry in about {time} s in still, dry air, and the model has no \
-     evaporation";
-    "do not rely on volume, shape and heat beyond {shorter} s after the impact; humid air slows drying"
+    Check drop_dries(below, temperature, time)
+    "a drop at rest on `{below}` at {temperature} K would lose a twentieth of its mass in {time} s to still, dry air, and the \
+     model has no evaporation";
+    "do not rely on volume, shape and heat beyond that time; humid air slows drying"
 
     Check pressure_of_thin_fluid(reynolds, thick)
     "the Reynolds number of the drop is {reynolds}: pressure that is solved at the end of steps lets the density of fluid as \

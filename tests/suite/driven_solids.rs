@@ -260,3 +260,49 @@ fn implicit_states_continue_bit_for_bit_and_forged_ones_are_refused() {
     }
     assert!(refused * 10 >= 2 * count * 9, "{refused} of {}", 2 * count);
 }
+
+/// A steel strip 200 times as long as thick bends under a pressure that rounding nearly hides.
+#[test]
+fn slender_strips_bend_as_beams() {
+    let text = r#"
+name = "Slender"
+stop_time = 1.0
+step = 1.0
+[body.pad]
+kind = "solid"
+strain = "finite"
+dimension = 2
+shape = { box = [0.2, 0.02, 1e-3] }
+mesh = { spacing = 0.5e-3 }
+initial_temperature = 293.15
+material = { model = "neo_hookean", density = 7900.0, specific_heat = 500.0, conductivity = 15.0, young = 2e11, poisson = 0.3 }
+faces = { left = { clamped = true }, top = { pressure = 0.0 } }
+"#;
+    let tip = probe("tip", [0.1, 0.0, 0.0], "\"displacement\"");
+    let mut trial = Trial::new(&format!("{text}{tip}"));
+    for pressure in [5.0, 10.0] {
+        trial.set("pad.top.pressure", pressure);
+        trial.step(1.0);
+        let stiffness = 2e11 / (1.0 - 0.09) * 1e-9 / 12.0;
+        let expected = -pressure * 0.2_f64.powi(4) / (8.0 * stiffness);
+        // Two linear elements across are 5 % too soft or stiff.
+        let found = trial.get("tip.displacement_z");
+        assert!((found / expected - 1.0).abs() < 0.06, "{pressure} Pa: {found} {expected}");
+    }
+}
+
+/// Pressures that jump by as much as the body is stiff add no energy: such steps are halved.
+#[test]
+fn violent_steps_gain_no_energy() {
+    let faces = "faces = { bottom = { roller = true }, top = { pressure = 0.0 } }";
+    let keys =
+        format!("{BLOCK}\nsymmetry = \"quarter\"\ninertia = true\nmotion = \"implicit\"\n{faces}");
+    let mut trial = Trial::new(&rubber(&keys));
+    for pressure in [1e4, 5e5, -3e5, 1e4, 0.0] {
+        trial.set("pad.top.pressure", pressure);
+        trial.step(2e-3);
+        let of = |key: &str| trial.get(&format!("pad.{key}"));
+        let [work, dissipated] = ["load_work", "dissipated"].map(of);
+        assert!(dissipated.abs() < 0.03 * work.abs().max(1e-6), "{dissipated} J of {work} J");
+    }
+}

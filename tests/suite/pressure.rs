@@ -66,3 +66,18 @@ fn a_saved_state_of_solved_pressure_goes_on_to_the_bit_on_any_threads() {
     (0..4).for_each(|_| other.step(1e-3));
     assert!(whole.state == other.state);
 }
+
+/// A drop that is let go above a wall falls freely in steps that its speed allows, however long a step of communication is.
+#[test]
+fn drops_that_are_let_go_fall_freely() {
+    let text = scene("pressure = \"implicit\"\nheight = 2e-3")
+        .replace("impact_velocity = 0.4", "impact_velocity = 0.0")
+        .replace("surface_tension = 0.063", "surface_tension = 0.0");
+    let mut trial = Trial::new(&text);
+    trial.step(0.015);
+    let [mass, momentum] = ["mass", "momentum_z"].map(|key| trial.get(&format!("drop.{key}")));
+    assert!((momentum / (-mass * 9.81 * 0.015) - 1.0).abs() < 1e-6, "{momentum}");
+    trial.step(0.1);
+    let weight = mass * 9.81;
+    assert!((trial.get("drop.force") * 0.1 / (weight * 0.115) - 1.0).abs() < 0.02);
+}

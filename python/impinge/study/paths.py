@@ -128,9 +128,10 @@ def path(
     _check_positive(speed=speed, flow=flow, spacing=spacing, spread=spread)
     _check_least(1.0, coarse=coarse)
     _check_least(0.0, run_out=run_out)
-    _check_least(3, simulations=simulations)
-    _check_least(2, size=size)
-    _check_least(1, processes=processes)
+    _check_whole(3, simulations=simulations)
+    _check_whole(2, size=size)
+    _check_whole(1, processes=processes)
+    _check_whole(0, seed=seed)
     study = _Study(scene, target, speed, flow, spacing)
     ranges = _ranges(waypoints, region, study.diameter)
     journal = Journal(Path(folder)) if folder is not None else None
@@ -172,26 +173,58 @@ def _check_least(least: float, **numbers: float | None) -> None:
             raise ValueError(f"{name} = {number!r} (allowed: {least:g} or more)")
 
 
+_MOST = 10_000  # of whole numbers: waypoints, members of a generation, simulations, processes
+
+
+def _check_whole(least: int, **numbers: int | None) -> None:
+    for name, number in numbers.items():
+        is_whole = isinstance(number, int | np.integer) and not isinstance(number, bool)
+        most = _MOST if name != "seed" else 2**32 - 1
+        if number is not None and not (is_whole and least <= number <= most):
+            raise ValueError(
+                f"{name} = {number!r} (allowed: whole numbers, {least} or more, to {most})"
+            )
+
+
 def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float | np.number) and bool(np.isfinite(value))
+    is_real = isinstance(value, int | float | np.number) and not isinstance(value, bool)
+    return is_real and bool(np.isfinite(value))
 
 
 def _ranges(waypoints: Any, region: tuple[float, float], diameter: float) -> Waypoints:
+    if len(region) != 2 or not all(map(_is_number, region)):
+        raise ValueError(f"region = {region} (allowed: two parts of the target's length)")
     low, high = region
     if not 0.0 <= low < high <= 1.0:
         raise ValueError(f"region = {region} (allowed: 0 <= low < high <= 1)")
-    if isinstance(waypoints, int):
+    if isinstance(waypoints, int | float):
+        if waypoints != 0:
+            _check_whole(1, waypoints=waypoints)
         edges = np.linspace(low, high, waypoints + 1)
         reach = 3.0 * diameter
         waypoints = [((a, b), (-reach, reach)) for a, b in zip(edges, edges[1:], strict=False)]
     if not waypoints:
         raise ValueError("no waypoints (allowed: one or more)")
-    for part, offset in waypoints:
+    for each in waypoints:
+        if len(each) != 2 or any(len(one) != 2 for one in each):
+            raise ValueError(f"waypoint {each} (allowed: ranges of a part and of an offset)")
+        part, offset = each
         if not (low <= part[0] <= part[1] <= high and offset[0] < offset[1]):
             message = f"waypoint {part}, {offset} (allowed: parts within {region}, low < high)"
             raise ValueError(message)
     parts, offsets = zip(*waypoints, strict=True)
     return Waypoints(tuple(map(tuple, parts)), tuple(map(tuple, offsets)), (low, high))
+
+
+def _places_of(target: Any) -> list[list[float]]:
+    """The places of a target that stands for the scene's: two or more, apart."""
+    places = np.asarray(target, float)
+    is_list = places.ndim == 2 and places.shape[1] == 2 and len(places) >= 2
+    if not (is_list and np.all(np.abs(places) < 1e3) and np.ptp(places, axis=0).max() > 1e-9):
+        raise ValueError(
+            f"target = {target!r} (allowed: two or more places [x, y] in metres, apart)"
+        )
+    return places.tolist()
 
 
 class _Study:
@@ -219,7 +252,7 @@ class _Study:
         if any(isinstance(number, str) for place in line for number in place):
             raise StudyError(f"{scene}: target.line = {line} (allowed: numbers in metres)")
         if target is not None and not isinstance(target, str):
-            line = np.asarray(target, float).tolist()
+            line = _places_of(target)
             self.changes[f"target.{places[0]}.line"] = line
         body = content["body"][name]
         if body.get("path") != "input":
@@ -238,6 +271,10 @@ class _Study:
         _check_positive(flow=self.flow)
         self.speed = speed
         self.line = Line(line)
+        pieces = self.line.length / self.spacing
+        if not 1e-3 <= pieces <= 1e6:
+            allowed = f"a part of the target's {self.line.length:g} m"
+            raise ValueError(f"spacing = {self.spacing!r} (allowed: {allowed})")
 
     def job(self, factor: float) -> Job:
         """The runs of segments that are longer by a factor."""

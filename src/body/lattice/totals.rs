@@ -119,9 +119,12 @@ const TOTALS: [Total; 16] = [
     ),
     of(
         Offered::Moving,
-        total("damped_energy", "energy that damping has taken", Quantity::Energy, |seen| {
-            seen.damped
-        }),
+        total(
+            "damped_energy",
+            "energy that damping and meeting faces of cracks have taken",
+            Quantity::Energy,
+            |seen| seen.damped,
+        ),
     ),
     total("mechanical_work", "work of the load since time zero", Quantity::Energy, |seen| {
         seen.work

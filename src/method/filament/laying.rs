@@ -35,6 +35,8 @@ const LEAST_HEIGHT: f64 = 0.01;
 const CLEARANCE: f64 = 0.1;
 /// Bisections in the search for the time of a volume.
 const HALVINGS: usize = 60;
+/// Part of a segment's volume below which fluid belongs to the segment before: the rounding of a path's end.
+const SLIVER: f64 = 1e-6;
 /// Rounding that a comparison of volumes leaves room for.
 const SLACK: f64 = 1e-9;
 
@@ -172,7 +174,10 @@ impl Line {
         let duration = piece.to - piece.from;
         let speed = piece.volume / (duration * self.plan.outlet());
         let velocity = [0, 1, 2].map(|axis| (end[axis] - begin[axis]) / duration);
-        let last = (strand.open == 1.0).then(|| strand.segment(strand.len() - 1));
+        let whole = self.plan.segment_volume() * (1.0 - SLACK);
+        let before = strand.segments().next_back();
+        let is_sliver = |last: &Segment| last.end == strand.touch && piece.volume < SLIVER * whole;
+        let last = before.filter(|last| strand.open == 1.0 || is_sliver(last));
         let mut next = || {
             let start = Segment { start: strand.touch, end: strand.touch, ..Segment::default() };
             self.settled((strand, beneath), start, (strand.len(), begin[2]))
@@ -182,7 +187,6 @@ impl Line {
         let free = (end[2] - open.base - thickness).max(0.0);
         let touch = touchdown(strand.touch, [begin, end], (duration, 0.5 * free / speed));
         let path = (touch[0] - open.end[0]).hypot(touch[1] - open.end[1]);
-        let whole = self.plan.segment_volume() * (1.0 - SLACK);
         let moves_on = path >= SLOW * speed * duration;
         let is_new = last.is_none_or(|last| last.is_heap && last.volume >= whole && moves_on);
         let mut segment = if is_new { next() } else { open };

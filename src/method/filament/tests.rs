@@ -316,6 +316,23 @@ fn width_does_not_follow_the_step() {
     assert!((widths[1] / widths[2] - 1.0).abs() < 2e-3, "{widths:?}");
 }
 
+/// What rounding leaves of a path beyond its last segment is part of that.
+#[test]
+fn no_slivers_end_a_strand() {
+    let line = Line::new(plan(CONCRETE, 0.02));
+    let whole = line.plan().segment_volume();
+    let around = Around { surface: &Surface::default(), air: 300.0 };
+    let mut strand = line.start([0.0, 0.0, 0.015]);
+    let flow = 0.1 * line.plan().outlet();
+    let duration = 4.0 * whole / flow;
+    line.advance(&mut strand, &[along(duration, (0.0, 0.015), 0.1, flow)], &around).unwrap();
+    let count = strand.len();
+    let rest = along(1e-9 * duration, (0.1 * duration, 0.015), 0.1, flow);
+    line.advance(&mut strand, &[rest], &around).unwrap();
+    assert_eq!(strand.len(), count);
+    assert!(line.totals(&strand).last_width > 0.5 * strand.segment(0).width());
+}
+
 /// A strand that crosses an older one lies on that, and heats it.
 #[test]
 fn strands_lie_on_strands() {

@@ -25,6 +25,11 @@ pub enum Failure {
     )]
     NotConverged { residual: f64 },
     #[error(
+        "{energy:.1e} J of the body's energy would have no cause: its stress changes too much in a step (allowed: shorter \
+         communication steps, or loads that change less in a step)"
+    )]
+    Unbalanced { energy: f64 },
+    #[error(
         "the stiffness is singular: the body is held by too little, or has lost its stability (allowed: `clamped` or \
          `roller` faces that hold it, or `inertia = true`)"
     )]

@@ -6,7 +6,7 @@
 //! the mean one.
 
 use super::path::{Path, gradients};
-use super::statics::{difference, rounding, sum};
+use super::statics::{difference, is_rounding, rounding, sum};
 use super::tangent::{Factor, Stiffness, Terms};
 use super::{Course, Deformable, FaceLoad, Failure, LoadedFaces, Motion};
 use crate::math::matrix3::Matrix3;
@@ -48,6 +48,9 @@ pub const IMPLICIT_STEPS: &str = "iterations of implicit steps of a solid of lar
 pub const IMPLICIT_WORK: usize = 3000;
 /// Largest residual over the norm of all forces at nodes.
 const TOLERANCE: f64 = 1e-11;
+/// Energy of the body that may have no cause in a step, over the change of what it stores and over that itself.
+const GAINED: f64 = 0.02;
+const STORED: f64 = 1e-6;
 const ITERATIONS: usize = 25;
 /// Halvings of a Newton step before it is given up.
 const HALVINGS: usize = 8;
@@ -124,13 +127,30 @@ impl ImplicitDynamics {
             if residuals.len() > ITERATIONS {
                 return Err(Failure::NotConverged { residual: now.norm / now.scale });
             }
+            let before = now.norm;
             (u, now) = self.improve(&step, &u, &now)?;
             residuals.push(now.norm / now.scale);
+            if is_rounding([before, now.norm], now.scale) {
+                break;
+            }
         }
         let (internal, loads) = (now.internal, now.loads);
         let mut history = motion.history.clone();
-        let over = self.body.in_all(Course::of(dt));
-        self.body.respond(&u, &over, &mut history, team)?;
+        let energy = |u: &[[f64; 3]], history: &mut [f64], time: f64| -> Result<f64, Failure> {
+            let over = self.body.in_all(Course::of(time));
+            Ok(self.body.respond(u, &over, history, team)?.energy)
+        };
+        let before = energy(&motion.displacement, &mut history.clone(), 0.0)?;
+        let after = energy(&u, &mut history, dt)?;
+        let way = difference(&u, &motion.displacement);
+        let along = internal.as_flattened().iter().zip(way.as_flattened());
+        let work = -along.map(|(force, way)| force * way).sum::<f64>();
+        // Laws with a history may dissipate.
+        let gained = after - before - work;
+        let gained = if self.body.history() == 0 { gained.abs() } else { gained };
+        if gained > GAINED * ((after - before).abs() + work.abs()) + STORED * (before + after) {
+            return Err(Failure::Unbalanced { energy: gained });
+        }
         let reactions = self.finish(motion, u, dt, &internal, &loads);
         motion.history = history;
         Ok(Stepped { residuals, reactions })

@@ -63,6 +63,8 @@ const HALVINGS: usize = 8;
 const GROWTH: f64 = 2.0;
 /// Part of a prescribed displacement whose forces are taken as linear.
 const SMALL: f64 = 1e-6;
+/// Part of the forces up to which a residual that falls no more is rounding: slender bodies bend by little strain.
+const STALLED: f64 = 1e-7;
 /// Rounding of a strain over 1.
 const ROUNDING: f64 = 4e-15;
 
@@ -127,8 +129,12 @@ impl Equilibrium {
             if residuals.len() == ITERATIONS {
                 return Err(Failure::NotConverged { residual: now.norm / now.scale });
             }
+            let before = now.norm;
             (u, now) = self.improve(&step, &u, &now)?;
             residuals.push(now.norm / now.scale);
+            if is_rounding([before, now.norm], now.scale) {
+                break;
+            }
         }
         let found = Found {
             residuals,
@@ -242,6 +248,11 @@ impl Equilibrium {
         let scale = scale.sqrt().max(f64::MIN_POSITIVE);
         Ok(Trial { linearised, stresses, residual, norm: norm.sqrt(), scale, history, reactions })
     }
+}
+
+/// Returns true if an iteration that took a residual to another did not halve it, and it is small beside the forces.
+pub(super) fn is_rounding([before, after]: [f64; 2], scale: f64) -> bool {
+    after > 0.5 * before && after <= STALLED * scale
 }
 
 /// Bound on the rounding of the internal forces, as a norm over the nodes [N].

@@ -107,6 +107,8 @@ impl Default for StepShares {
     }
 }
 
+/// Largest ratio of a step to the one before where sound limits none.
+const LENGTHENED: f64 = 1.5;
 /// Largest distance over H that particles move in a time step with implicit viscosity.
 const MOST_WAY: f64 = 0.05;
 /// `s λ/ω²` of sound over ν/c₀², see [`Method::damped`].
@@ -275,6 +277,19 @@ impl Method {
                 pushes.push((self.place(part.position[k]), [0.0, 0.0, impulse]));
             }
         }
+    }
+
+    /// First step of an advance where sound limits none: fluid that is let go is slow, and gains speed within it.
+    pub fn first_step(&self, most_accelerated: f64) -> f64 {
+        match self.solves_pressure {
+            true => (2.0 * MOST_WAY / most_accelerated).sqrt(),
+            false => f64::INFINITY,
+        }
+    }
+
+    /// Longest step after one.
+    pub fn next_step(&self, dt: f64) -> f64 {
+        if self.solves_pressure { LENGTHENED * dt } else { f64::INFINITY }
     }
 
     /// Largest stable step, over H/c₀.

@@ -153,8 +153,10 @@ impl<'a, 'p> Stepper<'a, 'p> {
         }
         let mut rest = duration / method.units.time();
         let mut motion = self.kick(Times::NONE);
+        let mut longest = method.first_step(motion.most_accelerated());
         while rest > 0.0 && self.cloud.len() > 0 {
             let stable = method.stable_step(motion.fastest(), motion.most_accelerated());
+            let stable = stable.min(longest);
             if !stable.is_finite() || stable <= 0.0 {
                 return Err(self.not_finite("velocity"));
             }
@@ -164,6 +166,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
             let dt = rest / steps;
             let turn = method.turn(dt).min(steps);
             motion = self.round(dt, turn, steps, allowance)?;
+            longest = method.next_step(dt);
             rest = if turn == steps { 0.0 } else { rest - turn * dt };
         }
         self.push_wall(&motion.pushed);

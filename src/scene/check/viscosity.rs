@@ -72,6 +72,11 @@ fn pressure(checker: &mut Checker, droplet_path: &Path, droplet: &Droplet) {
             "no `viscous`, \"auto\", \"implicit\"",
         );
     }
+    if droplet.fluid.sound_speed.is_some() {
+        let message = "pressure is solved with the speed of sound of the model";
+        let allowed = "no `sound_speed`, or `pressure = \"explicit\"`";
+        checker.refuse(&droplet_path.at("fluid.sound_speed"), message, allowed);
+    }
     if droplet.fluid.melting.is_some() {
         let message = "pressure is not solved for fluids that freeze";
         let allowed = "\"explicit\", or no `melting` of the fluid";

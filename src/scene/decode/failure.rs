@@ -94,6 +94,7 @@ pub fn expectation(serde: &str) -> String {
     match serde {
         "f64" => "a finite number".to_owned(),
         "usize" => "a whole number, not negative".to_owned(),
+        "u32" => "a whole number from 0 to 4294967295".to_owned(),
         "a boolean" => "true or false".to_owned(),
         "a string" => "a text in quotes".to_owned(),
         "a sequence" => "a list".to_owned(),
