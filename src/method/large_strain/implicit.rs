@@ -49,7 +49,7 @@ pub const IMPLICIT_WORK: usize = 3000;
 /// Largest residual over the norm of all forces at nodes.
 const TOLERANCE: f64 = 1e-11;
 /// Energy of the body that may have no cause in a step, over the change of what it stores and over that itself.
-const GAINED: f64 = 0.02;
+const GAINED: f64 = 0.005;
 const STORED: f64 = 1e-6;
 const ITERATIONS: usize = 25;
 /// Halvings of a Newton step before it is given up.
