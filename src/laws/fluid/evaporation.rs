@@ -1,6 +1,6 @@
 //! Evaporation of a fluid into still air.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_2_PI, PI};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -74,7 +74,7 @@ impl SphericalCap {
     fn shape(&self) -> f64 {
         let angle = self.angle;
         if angle < 0.175 {
-            return angle * (0.6366 + angle * (0.09591 - 0.06144 * angle));
+            return angle * (FRAC_2_PI + angle * (0.09591 - 0.06144 * angle));
         }
         8.957e-5 + angle * (0.6333 + angle * (0.116 + angle * (-0.08878 + 0.01033 * angle)))
     }
