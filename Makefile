@@ -109,6 +109,7 @@ bench: build $(VENV)/ready-verify ## time against an independent finite-element 
 	OMP_NUM_THREADS=1 $(BIN)/python benches/surfaces.py
 	$(BIN)/python benches/studies.py
 	$(BIN)/python benches/plans.py
+	$(BIN)/python benches/pressure.py
 	cargo bench --bench elastic_iterations
 
 charts: build $(VENV)/ready-verify $(PEERS)/ready ## chart errors over time; goes on where it was stopped (needs g++, OpenGL)

@@ -167,7 +167,7 @@ class March:
                     participant.save()
 
     def _may_go_on(self, error: Exception, size: float) -> bool:
-        """What to do with a step that failed: a shorter one, an error, or to pass over it."""
+        """Returns true if a step that failed is passed over, false if a shorter one follows."""
         if self.adaptive and refused(error):
             self._reject(size, error)
             self.schedule.shrink(size)

@@ -179,7 +179,7 @@ class Master:
 
     @property
     def notes(self) -> list[str]:
-        """What has been warned of so far."""
+        """Warnings so far."""
         return self._notes.lines
 
     # Description

@@ -1,4 +1,4 @@
-"""What a master tells its user."""
+"""Warnings of a master."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ use crate::state::{self, Layout, expect_like, layout_like, load, store_all, stor
 /// state. It is a [`Body`] by that.
 pub trait Structured: Giver + Maxima + Approach + Advice + Resources + Send + Sync {
     type State: state::Fields + Clone;
-    /// What is read of a state.
+    /// Results of a state from which values are read.
     type View: Send + Sync + 'static;
 
     fn name(&self) -> &str;
@@ -42,7 +42,7 @@ pub trait Structured: Giver + Maxima + Approach + Advice + Resources + Send + Sy
         allowance: &Allowance,
     ) -> Result<Option<Given>, BodyError>;
 
-    /// Returns what is read of a state under inputs.
+    /// Computes the results of a state under inputs.
     fn view(&self, state: Self::State, inputs: &[f64]) -> Result<Self::View, BodyError>;
 
     /// Reads a value of a view.
@@ -53,7 +53,7 @@ pub trait Structured: Giver + Maxima + Approach + Advice + Resources + Send + Sy
         false
     }
 
-    /// Returns what files show of a state under inputs.
+    /// Returns the particles that stand for a state under inputs in files.
     fn drawn(&self, state: Self::State, inputs: &[f64]) -> Result<ParticleFields, BodyError>;
 
     /// Returns the state of a list of numbers; that at time zero if the list is of another length.

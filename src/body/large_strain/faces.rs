@@ -26,7 +26,7 @@ pub struct Faces {
     temperature: f64,
 }
 
-/// What the inputs prescribe at a time.
+/// Conditions that the inputs prescribe at a time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prescribed {
     /// Displacements of the moved faces [m].

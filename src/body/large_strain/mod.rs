@@ -24,7 +24,7 @@ use probes::Probed;
 use snapshot::Snapshot;
 use totals::Sums;
 
-/// What is read of a state of a solid of large strain.
+/// Results of a state of a solid of large strain.
 pub struct View {
     snapshot: Snapshot,
     sums: Sums,

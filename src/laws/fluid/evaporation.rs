@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::laws::GAS_CONSTANT;
 use crate::limits::{plausible, positive, within};
 
-/// Constants of a fluid's vapour, which tell when a drop would dry.
+/// Constants of a fluid's vapour, from which the rate follows at which a drop would evaporate.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Evaporation {

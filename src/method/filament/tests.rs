@@ -316,7 +316,7 @@ fn width_does_not_follow_the_step() {
     assert!((widths[1] / widths[2] - 1.0).abs() < 2e-3, "{widths:?}");
 }
 
-/// What rounding leaves of a path beyond its last segment is part of that.
+/// The rounding of a path's end makes no segment of its own.
 #[test]
 fn no_slivers_end_a_strand() {
     let line = Line::new(plan(CONCRETE, 0.02));

@@ -9,7 +9,7 @@ use super::Deformable;
 use crate::math::matrix3::{Matrix3, cross};
 use crate::space::{Form, Side};
 
-/// What acts on a face.
+/// A load on a face.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FaceLoad {
     /// Pressure that presses into the body [Pa].

@@ -30,7 +30,7 @@ pub struct Stiffness {
     loads: usize,
 }
 
-/// What the matrix of a linear system consists of.
+/// Terms of the matrix of a linear system.
 pub struct Terms<'a> {
     /// Stiffness of each group of points.
     pub of_group: &'a (dyn Fn(usize) -> GroupTangent + Sync),

@@ -19,7 +19,7 @@ pub struct Equilibrium {
     /// The combination of displacements that is controlled.
     pub control: Combination,
     pub masses: Masses,
-    /// Largest force of a link [N]: what is left of a torn strip balances to a part of it.
+    /// Largest force of a link [N]. A torn strip balances to a part of it.
     pub strength: f64,
 }
 

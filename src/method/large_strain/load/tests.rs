@@ -26,7 +26,7 @@ fn forces(
 }
 
 #[test]
-fn a_pressure_all_around_moves_nothing_and_works_by_the_volume() {
+fn uniform_pressure_has_no_resultant_and_works_on_the_volume() {
     let pressure = FaceLoad { pressure: 2.0, traction: [0.0; 3] };
     for (body, loaded, u) in pressed() {
         let found = forces(&body, &loaded, &u, pressure);
@@ -57,7 +57,7 @@ fn a_pressure_all_around_moves_nothing_and_works_by_the_volume() {
 }
 
 #[test]
-fn the_stiffness_of_a_load_is_a_derivative() {
+fn load_stiffness_is_the_derivative_of_the_forces() {
     let load = FaceLoad { pressure: 2.0, traction: [0.3, 0.0, -0.7] };
     for (body, loaded, u) in pressed() {
         let change: Vec<[f64; 3]> =

@@ -9,8 +9,7 @@
 //! `(S q)_i = n_i Σ V_j W_ij n_j q_j` with `n_i = (Σ V_j W_ij)^(−1/2)` is symmetric and positive. So the energy gains a
 //! form `½ dt Σ V_i d_i (S d)_i ≥ 0`: sound that a step does not resolve is damped, and sets it no limit.
 //!
-//! Without the mean, pressure would resist what d shows of the disorder of particles, and lock the flow: of films of 3
-//! particles, the radius falls short by a twentieth. It also takes two thirds of the iterations.
+//! Without the mean, pressure would resist what d shows of the disorder of particles, and lock the flow of thin films.
 
 use super::super::cloud::Cloud;
 use super::super::continuity::Continuity;
