@@ -2,6 +2,7 @@
 //! parts. Nothing here is refused; the texts are the rules of `warning`.
 
 mod arrangement;
+mod bending;
 mod cold;
 mod cracks;
 mod drying;
@@ -15,6 +16,7 @@ mod power;
 mod pressure;
 mod relations;
 mod resolution;
+mod retraced;
 mod strands;
 mod substances;
 mod values;
@@ -30,6 +32,7 @@ use crate::warning::{self, Finding, Warning};
 pub use films::MEASURED_FILMS;
 pub use moved::implausible_place;
 pub use power::implausible_power;
+pub use pressure::may_be_solved;
 pub use resolution::{HeatError, Resolution};
 
 /// Reads and checks a scene's text, and warns of what is implausible in it.
@@ -66,6 +69,7 @@ fn found(scene: &Scene, (source, names_lines): (&Source, bool), schema: &Schema)
     cracks::review(&mut reviewer);
     freezing::review(&mut reviewer);
     strands::review(&mut reviewer);
+    bending::review(&mut reviewer);
     reviewer.found.sort_by_key(|(line, _)| *line);
     reviewer.found.into_iter().map(|(_, warning)| warning).collect()
 }

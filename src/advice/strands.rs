@@ -1,12 +1,17 @@
-//! Nozzles at unusual heights, targets beyond the plate, and strands of which nothing comes.
+//! Nozzles at unusual heights, targets beyond the plate, routes that run along themselves or beyond the run, and strands
+//! of which nothing comes.
 
+use super::retraced::retraced;
 use super::{Reviewer, number};
+use crate::limits::two_digits;
 use crate::scene::locate::Path;
-use crate::scene::{Filament, Route, lateral_extents};
+use crate::scene::{Filament, Leg, Route, lateral_extents};
 use crate::warning;
 
 /// Usual heights of the outlet over its diameter.
 const USUAL: [f64; 2] = [0.1, 10.0];
+/// Relative difference of times that rounding may cause.
+const ROUNDING: f64 = 1e-9;
 
 pub fn review(reviewer: &mut Reviewer) {
     let scene = reviewer.scene;
@@ -16,6 +21,9 @@ pub fn review(reviewer: &mut Reviewer) {
         height(reviewer, &path, (filament, route.as_ref()));
         if route.is_some() && !filament.path_sets_flow() && filament.nozzle.flow == 0.0 {
             reviewer.warn(&path.at("nozzle.flow"), warning::no_fluid_comes());
+        }
+        if let Some(route) = &route {
+            course(reviewer, &path.key("path"), (filament, route));
         }
     }
     for (i, target) in scene.target.iter().enumerate() {
@@ -28,6 +36,19 @@ pub fn review(reviewer: &mut Reviewer) {
             let path = Path::default().key("target").index(i).key("line");
             reviewer.warn(&path, warning::target_beyond_plate(name));
         }
+    }
+}
+
+/// Warns of a route that runs along itself without rising, or that lays fluid after the end of the run.
+fn course(reviewer: &mut Reviewer, path: &Path, (filament, route): (&Filament, &Route)) {
+    if let Some([time, earlier]) = retraced(route, filament.nozzle.diameter) {
+        let finding = warning::strand_laid_along_itself(two_digits(time), two_digits(earlier));
+        reviewer.warn(path, finding);
+    }
+    let stop = reviewer.scene.stop_time;
+    let end = route.laid().map(Leg::stop).fold(0.0, f64::max);
+    if end > stop * (1.0 + ROUNDING) {
+        reviewer.warn(path, warning::route_outlasts_run(number(end), number(stop)));
     }
 }
 

@@ -8,6 +8,7 @@ use serde_json::json;
 
 use super::lookup::BodyInput;
 use super::materials::{MaterialChoice, heights};
+use super::quadrilateral::Quadrilateral;
 use super::types::{Disc, FaceName, Layer, Shape};
 use crate::laws::Material;
 use crate::laws::solid::large_strain::Thermal;
@@ -22,7 +23,8 @@ use crate::quantity::Quantity;
 pub struct LargeStrain {
     /// Measure of deformation.
     pub strain: FiniteStrain,
-    /// `{ ball = { radius = R } }`, `{ disc = { radius = R, thickness = T } }` or `{ box = [LX, LY, LZ] }`.
+    /// `{ ball = { radius = R } }`, `{ disc = { radius = R, thickness = T } }`, `{ box = [LX, LY, LZ] }` or
+    /// `{ quadrilateral = { corners = [[X, Z], …] } }`.
     pub shape: SolidShape,
     /// Material of the body: a table, or the name of a `[material.NAME]`.
     #[schemars(extend(
@@ -205,6 +207,8 @@ pub enum SolidShape {
     Disc(Disc),
     /// A ball; in a plane model a circle.
     Ball(Ball),
+    /// Four corners in x and z; its faces are those of a box, `left` and `right` between the corners there.
+    Quadrilateral(Quadrilateral),
 }
 
 /// A ball.
@@ -319,6 +323,10 @@ impl LargeStrain {
             SolidShape::Box(extents) => extents,
             SolidShape::Disc(Disc { radius, thickness }) => [2.0 * radius, 2.0 * radius, thickness],
             SolidShape::Ball(Ball { radius }) => [2.0 * radius; 3],
+            SolidShape::Quadrilateral(own) => {
+                let [x, z] = own.ranges().map(|[low, high]| high - low);
+                [x, own.depth.unwrap_or(1.0), z]
+            }
         }
     }
 
@@ -327,17 +335,30 @@ impl LargeStrain {
         matches!(self.shape, SolidShape::Box(_))
     }
 
+    /// Returns true if the shape has four corners, which mirror nothing.
+    pub fn is_quadrilateral(&self) -> bool {
+        matches!(self.shape, SolidShape::Quadrilateral(_))
+    }
+
+    /// Smallest extent of the model, of a quadrilateral its shortest edge [m].
+    pub fn smallest(&self) -> f64 {
+        let [x, y, z] = self.extents();
+        let in_plane = match self.shape {
+            SolidShape::Quadrilateral(own) => own.edges().into_iter().fold(x.min(z), f64::min),
+            _ => x.min(z),
+        };
+        if self.dimension == 2 { in_plane } else { in_plane.min(y) }
+    }
+
     /// Distance of nodes [m].
     pub fn spacing(&self) -> f64 {
-        let [x, y, z] = self.extents();
-        let smallest = if self.dimension == 2 { x.min(z) } else { x.min(y).min(z) };
-        self.mesh.spacing.unwrap_or(smallest / ACROSS)
+        self.mesh.spacing.unwrap_or(self.smallest() / ACROSS)
     }
 
     /// Returns true if the body is modelled by a meridian section.
     pub fn is_axisymmetric(&self) -> bool {
         let [u, v, _] = self.start.velocity;
-        let is_round = !matches!(self.shape, SolidShape::Box(_));
+        let is_round = matches!(self.shape, SolidShape::Ball(_) | SolidShape::Disc(_));
         let is_straight = u == 0.0 && v == 0.0 && self.faces.values().all(HeldFace::is_straight);
         match self.symmetry {
             LargeStrainSymmetry::Axisymmetric => true,
@@ -395,7 +416,7 @@ impl LargeStrain {
             _ if self.is_axisymmetric() => [false; 2],
             LargeStrainSymmetry::Quarter => [true, self.dimension == 3],
             LargeStrainSymmetry::Auto => [
-                u == 0.0 && x && right && straight,
+                u == 0.0 && x && right && straight && !self.is_quadrilateral(),
                 v == 0.0 && y && back && straight && self.dimension == 3,
             ],
             LargeStrainSymmetry::None | LargeStrainSymmetry::Axisymmetric => [false; 2],
@@ -407,7 +428,7 @@ impl LargeStrain {
         match self.shape {
             SolidShape::Box(extents) => Some(Shape::Box(extents)),
             SolidShape::Disc(disc) => Some(Shape::Disc(disc)),
-            SolidShape::Ball(_) => None,
+            SolidShape::Ball(_) | SolidShape::Quadrilateral(_) => None,
         }
     }
 

@@ -28,6 +28,7 @@ mod load;
 pub(crate) mod locate;
 mod lookup;
 mod materials;
+mod quadrilateral;
 mod recording;
 mod reduction;
 mod refinement;
@@ -71,6 +72,7 @@ pub use large_strain::{
 pub use lattice::{Lattice, LatticeArrangement, LatticeControl, LatticeNotch, LatticeSupport};
 pub use lookup::{BodyInput, Place};
 pub use materials::{MaterialChoice, Stratum};
+pub use quadrilateral::Quadrilateral;
 pub use recording::Recording;
 pub use reduction::footprints_along;
 pub use refinement::MeshFactors;

@@ -77,6 +77,20 @@ impl Mesh {
         self
     }
 
+    /// Moves all nodes.
+    pub fn mapped(mut self, place: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
+        self.nodes.iter_mut().for_each(|node| *node = place(*node));
+        self
+    }
+
+    /// A box without the faces on planes x = 0 and y = 0 that mirror it: they bound the model and not the body.
+    pub fn without_cuts(mut self, mirrors: [bool; 2]) -> Self {
+        let is_cut =
+            |side: Side| side == Side::Left && mirrors[0] || side == Side::Front && mirrors[1];
+        self.faces.retain(|(side, _)| !is_cut(*side));
+        self
+    }
+
     /// A cylinder of a radius and a thickness about z below the origin: `counts` are those of the inner block (half of it)
     /// along x and y, from it to the surface, and along z. Only the part with positive x (or y) is meshed where `halved`.
     pub fn of_cylinder(

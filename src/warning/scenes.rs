@@ -66,6 +66,17 @@ rules! {
     "no fluid comes in the default experiment: the flow of the nozzle is zero";
     "set `nozzle.flow`, or the input `flow` in a run"
 
+    Check strand_laid_along_itself(time, earlier)
+    "from {time} s on the nozzle runs along what it laid at {earlier} s without rising: both strands lie in one place";
+    "raise the nozzle by a layer there: `z` of the path"
+
+    Check route_outlasts_run(end, stop)
+    "the path lays fluid until {end} s, and the run stops at {stop} s"; "extend `stop_time` if all is to be laid"
+
+    Check bending_unresolved(elements, extent, error, fine)
+    "{elements} across the {extent} m of a slender body: its bending is wrong by {error}";
+    "did you mean a `mesh.spacing` of {fine} m or less?"
+
     Check droplet_meets_no_wall(solid, drop)
     "the droplet falls through `{solid}`: nothing joins them";
     "did you mean `[[coupling]]` with from = \"{drop}\", to = \"{solid}.top\"?"

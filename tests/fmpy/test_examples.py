@@ -11,6 +11,7 @@ from conftest import EXAMPLES, ROOT, name_of
 
 FEWER = {
     "bend": ["--simulations", "12"],
+    "cook_membrane": ["--finest", "4"],
     "moving_spot": ["--frames", "8"],
     "printer_control": ["--drops", "1", "--after", "0.15"],
     "notched_beam": ["--points", "20"],

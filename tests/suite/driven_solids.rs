@@ -1,5 +1,6 @@
 //! Solids of large strain under pressures and tractions, at their probes, and in motion by implicit steps.
 
+use impinge::advice::parse_with_warnings;
 use impinge::closed_form::{Rubber, Sides};
 
 use crate::common::{Trial, off};
@@ -289,6 +290,76 @@ faces = { left = { clamped = true }, top = { pressure = 0.0 } }
         let found = trial.get("tip.displacement_z");
         assert!((found / expected - 1.0).abs() < 0.06, "{pressure} Pa: {found} {expected}");
     }
+}
+
+/// Cook's membrane with further keys: E 70 MPa, ν 1/3, plane strain, drawn up by a shear traction on its right edge.
+fn cook(keys: &str) -> String {
+    let corner = probe("corner", [48e-3, 0.0, 60e-3], "\"displacement\"");
+    let text = rubber(&format!(
+        "dimension = 2\nfaces = {{ left = {{ clamped = true }}, right = {{ traction = [0.0, 0.0, 6.25e3] }} }}\n\
+         shape = {{ quadrilateral = {{ corners = [[0.0, 0.0], [48e-3, 44e-3], [48e-3, 60e-3], [0.0, 44e-3]] }} }}\n{keys}"
+    ));
+    text.replace("young = 1e6, poisson = 0.4", "young = 7e7, poisson = 0.3333333333") + &corner
+}
+
+/// The corner of Cook's membrane rises as in other codes: 32.20 mm (Code_Aster), 32.27 mm (CalculiX) at a thousand times
+/// the load, linear.
+#[test]
+fn bodies_of_four_corners_deform_as_in_other_codes() {
+    for (method, spacing, tolerance) in
+        [("fem", 1.5e-3, 0.01), ("rkpm", 3e-3, 0.01), ("efg", 3e-3, 0.01), ("sph", 1.5e-3, 0.03)]
+    {
+        let keys = format!("mechanics = \"{method}\"\nmesh = {{ spacing = {spacing:?} }}");
+        let mut trial = Trial::new(&cook(&keys));
+        trial.step(1.0);
+        let rise = trial.get("corner.displacement_z");
+        println!("{method}: {rise:e}");
+        assert!((rise / 32.2e-6 - 1.0).abs() < tolerance, "{method}: {rise:e} m");
+        let mass = 1000.0 * 0.5 * (44e-3 + 16e-3) * 48e-3;
+        assert!((trial.get("pad.mass") / mass - 1.0).abs() < 1e-9);
+    }
+}
+
+/// In space a body of four corners is that of the plane, extruded: under uniform tension of its straight sides.
+#[test]
+fn bodies_of_four_corners_have_a_depth() {
+    let law = Rubber::of_young(1e6, 0.4);
+    let corners =
+        "corners = [[-4e-3, 2e-3], [4e-3, 2e-3], [4e-3, 8e-3], [-4e-3, 8e-3]], depth = 5e-3";
+    let keys = format!(
+        "shape = {{ quadrilateral = {{ {corners} }} }}\nmesh = {{ spacing = 2e-3 }}\n\
+         faces = {{ bottom = {{ roller = true }}, left = {{ roller = true }}, top = {{ pressure = 0.0 }} }}"
+    );
+    let mut trial = Trial::new(&rubber(&keys));
+    trial.set("pad.top.pressure", 1e5);
+    trial.step(1.0);
+    let stretch = trial.get("pad.height") / 6e-3;
+    let stress = law.force(stretch, Sides::Free) / law.lateral(stretch, Sides::Free).powi(2);
+    assert!(off(stress, -1e5) < 1e-8, "{stress} Pa at a stretch of {stretch}");
+    assert!((trial.get("pad.mass") / (1000.0 * 8e-3 * 6e-3 * 5e-3) - 1.0).abs() < 1e-9);
+}
+
+/// Slender bodies with one or two elements across are warned of: their deflection is wrong by a fifth or more, or by some
+/// per cent. Stout ones, planes of finer meshes and other methods are not.
+#[test]
+fn meshes_too_coarse_to_bend_are_warned_of() {
+    let told = |shape: &str, spacing: f64, keys: &str| {
+        let keys = format!(
+            "inertia = true\nshape = {{ {shape} }}\nmesh = {{ spacing = {spacing:?} }}\n{keys}"
+        );
+        let (_, found) = parse_with_warnings(&rubber(&keys), "scene.toml").unwrap();
+        let own = found.iter().find(|warning| warning.finding().id == "bending_unresolved");
+        own.map(ToString::to_string)
+    };
+    let beam = "box = [50e-3, 5e-3, 5e-3]";
+    let one = told(beam, 5e-3, "").unwrap();
+    assert!(one.contains("one element") && one.contains("0.00125 m"), "{one}");
+    assert!(told(beam, 2.5e-3, "").unwrap().contains("two elements"));
+    assert!(told("disc = { radius = 10e-3, thickness = 1e-3 }", 1e-3, "").is_some());
+    assert_eq!(told(beam, 1.6e-3, ""), None);
+    assert_eq!(told(beam, 5e-3, "mechanics = \"rkpm\""), None);
+    assert_eq!(told("box = [50e-3, 1e-3, 20e-3]", 5e-3, "dimension = 2"), None);
+    assert_eq!(told("box = [8e-3, 8e-3, 5e-3]", 5e-3, ""), None);
 }
 
 /// Pressures that jump by as much as the body is stiff add no energy: such steps are halved.

@@ -259,8 +259,8 @@ fn scenes_bring_the_files_that_they_name() {
     }
 }
 
-/// `check` warns of unusual heights, targets beyond the plate, strands without fluid; large and coarse meshes, and
-/// contacts near the freezing point.
+/// `check` warns of unusual heights, targets beyond the plate, strands without fluid, along themselves or beyond the run;
+/// large and coarse meshes, and contacts near the freezing point.
 #[test]
 fn doubtful_strands_are_warned_of() {
     let target = "[[target]]\nof = \"ink\"\nline = [[0.0, 0.0], [5e-3, 0.0]]\n";
@@ -272,12 +272,23 @@ fn doubtful_strands_are_warned_of() {
     };
     assert_eq!(told(&fine), [""; 0]);
     let path = "{ time = [0.0, 0.5, 1.0], x = [-5e-3, 5e-3, 5e-3], y = [-2e-3, -2e-3, 3e-3] }";
+    let walls = |x: &str, y: &str, z: &str| {
+        let time = "time = [0.0, 0.2, 0.4, 0.6, 0.8, 1.0]";
+        fine.replace(path, &format!("{{ {time}, x = [{x}], y = [{y}]{z} }}"))
+    };
+    let back = ("-5e-3, 5e-3, -5e-3, 5e-3, -5e-3, 5e-3", "0.0, 0.0, 0.0, 0.0, 0.0, 0.0");
+    let rising = ", z = [0.7e-3, 0.7e-3, 0.7e-3, 1.4e-3, 1.4e-3, 1.4e-3]";
+    let cross = ("-5e-3, 5e-3, 5e-3, 0.0, 0.0, 0.0", "0.0, 0.0, 4e-3, 4e-3, -4e-3, -4.5e-3");
+    assert_eq!(told(&walls(cross.0, cross.1, "")), [""; 0], "lines may cross");
     let wide = fine.replace("[14e-3, 10e-3, 1e-3]", "[0.1, 0.1, 1e-3]");
     let wide = wide.replace("spacing = 1e-3, order = 1", "spacing = 1e-4, growth = 1.0");
     for (changed, id) in [
         (fine.replace("height = 0.7e-3", "height = 9e-3"), "nozzle_height_unusual"),
         (fine.replace("[5e-3, 0.0]]", "[8e-3, 0.0]]"), "target_beyond_plate"),
         (fine.replace("flow = 8e-9", "flow = 0.0"), "no_fluid_comes"),
+        (walls(back.0, back.1, ""), "strand_laid_along_itself"),
+        (walls(back.0, back.1, rising), "strand_laid_along_itself"),
+        (fine.replace("stop_time = 1.0", "stop_time = 0.9"), "route_outlasts_run"),
         (fine.replace("copper", "soda-lime-glass"), "strand_freezes_at_contact"),
         (fine.replace("copper", "soda-lime-glass"), "mesh_below_strand_is_coarse"),
         (wide.replace(path, "\"input\""), "mesh_below_strand_is_large"),

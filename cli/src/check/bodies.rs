@@ -31,6 +31,10 @@ pub fn large_strains(scene: &Scene) -> String {
                 name.to_owned(),
                 match (solid.shape, solid.plate()) {
                     (SolidShape::Ball(ball), _) => format!("ball, radius {}", metres(ball.radius)),
+                    (SolidShape::Quadrilateral(own), _) => {
+                        let [bottom, right, top, left] = own.edges().map(metres);
+                        format!("quadrilateral, edges {bottom}, {right}, {top}, {left}")
+                    }
                     (_, Some(plate)) => shape(&plate),
                     (_, None) => String::new(),
                 },

@@ -1,12 +1,14 @@
 //! Cost of droplets.
 
 use super::{is_large, notes, plan_of, replay};
+use crate::advice::may_be_solved;
 use crate::body::solid::{PRODUCT_RATE, plan};
 use crate::body::{link, threads_for};
+use crate::limits::two_digits;
 use crate::math::chebyshev::products;
 use crate::method::fem::{Plan, particle_cost};
 use crate::method::sph::{DropletSph, Effort, RunSettings};
-use crate::scene::{Droplet, Scene};
+use crate::scene::{Droplet, PressureAdvance, Scene};
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct DropletForecast {
@@ -32,6 +34,9 @@ pub const PARTICLE_MEMORY: f64 = 1.5e3;
 /// Time per node of the solid in an exchange, in addition to its own step [s]. It was measured on boxes of 10 000 to
 /// 110 000 nodes, as the difference from the same droplet above a wall.
 const EXCHANGE: f64 = 2.2e-7;
+/// Gain by solved pressure that is worth a note, and a time of a run that nobody minds [s].
+const WORTH: f64 = 2.0;
+const SHORT: f64 = 2.0;
 
 impl DropletForecast {
     /// Estimates the cost without building the droplet.
@@ -65,6 +70,8 @@ impl DropletForecast {
         );
         let exchanges = (scene.stop_time / exchange).ceil();
         let of_solid = contact.map_or(0.0, |(_, plan)| exchanges * exchange_time(&plan, exchange));
+        let run_time = effort.seconds / threads + of_solid;
+        notes.extend(note_on_solved_pressure(scene, name, droplet, run_time));
         Self {
             name: name.into(),
             particles,
@@ -77,10 +84,31 @@ impl DropletForecast {
             time_step,
             steps: effort.steps,
             memory: PARTICLE_MEMORY * particles as f64,
-            run_time: effort.seconds / threads + of_solid,
+            run_time,
             notes,
         }
     }
+}
+
+/// Notes that a run of this time would be much shorter if pressure were solved at the end of steps.
+fn note_on_solved_pressure(
+    scene: &Scene,
+    name: &str,
+    droplet: &Droplet,
+    run_time: f64,
+) -> Option<String> {
+    if droplet.pressure == PressureAdvance::Implicit || !may_be_solved(droplet) {
+        return None;
+    }
+    let solved = Droplet { pressure: PressureAdvance::Implicit, ..droplet.clone() };
+    let solved = DropletForecast::of(scene, name, &solved).run_time;
+    (run_time > WORTH * solved && run_time > SHORT).then(|| {
+        let [times, from, to] = [run_time / solved, run_time, solved].map(two_digits);
+        format!(
+            "`pressure = \"implicit\"` would shorten this run some {times} times, from {from} to {to} s: sound limits the \
+             time steps of a fluid this thick"
+        )
+    })
 }
 
 /// Time of a solid for an exchange of some length [s].

@@ -45,6 +45,18 @@ pub fn mesh(solid: &LargeStrain) -> Mesh {
             let mesh = Mesh::of_cylinder([disc.radius, disc.thickness], counts, mirrors);
             if solid.layers.is_some() { mesh.at_heights(&heights) } else { mesh }
         }
+        SolidShape::Quadrilateral(own) => {
+            let [bottom, right, top, left] = own.edges();
+            let counts = [count(bottom.max(top)), count(if mirrors[1] { 0.5 * y } else { y })];
+            let counts = [counts[0], counts[1], count(left.max(right))];
+            let front = if mirrors[1] { 0.0 } else { -0.5 * y };
+            let mesh = Mesh::of_box(form, [0.0, front, 0.0], [1.0, 0.5 * y, 1.0], counts);
+            let mesh = mesh.without_cuts([false, mirrors[1]]);
+            mesh.mapped(|[u, y, w]| {
+                let [x, z] = own.place(u, w);
+                [x, y, z]
+            })
+        }
         SolidShape::Box(_) | SolidShape::Disc(_) => {
             let halved = [mirrors[0] || form == Form::Axisymmetric, mirrors[1]];
             let low = |a: usize, length: f64| if halved[a] { 0.0 } else { -0.5 * length };
@@ -53,10 +65,7 @@ pub fn mesh(solid: &LargeStrain) -> Mesh {
             let counts = [count(0.5 * x - left), count(0.5 * y - front), heights.len() - 1];
             let mesh = Mesh::of_box(form, [left, front, -z], [0.5 * x, 0.5 * y, 0.0], counts);
             let mesh = if solid.layers.is_some() { mesh.at_heights(&heights) } else { mesh };
-            // Planes of symmetry bound the model and not the body.
-            let cut =
-                |side: Side| side == Side::Left && halved[0] || side == Side::Front && halved[1];
-            Mesh { faces: mesh.faces.into_iter().filter(|(side, _)| !cut(*side)).collect(), ..mesh }
+            mesh.without_cuts(halved)
         }
     }
 }

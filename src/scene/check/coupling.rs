@@ -70,6 +70,10 @@ fn check_large_strain(
         let message = "a plane body does not fit a solid of three dimensions";
         checker.refuse(&from, message, "a body of `dimension = 3`");
     }
+    if solid.is_quadrilateral() {
+        let message = "a quadrilateral moves above the plane z = 0 and no other body";
+        checker.refuse(&from, message, "a box, a disc or a ball");
+    }
     let Some((_, below)) = face else { return };
     free_face(checker, &path.at("to"), coupling, below);
     if matches!(below.shape, Shape::Disc(_)) && !solid.is_axisymmetric() {

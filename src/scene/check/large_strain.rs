@@ -3,12 +3,12 @@
 use super::layers::Materials;
 use super::{Checker, fits, layers, material};
 use crate::laws::Material;
-use crate::scene::LoadComponent;
 use crate::scene::large_strain::{
     LargeStrain, LargeStrainStart, LargeStrainSymmetry, Mechanics, MotionSteps, SolidShape,
 };
 use crate::scene::locate::Path;
 use crate::scene::types::FaceName;
+use crate::scene::{LoadComponent, Quadrilateral};
 
 /// Most nodes of a body.
 const MOST_NODES: f64 = 2e6;
@@ -52,7 +52,12 @@ pub fn check(checker: &mut Checker) {
 fn check_shape(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
     let is_flat = solid.dimension == 2;
     let [x, y, z] = solid.extents();
-    let smallest = if is_flat { x.min(z) } else { x.min(y).min(z) };
+    if let SolidShape::Quadrilateral(own) = &solid.shape
+        && !quadrilateral(checker, path, own, is_flat)
+    {
+        return;
+    }
+    let smallest = solid.smallest();
     let spacing = solid.spacing();
     let path_of_spacing = path.at("mesh.spacing");
     if solid.mesh.spacing.is_some_and(|spacing| spacing <= 0.0) {
@@ -82,11 +87,34 @@ fn check_shape(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
         let message = "a disc has no plane model";
         checker.refuse(&path.key("dimension"), message, "3; or a box, or a ball");
     }
-    let is_box = solid.is_box();
-    if solid.symmetry == LargeStrainSymmetry::Axisymmetric && (is_box || is_flat) {
+    let is_round = matches!(solid.shape, SolidShape::Ball(_) | SolidShape::Disc(_));
+    if solid.symmetry == LargeStrainSymmetry::Axisymmetric && (!is_round || is_flat) {
         let message = "only a disc and a ball in three dimensions are round about z";
         checker.refuse(&path.key("symmetry"), message, "auto, none, quarter");
     }
+    if solid.symmetry == LargeStrainSymmetry::Quarter && solid.is_quadrilateral() {
+        let message = "a quadrilateral does not mirror itself in x = 0";
+        checker.refuse(&path.key("symmetry"), message, "auto, none");
+    }
+}
+
+/// Refuses corners that go round the wrong way or inwards, and a missing depth; returns true if there is none of these.
+fn quadrilateral(checker: &mut Checker, path: &Path, own: &Quadrilateral, is_flat: bool) -> bool {
+    let path = path.at("shape.quadrilateral");
+    if !checker.is_fine(&path.key("corners")) {
+        return false;
+    }
+    let message = "the corners are not those of a quadrilateral with angles below 180°, in order";
+    let allowed = "[x, z] of bottom left, bottom right, top right, top left";
+    let corners = checker.require(own.is_convex(), &path.key("corners"), message, allowed);
+    let message = "a body in three dimensions has a depth";
+    let depth = checker.require(
+        is_flat || own.depth.is_some(),
+        &path.key("depth"),
+        message,
+        "a positive number (m), or `dimension = 2`",
+    );
+    corners && depth
 }
 
 fn check_kernels(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
@@ -158,6 +186,9 @@ fn check_faces(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
                 let own = shape.faces().iter().copied().chain(sides);
                 own.filter(|&face| is_there(solid, face)).collect()
             }
+            None if solid.is_quadrilateral() => {
+                FaceName::ALL.into_iter().filter(|&face| is_there(solid, face)).collect()
+            }
             None => Vec::new(),
         };
         let names: Vec<&str> = offered.iter().map(|face| face.as_str()).collect();
@@ -174,11 +205,12 @@ fn check_faces(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
         let allowed = "one of clamped, roller, displacement, pressure, traction; or roller with displacement; or pressure \
                        with traction";
         checker.require(fine, &at, message, allowed);
-        let is_round = matches!(solid.shape, SolidShape::Disc(_)) && name == FaceName::Sides;
-        if face.roller
-            && (is_round && !solid.is_axisymmetric()
-                || face.displacement.is_some() && name.normal().is_none())
-        {
+        let is_along = match solid.shape {
+            SolidShape::Disc(_) => name != FaceName::Sides || solid.is_axisymmetric(),
+            SolidShape::Quadrilateral(own) => own.is_straight(name),
+            SolidShape::Box(_) | SolidShape::Ball(_) => true,
+        };
+        if face.roller && (!is_along || face.displacement.is_some() && name.normal().is_none()) {
             let message = "this face has no normal along an axis";
             checker.refuse(&at.key("roller"), message, "`clamped` or `displacement` alone");
         }

@@ -38,6 +38,12 @@ fn large_strain(checker: &mut Checker, path: &Path, probe: &Probe, solid: &Large
                 let allowed = format!("sqrt(x² + y² + z²) <= {}", number(ball.radius));
                 checker.require(fine, &at, message, allowed);
             }
+            (None, SolidShape::Quadrilateral(own)) => {
+                let [x, y, z] = probe.at;
+                let deep = own.depth.is_none_or(|depth| fits(y.abs(), 0.5 * depth));
+                let fine = !own.is_convex() || own.contains([x, z]) && deep;
+                checker.require(fine, &at, message, "x and z between the corners, |y| <= depth/2");
+            }
             (None, _) => {}
         }
     }
