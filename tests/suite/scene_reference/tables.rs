@@ -36,6 +36,7 @@ pub const SECTIONS: [(&str, &str); 59] = [
     ("`rkpm` of a solid of large strain", "/$defs/KernelSettings"),
     ("`sph` of a solid of large strain", "/$defs/ParticleSettings"),
     ("`shape.ball`", "/$defs/Ball"),
+    ("`shape.quadrilateral`", "/$defs/Quadrilateral"),
     ("`faces.FACE` of a solid of large strain", "/$defs/HeldFace"),
     ("`[body.NAME]` of a droplet", "/$defs/Body/oneOf/1"),
     ("`fluid` of a droplet", "/$defs/Fluid"),
