@@ -89,13 +89,15 @@ impl Body {
         }
     }
 
-    /// Conditions that the scene sets on faces of the body.
-    pub fn faces(&self) -> impl Iterator<Item = (FaceName, &Face)> {
-        let faces = match self {
-            Body::Solid(solid) => Some(&solid.faces),
-            _ => None,
+    /// Conditions that the scene sets on faces of the body; of a solid of large strain the thermal ones.
+    pub fn faces(&self) -> impl Iterator<Item = (FaceName, Face)> {
+        let (small, large) = match self {
+            Body::Solid(solid) => (Some(&solid.faces), None),
+            Body::LargeStrain(solid) => (None, Some(&solid.faces)),
+            _ => (None, None),
         };
-        faces.into_iter().flatten().map(|(&name, face)| (name, face))
+        let small = small.into_iter().flatten().map(|(&name, face)| (name, *face));
+        small.chain(large.into_iter().flatten().map(|(&name, face)| (name, face.heated())))
     }
 
     /// All temperatures that the scene names for the body and its surroundings [K].

@@ -2,6 +2,7 @@
 
 use super::plan;
 use super::snapshot::Seen;
+use super::warming::Temperatures;
 use crate::body::solid::Measure;
 use crate::body::{BodyError, point_quantities};
 use crate::laws::solid::stress::von_mises;
@@ -50,13 +51,18 @@ impl Probes {
         own.map(|probe| Probe::new(probe.at, solid, mesh, body)).collect::<Result<_, _>>().map(Self)
     }
 
-    /// Values at all points of a state with a temperature [K].
-    pub fn read(&self, seen: &Seen, stresses: &Stresses, temperature: f64) -> Vec<Probed> {
+    /// Values at all points of a state.
+    pub fn read(
+        &self,
+        seen: &Seen,
+        stresses: &Stresses,
+        temperatures: Temperatures,
+    ) -> Vec<Probed> {
         if self.0.is_empty() {
             return Vec::new();
         }
         let strains = seen.body.plastic_strains(seen.history);
-        self.0.iter().map(|probe| probe.read(seen, (stresses, &strains), temperature)).collect()
+        self.0.iter().map(|probe| probe.read(seen, (stresses, &strains), temperatures)).collect()
     }
 }
 
@@ -91,7 +97,7 @@ impl Probe {
         &self,
         seen: &Seen,
         (stresses, strains): (&Stresses, &[f64]),
-        temperature: f64,
+        temperatures: Temperatures,
     ) -> Probed {
         let body = seen.body;
         let mut displacement = [0.0; 3];
@@ -120,7 +126,7 @@ impl Probe {
             displacement: self.turn.map(|row| (0..3).map(|a| row[a] * displacement[a]).sum()),
             stress: packed(&turned),
             plastic_strain: plastic_strain.clamp(0.0, most_strain),
-            temperature,
+            temperature: temperatures.at(&self.row),
         }
     }
 }
