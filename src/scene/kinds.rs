@@ -1,6 +1,7 @@
 //! Questions about bodies, answered for each kind: others ask these instead of which kind a body is.
 
 use super::droplet::{Coupling, Droplet, Wall};
+use super::grid::Grid;
 use super::lookup::BodyInput;
 use super::materials::MaterialChoice;
 use super::sampling::Sampling;
@@ -236,6 +237,13 @@ impl Scene {
 
     /// The points or cells at which a field of a checked scene is sampled.
     pub fn sampling(&self, field: &Field) -> Option<Sampling> {
-        Some(field.sampling(self.solid(field.body_and_place().0)?))
+        let (name, place) = field.body_and_place();
+        match self.body.get(name)? {
+            Body::Solid(solid) => Some(field.sampling(solid)),
+            Body::LargeStrain(solid) => {
+                Some(Sampling::Points(Grid::at(place, field, &solid.plate()?)))
+            }
+            _ => None,
+        }
     }
 }

@@ -204,7 +204,7 @@ fn a_strip_between_two_temperatures_bends() {
 fn on_plate(shape: &str, keys: &str, coupling: &str) -> String {
     let own = format!(
         "shape = {{ disc = {{ radius = 0.2e-3, thickness = 60e-6 }} }}\ninertia = true\nmesh = {{ spacing = 6e-6 }}\n\
-         faces = {{ top = {{ pressure = 500.0 }} }}\n{keys}"
+         faces = {{ top = {{ pressure = 0.0 }} }}\n{keys}"
     );
     let gel =
         "density = 1050.0, specific_heat = 4000.0, conductivity = 0.5, young = 20e3, poisson = 0.3";
@@ -239,7 +239,13 @@ fn a_gel_on_a_plate_takes_its_heat() {
     let text = on_plate(disc, "", &format!("conductance = {conductance:e}"));
     let mut trial = Trial::new(&format!("{text}{}", probe("above", [0.0, 0.0, -60e-6])));
     let (duration, steps) = (6e-4_f64, 6);
-    (0..steps).for_each(|_| trial.step(duration / f64::from(steps)));
+    for n in 0..steps {
+        // A pressure that grows evenly keeps the gel on the plate while it swings.
+        let rate = 200.0 / duration;
+        trial.set("pad.top.pressure", rate * duration * f64::from(n) / f64::from(steps));
+        trial.set_derivative("pad.top.pressure", 1, rate);
+        trial.step(duration / f64::from(steps));
+    }
     let [given, stored, plate] =
         ["pad.heat", "pad.heat_stored", "plate.heat_stored"].map(|key| trial.get(key));
     println!("{given} {stored} {plate}");
@@ -265,6 +271,7 @@ fn parts_of_a_gel_pass_the_same_heat() {
     let square = "box = [0.6e-3, 0.6e-3, 0.1e-3]";
     let heat = |keys: &str| {
         let text = on_plate(square, keys, "conductance = 2e4")
+            .replace("pressure = 0.0", "pressure = 200.0")
             .replace("spacing = 6e-6", "spacing = 30e-6")
             .replace("spacing = 3e-6", "spacing = 30e-6");
         let mut trial = Trial::new(&text);
@@ -282,6 +289,7 @@ fn parts_of_a_gel_pass_the_same_heat() {
 fn warm_states_continue_bit_for_bit() {
     let disc = "disc = { radius = 0.4e-3, thickness = 0.1e-3 }";
     let coarse = on_plate(disc, "", "conductance = 2e4")
+        .replace("pressure = 0.0", "pressure = 200.0")
         .replace("spacing = 6e-6", "spacing = 20e-6")
         .replace("spacing = 3e-6", "spacing = 20e-6");
     let faces = "faces = { bottom = { clamped = true, temperature = 350.0 }, top = { flux = 2.0, pressure = 0.1 } }";
@@ -308,7 +316,8 @@ fn warm_states_continue_bit_for_bit() {
             damaged.bodies[0][n] = 1e30;
             refused += usize::from(one.model.check_state(&damaged).is_err());
         }
-        assert!(refused * 10 >= count.div_ceil(7) * 9, "{refused} of {count}");
+        let tried = count.div_ceil(7);
+        assert!(refused * 20 >= tried * 17, "{refused} of {tried}");
     }
 }
 
@@ -333,4 +342,48 @@ fn heat_is_a_matter_of_conditions() {
     };
     assert!(!conducts(&text));
     assert!(conducts(&text.replace("clamped = true", "clamped = true, temperature = 300.0")));
+}
+
+#[test]
+fn fields_have_the_values_of_probes() {
+    let faces = "faces = { bottom = { clamped = true, temperature = 350.0 }, top = { pressure = 0.1, flux = 2.0 } }";
+    let gives = r#"gives = ["temperature", "displacement", "stress"]"#;
+    for (shape, keys, field, points) in [
+        (
+            "box = [1.0, 0.8, 0.6]",
+            "symmetry = \"quarter\"",
+            "on = \"pad.top\"",
+            [[-0.25, -0.2, 0.0], [-0.25, 0.2, 0.0], [0.25, -0.2, 0.0], [0.25, 0.2, 0.0]],
+        ),
+        (
+            "disc = { radius = 0.5, thickness = 0.6 }",
+            "mechanics = \"rkpm\"",
+            "in = \"pad\"\nplane = { y = 0.0 }",
+            [[-0.25, 0.0, -0.45], [-0.25, 0.0, -0.15], [0.25, 0.0, -0.45], [0.25, 0.0, -0.15]],
+        ),
+    ] {
+        let keys = format!("shape = {{ {shape} }}\nmesh = {{ spacing = 0.1 }}\n{keys}\n{faces}");
+        let mut text = scene(&format!("{UNIT}, young = 1.0, poisson = 0.25"), &keys);
+        text += &format!("[[field]]\nname = \"grid\"\n{field}\ngrid = [2, 2]\n{gives}\n");
+        if shape.starts_with("disc") {
+            text = text.replace("grid = [2, 2]", "grid = [2, 2]\nsize = [1.0, 0.6]");
+        }
+        for (n, at) in points.into_iter().enumerate() {
+            text += &probe(&format!("probe{n}"), at);
+        }
+        let mut trial = Trial::new(&text);
+        trial.step(0.05);
+        for (n, index) in ["1,1", "1,2", "2,1", "2,2"].into_iter().enumerate() {
+            for key in ["temperature", "displacement_x", "displacement_z", "stress_zz", "stress_xz"]
+            {
+                let [field, probe] = [format!("grid.{key}[{index}]"), format!("probe{n}.{key}")];
+                let [field, probe] = [field, probe].map(|name| trial.get(&name));
+                assert!(
+                    (field - probe).abs() <= 1e-12 * probe.abs(),
+                    "{key} {index} {field} {probe}"
+                );
+                assert!(probe != 0.0, "{key}");
+            }
+        }
+    }
 }

@@ -1,4 +1,4 @@
-//! Points of a solid of large strain whose values are outputs.
+//! Points of a solid of large strain whose values are outputs: probes, and points of fields.
 
 use super::plan;
 use super::snapshot::Seen;
@@ -8,7 +8,7 @@ use crate::body::{BodyError, point_quantities};
 use crate::laws::solid::stress::von_mises;
 use crate::math::matrix3::{IDENTITY, Matrix3, packed, product, transposed};
 use crate::method::large_strain::{Deformable, Stresses};
-use crate::scene::{LargeStrain, Mechanics, Scene};
+use crate::scene::{LargeStrain, Mechanics, Sampling, Scene};
 use crate::space::{Form, Functions, Mesh, Refused, Row, Value, fit, linear_row};
 
 /// The points of a body.
@@ -47,8 +47,14 @@ impl Probes {
         mesh: &Mesh,
         body: &Deformable,
     ) -> Result<Self, Refused> {
-        let own = scene.probe.iter().filter(|probe| probe.body == name);
-        own.map(|probe| Probe::new(probe.at, solid, mesh, body)).collect::<Result<_, _>>().map(Self)
+        let own = scene.probe.iter().filter(|probe| probe.body == name).map(|probe| probe.at);
+        let fields = scene.field.iter().filter(|field| field.body_and_place().0 == name);
+        let of_fields = fields.flat_map(|field| match scene.sampling(field) {
+            Some(Sampling::Points(grid)) => grid.points().collect(),
+            _ => Vec::new(),
+        });
+        let all = own.chain(of_fields).map(|at| Probe::new(at, solid, mesh, body));
+        all.collect::<Result<_, _>>().map(Self)
     }
 
     /// Values at all points of a state.
