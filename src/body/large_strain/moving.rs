@@ -164,7 +164,7 @@ impl MovingBody {
         let touch = self.dynamics.plane.touch(&self.dynamics.body, &motion.displacement);
         let stored = snapshot.stored - copies(self.mirrors) * touch.energy;
         let worked = ledger.internal_work + motion.warmth.swelling;
-        let (body, copies_of_all) = (&self.dynamics.body, copies(self.mirrors));
+        let own = (&self.dynamics.body, &motion.warmth);
         Sums {
             dissipated: copies(self.mirrors) * worked - stored,
             load_work: copies(self.mirrors) * ledger.load_work,
@@ -173,7 +173,7 @@ impl MovingBody {
             lift_off: ledger.lift_off,
             steps: ledger.steps,
             force_outside: rate(ledger.outside),
-            heat: heat_totals(self.warming.as_ref(), body, &motion.warmth, copies_of_all),
+            heat: heat_totals(self.warming.as_ref(), own, copies(self.mirrors)),
         }
     }
 

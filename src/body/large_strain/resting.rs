@@ -377,7 +377,7 @@ impl Structured for RestingBody {
             dissipated: copies * (state.work - state.stored),
             load_work: copies * state.load_work,
             steps: state.steps,
-            heat: heat_totals(self.warming.as_ref(), seen.body, &state.warmth, copies),
+            heat: heat_totals(self.warming.as_ref(), (seen.body, &state.warmth), copies),
             ..Sums::default()
         };
         let snapshot = seen.snapshot(&stresses);

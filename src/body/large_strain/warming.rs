@@ -2,7 +2,8 @@
 
 use super::plan;
 use crate::body::BodyError;
-use crate::inputs::{FaceInputKind, InputLayout, InputPath};
+use crate::inputs::{FaceInput, FaceInputKind, InputLayout, InputPath};
+use crate::laws::Material;
 use crate::laws::solid::large_strain::Thermal;
 use crate::method::large_strain::{
     Conduction, Course, Courses, Deformable, Failure, Film, HeatDrive, HeatOfLayer, Warmth,
@@ -77,8 +78,7 @@ impl Temperatures<'_> {
 /// Totals of the heat of a whole body of `copies` modelled parts; zeros of one that conducts no heat.
 pub fn heat_totals(
     warming: Option<&Warming>,
-    body: &Deformable,
-    warmth: &Warmth,
+    (body, warmth): (&Deformable, &Warmth),
     copies: f64,
 ) -> HeatTotals {
     let Some(warming) = warming else { return HeatTotals::default() };
@@ -110,7 +110,7 @@ impl Warming {
         }
         let sides = &body.space.boundary.sides;
         let own = layout.faces.iter().filter(|input| input.body == name);
-        let face = |input: &crate::inputs::FaceInput| {
+        let face = |input: &FaceInput| {
             let convection = solid.faces[&input.face].convection;
             let is_on = |&point: &usize| plan::is_on(solid, input.face, sides[point]);
             HeatedFace {
@@ -132,7 +132,7 @@ impl Warming {
             }
         }
         let zero = solid.initial_temperature;
-        let layer = |material: &crate::laws::Material| HeatOfLayer {
+        let layer = |material: &Material| HeatOfLayer {
             capacity: material.heat.density * material.heat.specific_heat.value(zero),
             conductivity: material.heat.conductivity.value(zero),
         };

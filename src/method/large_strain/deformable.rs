@@ -176,6 +176,15 @@ impl Deformable {
         self.space.groups.iter().map(of_group).collect()
     }
 
+    /// Nodes of the functions at points, ascending.
+    pub fn nodes_of(&self, points: &Range<usize>) -> Vec<u32> {
+        let rows = points.clone().flat_map(|point| self.space.volume.row(point));
+        let mut nodes: Vec<u32> = rows.map(|value| value.node).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
+    }
+
     /// Length of the history of all points.
     pub fn history(&self) -> usize {
         self.histories[self.space.groups.len()]

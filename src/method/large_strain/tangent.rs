@@ -188,11 +188,7 @@ pub struct Linearised<'a> {
 }
 
 fn block(body: &Deformable, group: &Range<usize>) -> Block {
-    let rows = group.clone().flat_map(|point| body.space.volume.row(point));
-    let mut nodes: Vec<u32> = rows.map(|value| value.node).collect();
-    nodes.sort_unstable();
-    nodes.dedup();
-    Block { points: group.clone(), nodes }
+    Block { points: group.clone(), nodes: body.nodes_of(group) }
 }
 
 fn columns(unknowns: &[[Option<usize>; 3]], nodes: &[u32]) -> Vec<Option<usize>> {

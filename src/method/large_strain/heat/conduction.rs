@@ -48,16 +48,8 @@ impl Conduction {
     ) -> Result<Self, Failure> {
         let capacities: Vec<f64> = layers.iter().map(|layer| layer.capacity).collect();
         let capacity = body.lumped(&capacities);
-        let groups = body.space.groups.iter();
-        let mut blocks: Vec<Block> = groups
-            .map(|group| {
-                let rows = group.clone().flat_map(|point| body.space.volume.row(point));
-                let mut nodes: Vec<u32> = rows.map(|value| value.node).collect();
-                nodes.sort_unstable();
-                nodes.dedup();
-                Block { nodes, places: Vec::new() }
-            })
-            .collect();
+        let block = |group| Block { nodes: body.nodes_of(group), places: Vec::new() };
+        let mut blocks: Vec<Block> = body.space.groups.iter().map(block).collect();
         let pattern = pattern(body.nodes(), &blocks);
         for block in &mut blocks {
             block.places = places(&pattern, &block.nodes);
