@@ -64,7 +64,6 @@ fn a_rod_with_a_hot_tip_lengthens_as_danilovskaya_says() {
             before = time;
             let found = trial.get("tip.displacement_z") / end;
             let tolerance = if time < 0.05 && !method.is_empty() { 5e-3 } else { 1e-3 };
-            println!("{method} {time} {:.2e}", found / expected - 1.0);
             assert!(off(found, expected) < tolerance, "{method} {time} {found} {expected}");
             balances(&mut trial, 1e-10);
         }
@@ -84,7 +83,6 @@ fn a_rod_with_inertia_swings_as_danilovskaya_says() {
             trial.step(0.0125);
         }
         let found = (trial.get("pad.height") - 2.0) / (2.0 * 1e-7 * 100.0);
-        println!("{time} {found} {expected}");
         assert!(off(found, expected) < 0.02, "{time} {found} {expected}");
         balances(&mut trial, 1e-10);
     }
@@ -121,7 +119,6 @@ fn fluxes_and_films_follow_closed_forms() {
         for (name, depth) in [("top", 0.0), ("base", 1.0)] {
             let (found, expected) =
                 (trial.get(&format!("{name}.temperature")) - 300.0, slab.rise(depth, 1.0));
-            println!("{method} film {:.2e}", found / expected - 1.0);
             assert!(off(found, expected) < 2e-3, "{method} {found} {expected}");
         }
         balances(&mut trial, 1e-10);
@@ -195,7 +192,6 @@ fn a_strip_between_two_temperatures_bends() {
         // Warmer above: the ends turn down, in plane strain by 1 + ν more.
         let expected = -1.3 * 1e-5 * 20.0;
         let found = trial.get("pad.curvature");
-        println!("{method} {:.2e}", found / expected - 1.0);
         assert!(off(found, expected) < tolerance, "{method} {found} {expected}");
     }
 }
@@ -248,7 +244,6 @@ fn a_gel_on_a_plate_takes_its_heat() {
     }
     let [given, stored, plate] =
         ["pad.heat", "pad.heat_stored", "plate.heat_stored"].map(|key| trial.get(key));
-    println!("{given} {stored} {plate}");
     assert!(given < 0.0 && (given + stored).abs() < 1e-12 * stored, "{given} {stored}");
     assert!((plate - given).abs() < 1e-12 * stored, "{given} {plate}");
     assert!((trial.get("plate.heat_in") - given).abs() < 1e-12 * stored);
@@ -258,11 +253,9 @@ fn a_gel_on_a_plate_takes_its_heat() {
         Contact { first: glass, first_temperature: 350.0, second: gel, second_temperature: 300.0 };
     let contact = ResistiveContact { bodies, conductance };
     let per_area = -given / (PI * 0.2e-3_f64.powi(2));
-    println!("heat {:.2e}", per_area / contact.heat(duration) - 1.0);
     assert!(off(per_area, contact.heat(duration)) < 0.03, "{per_area}");
     let [below, above] = contact.surfaces(duration);
     let found = [trial.get("below.temperature"), trial.get("above.temperature")];
-    println!("surfaces {found:?} {below} {above}");
     assert!((found[0] - below).abs() < 1.0 && (found[1] - above).abs() < 1.0, "{found:?}");
 }
 

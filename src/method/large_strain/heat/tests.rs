@@ -95,13 +95,11 @@ fn slabs_warm_as_the_series_says() {
     };
     for (n, name) in ["fem", "rkpm", "efg", "sph"].into_iter().enumerate() {
         let [coarse, fine] = [20, 40].map(|count| error(spaces(count).swap_remove(n), 10).abs());
-        println!("{name}: {coarse:.2e} {fine:.2e}");
         let order = if name == "sph" { 0.9 } else { 1.7 };
         assert!(fine < 4e-3 && (coarse / fine).log2() > order, "{name}: {coarse:.2e} {fine:.2e}");
     }
     // One step or many: parts are as short as they have to be.
     for steps in [1, 3, 100] {
-        println!("{steps} {:.2e}", error(finite_elements(&mesh(40)), steps));
         assert!(error(finite_elements(&mesh(40)), steps).abs() < 2e-3, "{steps}");
     }
 }
@@ -164,6 +162,5 @@ fn a_film_cools_a_small_body_exponentially() {
     let mut temperature = vec![1.0; own.0.nodes()];
     advance(&own, &still, &mut temperature, &drive, 2.0);
     let expected = total * (-2.0_f64).exp();
-    println!("{}", stored(&own.1, &temperature) / expected - 1.0);
     assert!((stored(&own.1, &temperature) / expected - 1.0).abs() < 2e-3);
 }
