@@ -323,6 +323,13 @@ fn what_cools_below_absolute_zero_is_refused() {
     let refused = trial.try_step(1.0).unwrap_err().to_string();
     assert!(refused.contains("pad") && refused.contains("absolute zero"), "{refused}");
     assert_eq!(trial.state, before);
+
+    let text = scene(&format!("{UNIT}, young = 1.0, poisson = 0.25"), &keys)
+        .replace("flux = -1e6", "temperature = 300.0");
+    let mut trial = Trial::new(&text);
+    trial.set("pad.top.temperature", -5.0);
+    let refused = trial.try_step(1.0).unwrap_err().to_string();
+    assert!(refused.contains("-5 K is not above absolute zero"), "{refused}");
 }
 
 #[test]

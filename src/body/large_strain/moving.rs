@@ -277,6 +277,10 @@ impl Structured for MovingBody {
         self.check_motion(state)
     }
 
+    fn check_inputs(&self, inputs: &[f64]) -> Result<(), BodyError> {
+        self.warming.as_ref().map_or(Ok(()), |warming| warming.check_inputs(inputs))
+    }
+
     fn advance(
         &self,
         state: &mut Motion,

@@ -338,6 +338,10 @@ impl Structured for RestingBody {
         self.check_resting(state)
     }
 
+    fn check_inputs(&self, inputs: &[f64]) -> Result<(), BodyError> {
+        self.warming.as_ref().map_or(Ok(()), |warming| warming.check_inputs(inputs))
+    }
+
     fn advance(
         &self,
         state: &mut Resting,

@@ -149,6 +149,18 @@ impl Warming {
         Warmth { rise: vec![0.0; count], felt, exchange: vec![0.0; cells], ..Warmth::default() }
     }
 
+    /// Refuses temperatures that are not above absolute zero.
+    pub fn check_inputs(&self, inputs: &[f64]) -> Result<(), BodyError> {
+        for face in self.faces.iter().filter(|face| face.kind != FaceInputKind::Flux) {
+            let given = inputs[face.input];
+            if given <= 0.0 {
+                let message = format!("{given} K is not above absolute zero");
+                return Err(BodyError::Input { index: face.input, message });
+            }
+        }
+        Ok(())
+    }
+
     /// Brings nodes of prescribed temperature to the inputs at once.
     pub fn hold(&self, warmth: &mut Warmth, inputs: &[f64]) {
         for (node, hold) in self.holds.iter().enumerate() {
