@@ -1,4 +1,4 @@
-"""A bead of gel falls on a plate of glass, flattens to half of its height, and bounces off."""
+"""A bead of warm gel falls on a plate of glass, flattens, warms it, and bounces off."""
 
 import shutil
 import sys
@@ -24,6 +24,8 @@ READ = {
     "kinetic": "bead.kinetic",
     "stored": "bead.stored",
     "bending": "below.stress_xx",
+    "heat": "bead.heat",
+    "surface": "surface.temperature",
 }
 
 
@@ -78,7 +80,7 @@ def draw_beads(folder: Path, out: Path) -> Path:
 
 
 def draw_curves(run: dict, out: Path) -> Path:
-    figure, axes = shared.new_figure(1, 4, height=3.4)
+    figure, axes = shared.new_figure(1, 5, height=3.2)
     moments = run["time"] * 1e3
     axes[0].plot(moments, run["width"] * 1e3, label="width")
     axes[0].plot(moments, run["height"] * 1e3, label="height")
@@ -89,7 +91,10 @@ def draw_curves(run: dict, out: Path) -> Path:
     axes[2].plot(moments, run["stored"] * 1e3, label="stored")
     axes[2].legend()
     axes[3].plot(moments, run["bending"] * 1e-6)
-    titles = ["size / mm", "force / N", "energy / mJ", "stress of the glass / MPa"]
+    axes[4].plot(moments, run["surface"] - run["surface"][0], label="surface / K")
+    axes[4].plot(moments, run["heat"] * 1e3, label="heat / mJ")
+    axes[4].legend()
+    titles = ["size / mm", "force / N", "energy / mJ", "stress of the glass / MPa", "the glass warms"]
     for panel, title in zip(axes, titles, strict=True):
         panel.set(title=title, xlabel="t / ms")
     return shared.save(figure, out, f"{NAME}_over_time")
@@ -109,6 +114,7 @@ def main(given: list[str] | None = None) -> dict:
                 ("width", "width", 1e3, "mm"),
                 ("force", "force", 1.0, "N"),
                 ("stress of the glass", "bending", 1e-6, "MPa"),
+                ("heat to the glass", "heat", 1e3, "mJ"),
             ]
         ],
     )

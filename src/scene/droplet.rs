@@ -327,7 +327,7 @@ pub struct Coupling {
     pub to: String,
     /// Heat flux over the difference of the temperatures of both surfaces [W/(m² K)].
     #[schemars(transform = conductance()
-        .otherwise("perfect contact of a droplet or filament; needed between solids"))]
+        .otherwise("perfect contact of a droplet or filament; no heat from a solid of large strain; needed between solids"))]
     pub conductance: Option<f64>,
     /// Load of the fluid's pressure and shear on the solid.
     #[serde(default = "yes")]

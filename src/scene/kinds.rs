@@ -1,6 +1,7 @@
 //! Questions about bodies, answered for each kind: others ask these instead of which kind a body is.
 
 use super::droplet::{Coupling, Droplet, Wall};
+use super::grid::Grid;
 use super::lookup::BodyInput;
 use super::materials::MaterialChoice;
 use super::sampling::Sampling;
@@ -89,13 +90,15 @@ impl Body {
         }
     }
 
-    /// Conditions that the scene sets on faces of the body.
-    pub fn faces(&self) -> impl Iterator<Item = (FaceName, &Face)> {
-        let faces = match self {
-            Body::Solid(solid) => Some(&solid.faces),
-            _ => None,
+    /// Conditions that the scene sets on faces of the body; of a solid of large strain the thermal ones.
+    pub fn faces(&self) -> impl Iterator<Item = (FaceName, Face)> {
+        let (small, large) = match self {
+            Body::Solid(solid) => (Some(&solid.faces), None),
+            Body::LargeStrain(solid) => (None, Some(&solid.faces)),
+            _ => (None, None),
         };
-        faces.into_iter().flatten().map(|(&name, face)| (name, face))
+        let small = small.into_iter().flatten().map(|(&name, face)| (name, *face));
+        small.chain(large.into_iter().flatten().map(|(&name, face)| (name, face.heated())))
     }
 
     /// All temperatures that the scene names for the body and its surroundings [K].
@@ -234,6 +237,13 @@ impl Scene {
 
     /// The points or cells at which a field of a checked scene is sampled.
     pub fn sampling(&self, field: &Field) -> Option<Sampling> {
-        Some(field.sampling(self.solid(field.body_and_place().0)?))
+        let (name, place) = field.body_and_place();
+        match self.body.get(name)? {
+            Body::Solid(solid) => Some(field.sampling(solid)),
+            Body::LargeStrain(solid) => {
+                Some(Sampling::Points(Grid::at(place, field, &solid.plate()?)))
+            }
+            _ => None,
+        }
     }
 }

@@ -9,11 +9,12 @@ use serde_json::json;
 use super::lookup::BodyInput;
 use super::materials::{MaterialChoice, heights};
 use super::quadrilateral::Quadrilateral;
-use super::types::{Disc, FaceName, Layer, Shape};
+use super::types::{Convection, Disc, Face, FaceName, Layer, Shape};
 use crate::laws::Material;
 use crate::laws::solid::large_strain::Thermal;
 use crate::limits::{
-    Keys, Limits, above_zero, length, own_temperature, plausible, signed, traction, whole, within,
+    Keys, Limits, above_zero, heat_flux, length, own_temperature, plausible, signed, traction,
+    whole, within,
 };
 use crate::quantity::Quantity;
 
@@ -90,6 +91,9 @@ pub struct LargeStrain {
         transform = Keys(FaceName::ALL.map(FaceName::as_str))
     )]
     pub faces: BTreeMap<FaceName, HeldFace>,
+    /// Conductance of the contact with the body below [W/(m² K)]; derived from the scene.
+    #[serde(skip)]
+    pub conductance_below: Option<f64>,
 }
 
 /// Time steps of a solid of large strain with inertia.
@@ -259,8 +263,8 @@ pub struct LargeStrainMesh {
     pub spacing: Option<f64>,
 }
 
-/// Condition on a face of a solid of large strain: one of them, or `roller` with `displacement`, or `pressure` with
-/// `traction`.
+/// Conditions on a face of a solid of large strain: at most one thermal one, and a mechanical one, or `roller` with
+/// `displacement`, or `pressure` with `traction`.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HeldFace {
@@ -279,6 +283,15 @@ pub struct HeldFace {
     /// Force per area of the undeformed face along x, y and z at the start; inputs [Pa].
     #[schemars(transform = traction().otherwise("free"))]
     pub traction: Option<[f64; 3]>,
+    /// Prescribed temperature [K]; an input.
+    #[schemars(transform = own_temperature().otherwise("insulated"))]
+    pub temperature: Option<f64>,
+    /// Heat flux into the body per present area [W/m²]; an input.
+    #[schemars(transform = heat_flux().otherwise("insulated"))]
+    pub flux: Option<f64>,
+    /// Heat flux by convection to a fluid, per present area.
+    #[schemars(extend("otherwise" = "insulated"))]
+    pub convection: Option<Convection>,
 }
 
 /// A component of the load on a face.
@@ -290,7 +303,7 @@ pub enum LoadComponent {
 }
 
 impl HeldFace {
-    /// Keys of the conditions that are set.
+    /// Keys of the mechanical conditions that are set.
     pub fn conditions(&self) -> Vec<&'static str> {
         let given = [
             ("clamped", self.clamped),
@@ -300,6 +313,17 @@ impl HeldFace {
             ("traction", self.traction.is_some()),
         ];
         given.into_iter().filter(|(_, given)| *given).map(|(key, _)| key).collect()
+    }
+
+    /// Thermal conditions as those of other solids.
+    pub fn heated(&self) -> Face {
+        let Self { temperature, flux, convection, .. } = *self;
+        Face { temperature, flux, convection, ..Face::default() }
+    }
+
+    /// Returns true if the face is held or moved.
+    pub fn is_held(&self) -> bool {
+        self.clamped || self.roller || self.displacement.is_some()
     }
 
     /// Returns true if a load acts on the face, which is not held then.
@@ -463,7 +487,13 @@ impl LargeStrain {
         self.materials_of_layers().into_iter().map(of).collect()
     }
 
-    /// Returns true if the temperature is an input: the body rests and expands or relaxes with it, and its other constants
+    /// Returns true if heat flows in the body: a face has a thermal condition, or a body below takes heat.
+    pub fn conducts(&self) -> bool {
+        let is_heated = |face: &HeldFace| !face.heated().thermal().is_empty();
+        self.conductance_below.is_some() || self.faces.values().any(is_heated)
+    }
+
+    /// Returns true if the temperature is an input: the body rests, has no heat flow, and expands or relaxes with it, and its other constants
     /// are the same at every temperature.
     pub fn has_temperature(&self) -> bool {
         let is_steady = |own: &Material| {
@@ -471,7 +501,10 @@ impl LargeStrain {
             properties.iter().all(|(key, other)| *key == "expansion" || other.is_constant())
         };
         let mut materials = self.materials_of_layers().into_iter();
-        !self.inertia && self.thermal().iter().any(Thermal::acts) && materials.all(is_steady)
+        !self.inertia
+            && !self.conducts()
+            && self.thermal().iter().any(Thermal::acts)
+            && materials.all(is_steady)
     }
 
     /// Inputs: the displacements of faces, their loads, then the temperature.

@@ -177,13 +177,19 @@ impl Scene {
         below.and_then(|name| self.body.get(name)).is_some_and(Body::is_round)
     }
 
-    /// Stores in each droplet the properties of the surface below it.
+    /// Stores in each droplet the properties of the surface below it, and in each solid of large strain the conductance of
+    /// its contact.
     pub(super) fn store_surfaces_below(&mut self) {
         let names: Vec<String> = self.droplets().map(|(name, _)| name.to_owned()).collect();
         for name in names {
             let is_round = self.is_round_below(&name);
             if let Some(Body::Droplet(droplet)) = self.body.get_mut(&name) {
                 droplet.is_on_round = is_round;
+            }
+        }
+        for coupling in &self.coupling {
+            if let Some(Body::LargeStrain(solid)) = self.body.get_mut(&coupling.from) {
+                solid.conductance_below = coupling.conductance;
             }
         }
     }

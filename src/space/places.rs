@@ -9,6 +9,8 @@ use crate::math::matrix3::inverse;
 const ITERATIONS: usize = 30;
 /// Change of a coordinate of a cell at which they end.
 const CONVERGED: f64 = 1e-13;
+/// Rounding of a place over the extent of a cell.
+const SLACK: f64 = 1e-9;
 
 /// Returns the functions of a mesh that are linear between its nodes at a place, those of the nearest cell for a place
 /// outside; values only.
@@ -17,14 +19,31 @@ pub fn linear_row(mesh: &Mesh, at: [f64; 3]) -> Vec<Value> {
         let beyond = |&a: &usize| (local[a] - 1.0).max(-local[a]).max(0.0);
         mesh.form.axes().iter().map(beyond).fold(0.0, f64::max)
     };
-    let places = mesh.cells.iter().filter_map(|cell| Some((cell, local(mesh, cell, at)?)));
-    let nearest = places.min_by(|a, b| excess(a.1).total_cmp(&excess(b.1)));
+    let nearest = |cells: &mut dyn Iterator<Item = &'_ Vec<u32>>| {
+        let places = cells.filter_map(|cell| Some((cell.clone(), local(mesh, cell, at)?)));
+        places.min_by(|a, b| excess(a.1).total_cmp(&excess(b.1)))
+    };
+    // A cell that contains the place is found among those whose bounds do.
+    let inside = nearest(&mut mesh.cells.iter().filter(|cell| bounds(mesh, cell, at)));
+    let inside = inside.filter(|(_, local)| excess(*local) == 0.0);
+    let nearest = inside.or_else(|| nearest(&mut mesh.cells.iter()));
     let Some((cell, local)) = nearest else { return Vec::new() };
     let value = |(corner, &node): (usize, &u32)| {
         let (value, _) = shape(mesh.form, corner, local);
         Value { node, value, gradient: [0.0; 3] }
     };
     cell.iter().enumerate().map(value).collect()
+}
+
+/// Returns true if a place lies between the extreme coordinates of a cell's corners.
+fn bounds(mesh: &Mesh, cell: &[u32], at: [f64; 3]) -> bool {
+    mesh.form.axes().iter().all(|&a| {
+        let corners = || cell.iter().map(|&node| mesh.nodes[node as usize][a]);
+        let low = corners().fold(f64::INFINITY, f64::min);
+        let high = corners().fold(f64::NEG_INFINITY, f64::max);
+        let slack = SLACK * (high - low);
+        (low - slack..=high + slack).contains(&at[a])
+    })
 }
 
 /// Coordinates of a place in the map of a cell, by Newton's method; `None` where that finds none.

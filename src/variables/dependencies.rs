@@ -74,7 +74,6 @@ fn direct_inputs(scene: &Scene, layout: &InputLayout, reach: Reach) -> Vec<bool>
     }
     if reach.direct == Direct::OwnInputs {
         direct[layout.of_body(reach.body)].fill(true);
-        return direct;
     }
     for face in &layout.faces {
         if face.body == reach.body && face.kind == FaceInputKind::Temperature {

@@ -16,7 +16,7 @@ pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
     for input in &layout.faces {
         let mut faces = scene.body[&input.body].faces();
         if let Some((_, condition)) = faces.find(|(face, _)| *face == input.face) {
-            list.push(face_variable(input, condition));
+            list.push(face_variable(input, &condition));
         }
     }
     walls(scene, &layout, list);

@@ -76,6 +76,7 @@ mod tolerance;
 mod viscosity;
 mod viscous;
 mod walls;
+mod warm_solids;
 mod warning_reference;
 mod yield_estimates;
 mod yield_readings;

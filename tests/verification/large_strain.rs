@@ -5,8 +5,8 @@ use impinge::laws::solid::large_strain::{
     Deviator, LargeStrainLaw, MaxwellBranch, Plastic, Relaxing,
 };
 use impinge::method::large_strain::{
-    Conditions, Course, Deformable, Drive, Dynamics, Equilibrium, Failure, Found, ImplicitDynamics,
-    LoadedFaces, Plane, Rest,
+    Acting, Conditions, Course, Deformable, Drive, Dynamics, Equilibrium, Failure, Found,
+    ImplicitDynamics, LoadedFaces, Plane, Rest,
 };
 use impinge::runtime::allowance::{Allowance, Interrupt};
 use impinge::space::{Form, Mesh, Side, Space, finite_elements};
@@ -180,13 +180,15 @@ fn above_plane(mesh: &Mesh, law: LargeStrainLaw, spacing: f64, speed: f64) -> (D
 
 fn settle(equilibrium: &Equilibrium, rest: &mut Rest, to: &Conditions) -> Found {
     let interrupt = Interrupt::default();
-    equilibrium.step(rest, to, &[Course::NONE], &Allowance::of_step(&interrupt)).unwrap()
+    let still = equilibrium.body.in_all(Course::NONE);
+    equilibrium.step(rest, to, &still, &Allowance::of_step(&interrupt)).unwrap()
 }
 
 fn advance(dynamics: &Dynamics, motion: &mut impinge::method::large_strain::Motion, dt: f64) {
     let interrupt = Interrupt::default();
     let allowance = Allowance::of_step(&interrupt);
-    let advanced: Result<(), Failure> = dynamics.advance(motion, dt, &|_| Vec::new(), &allowance);
+    let acting = Acting { loads: &|_| Vec::new(), courses: None };
+    let advanced: Result<(), Failure> = dynamics.advance(motion, dt, &acting, None, &allowance);
     advanced.unwrap();
 }
 

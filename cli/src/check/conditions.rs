@@ -15,6 +15,13 @@ pub fn faces(scene: &Scene) -> String {
             rows.push([name, thermal(condition), mechanical(condition).into()]);
         }
     }
+    for (body, solid) in scene.large_strains() {
+        for (face, condition) in &solid.faces {
+            let conditions = condition.conditions();
+            let words = if conditions.is_empty() { "free".into() } else { conditions.join(", ") };
+            rows.push([format!("{body}.{}", key(face)), thermal(&condition.heated()), words]);
+        }
+    }
     table(["face", "thermal", "mechanical"], &rows)
 }
 

@@ -32,7 +32,9 @@ pub fn omissions(scene: &Scene, forecast: &Forecast) -> Vec<String> {
         list.push(format!("{freezing}, boiling and evaporation of liquids, the air"));
     }
     if scene.large_strains().next().is_some() {
-        list.push("heat and friction of solids of large strain".to_owned());
+        let conduct = scene.large_strains().all(|(_, solid)| solid.conducts());
+        let heat = if conduct { "heating by deformation" } else { "heat" };
+        list.push(format!("{heat} and friction of solids of large strain"));
     }
     if scene.filaments().next().is_some() {
         list.push(

@@ -34,6 +34,8 @@ pub struct Prescribed {
     pub loads: Vec<FaceLoad>,
     /// [K]
     pub temperature: f64,
+    /// Rise of each node of a body that conducts heat [K].
+    pub rise: Vec<f64>,
 }
 
 impl Prescribed {
@@ -43,6 +45,7 @@ impl Prescribed {
             places: self.places.iter().zip(&other.places).map(half).collect(),
             loads: self.loads.iter().zip(&other.loads).map(|(a, b)| a.middle(b)).collect(),
             temperature: 0.5 * (self.temperature + other.temperature),
+            rise: self.rise.iter().zip(&other.rise).map(|(a, b)| 0.5 * (a + b)).collect(),
         }
     }
 }
@@ -112,7 +115,8 @@ impl Faces {
             load
         };
         let loads = self.loaded.iter().map(of_loaded).collect();
-        Prescribed { places, loads, temperature: own.next().unwrap_or(self.temperature) }
+        let temperature = own.next().unwrap_or(self.temperature);
+        Prescribed { places, loads, temperature, rise: Vec::new() }
     }
 
     /// Displacements of held nodes for places of the moved faces [m]; zero for others.
@@ -180,7 +184,7 @@ fn holds(solid: &LargeStrain, mesh: &Mesh, body: &Deformable) -> Vec<[Hold; 3]> 
     let fixed = |fixed: &[bool; 3]| fixed.map(|fixed| if fixed { Hold::Fixed } else { Hold::Free });
     let mut holds: Vec<[Hold; 3]> = body.fixed.iter().map(fixed).collect();
     let moved = moved_faces(solid);
-    for (&face, held) in solid.faces.iter().filter(|(_, held)| !held.is_loaded()) {
+    for (&face, held) in solid.faces.iter().filter(|(_, held)| held.is_held()) {
         let number = moved.iter().position(|&other| other == face);
         for (side, corners) in mesh.faces.iter().filter(|(side, _)| plan::is_on(solid, face, *side))
         {

@@ -36,6 +36,9 @@ const RESTING: [f64; 2] = [5e-6, 0.4e-6];
 const IMPLICIT: f64 = 4.0;
 const FACTOR_IN_PLANE: f64 = 4.0e-8;
 const FACTOR_IN_SPACE: f64 = 6.0e-8;
+/// Parts of a usual step of heat, and time of a pair of functions at a point in one [s].
+const PARTS: f64 = 4.0;
+const HEAT: f64 = 0.05e-6;
 /// Memory of a point, and of a function there [B].
 const POINT: f64 = 500.0;
 const FUNCTION: f64 = 90.0;
@@ -64,6 +67,14 @@ impl LargeStrainForecast {
                 if inertia { IMPLICIT * resting } else { resting }
             }
         };
+        let heat = match solid.conducts() {
+            true => {
+                PARTS
+                    * (points as f64 * HEAT * functions * functions
+                        + factor_time(plan::form(solid), nodes as f64) / 9.0)
+            }
+            false => 0.0,
+        };
         let of_point = POINT + FUNCTION * functions + 8.0 * history as f64;
         let solver = if explicit { 0.0 } else { solver_memory(&mesh, functions) };
         let memory = of_point * points as f64 + solver;
@@ -75,7 +86,7 @@ impl LargeStrainForecast {
             time_step,
             steps,
             memory,
-            run_time: steps * of_step / if explicit { threads } else { 1.0 },
+            run_time: steps * of_step / if explicit { threads } else { 1.0 } + exchanges * heat,
             notes: notes(solid),
         }
     }
@@ -151,6 +162,9 @@ pub fn notes(solid: &LargeStrain) -> Vec<String> {
             "each communication step is one implicit time step, of second order, which conserves energy; nothing is below \
              the body, and it conducts no heat"
         }
+        (true, MotionSteps::Explicit) if solid.conducts() => {
+            "the body slides on what lies below without friction, which is rigid for it: time steps follow the speed of sound"
+        }
         (true, MotionSteps::Explicit) => {
             "the body slides on what lies below without friction, which is rigid for it, and conducts no heat: time steps \
              follow the speed of sound"
@@ -181,6 +195,17 @@ pub fn notes(solid: &LargeStrain) -> Vec<String> {
 }
 
 fn note_on_temperature(solid: &LargeStrain) -> Option<&'static str> {
+    if solid.conducts() {
+        return Some(match solid.conductance_below {
+            Some(_) => {
+                "heat flows in the body as it is deformed, and to the body below where they touch; constants are those of its \
+                 initial temperature"
+            }
+            None => {
+                "heat flows in the body as it is deformed; constants are those of its initial temperature"
+            }
+        });
+    }
     if solid.has_temperature() {
         return Some("the body has one temperature, which is an input: no heat flows in it");
     }

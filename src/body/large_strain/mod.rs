@@ -10,6 +10,7 @@ mod resting;
 mod snapshot;
 mod swinging;
 mod totals;
+mod warming;
 
 pub use forecast::{LargeStrainForecast, contact_interval};
 pub use moving::MovingBody;

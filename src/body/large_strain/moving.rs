@@ -4,12 +4,15 @@ use super::faces::{Faces, loaded};
 use super::probes::Probes;
 use super::snapshot::{Seen, Snapshot, columns, copies};
 use super::totals::Sums;
+use super::warming::{Temperatures, Warming, heat_totals};
 use super::{View, is_large, named, plan};
 use crate::body::{
     Acts, Advice, Approach, BodyError, Given, Giver, Link, Maxima, Reading, Resources, Structured,
 };
 use crate::inputs::InputLayout;
-use crate::method::large_strain::{Dynamics, Motion};
+use crate::method::large_strain::{
+    Acting, Contacts, Course, Courses, CoursesOver, Dynamics, Failure, Film, Motion,
+};
 use crate::method::sph::ParticleFields;
 use crate::port::WallCells;
 use crate::runtime::allowance::{Allowance, cost};
@@ -26,6 +29,9 @@ pub struct MovingBody {
     mirrors: [bool; 2],
     columns: Vec<[usize; 2]>,
     temperature: f64,
+    /// Heat of a body that conducts it, and conductance of its contact with the body below [W/(m² K)].
+    warming: Option<Warming>,
+    conductance: Option<f64>,
     /// True if the impulse on what lies below is transferred; `None` above a rigid plane.
     traction: Option<bool>,
     notes: Vec<String>,
@@ -55,9 +61,12 @@ impl MovingBody {
         let probes = Probes::new(scene, (name, solid), &mesh, &body);
         let probes = probes.map_err(|refused| named(refused.into()))?;
         let loaded = loaded(solid, &body);
+        let warming = Warming::new(layout, (name, solid), &mesh, &body).map_err(named)?;
+        let count = cells.as_ref().map_or(0, WallCells::len);
+        let warmth = warming.as_ref().map(|own| own.start(count, true)).unwrap_or_default();
         let own = (body, loaded);
         let dynamics = Dynamics::new(own, plane, solid.gravity, solid.mirrors(), cells);
-        let start = dynamics.start(solid.start.velocity);
+        let start = Motion { warmth, ..dynamics.start(solid.start.velocity) };
         Ok(Self {
             name: name.to_owned(),
             start,
@@ -67,6 +76,8 @@ impl MovingBody {
             mirrors: solid.mirrors(),
             columns,
             temperature: solid.initial_temperature,
+            warming,
+            conductance: solid.conductance_below,
             traction,
             notes: super::forecast::notes(solid),
         })
@@ -74,18 +85,32 @@ impl MovingBody {
 
     fn snapshot(&self, motion: &Motion) -> Result<Snapshot, BodyError> {
         let touch = self.dynamics.plane.touch(&self.dynamics.body, &motion.displacement);
-        let seen = Seen { touch: Some(&touch), ..self.seen(motion) };
+        let over = self.over(motion).map_err(|failure| named(&self.name, failure))?;
+        let seen = Seen { touch: Some(&touch), ..self.seen(motion, &over) };
         let stresses = seen.stresses().map_err(|failure| named(&self.name, failure))?;
         Ok(seen.snapshot(&stresses))
     }
 
-    fn seen<'a>(&'a self, motion: &'a Motion) -> Seen<'a> {
+    /// Thermal stretches that the stress has followed, over no time.
+    fn over(&self, motion: &Motion) -> Result<Courses, Failure> {
+        let body = &self.dynamics.body;
+        match &self.warming {
+            Some(warming) if warming.acts() => warming.stretched(body, &motion.warmth.felt),
+            _ => Ok(body.in_all(Course::NONE)),
+        }
+    }
+
+    fn temperatures<'a>(&self, motion: &'a Motion) -> Temperatures<'a> {
+        Temperatures { base: self.temperature, rise: &motion.warmth.rise }
+    }
+
+    fn seen<'a>(&'a self, motion: &'a Motion, over: &'a Courses) -> Seen<'a> {
         Seen {
             body: &self.dynamics.body,
             mirrors: self.mirrors,
             lifted: self.dynamics.plane.height,
             displacement: &motion.displacement,
-            stretches: &[1.0],
+            over,
             columns: &self.columns,
             velocity: Some(&motion.velocity),
             history: &motion.history,
@@ -103,6 +128,9 @@ impl MovingBody {
             if values.iter().zip(fixed).any(moves) {
                 return Err("a node moves along an axis that holds it".to_owned());
             }
+        }
+        if let Some(warming) = &self.warming {
+            warming.check(&motion.warmth)?;
         }
         let ledger = &motion.ledger;
         if ledger.time < 0.0 || ledger.steps < 0.0 || ledger.duration < 0.0 {
@@ -135,23 +163,97 @@ impl MovingBody {
         let rate = |amount: f64| if ledger.duration > 0.0 { amount / ledger.duration } else { 0.0 };
         let touch = self.dynamics.plane.touch(&self.dynamics.body, &motion.displacement);
         let stored = snapshot.stored - copies(self.mirrors) * touch.energy;
+        let worked = ledger.internal_work + motion.warmth.swelling;
+        let own = (&self.dynamics.body, &motion.warmth);
         Sums {
-            dissipated: copies(self.mirrors) * ledger.internal_work - stored,
+            dissipated: copies(self.mirrors) * worked - stored,
             load_work: copies(self.mirrors) * ledger.load_work,
             contact_force: rate(inside + ledger.outside),
             impulse: ledger.impulse_to_plane,
             lift_off: ledger.lift_off,
             steps: ledger.steps,
             force_outside: rate(ledger.outside),
+            heat: heat_totals(self.warming.as_ref(), own, copies(self.mirrors)),
         }
     }
 
-    fn given_of(&self, Motion { ledger, .. }: &Motion) -> Option<Given> {
+    /// Advances motion and heat in turn: heat that also passes to a body below follows the motion that makes the contact,
+    /// and stress then feels its temperatures in the next step.
+    fn advance_warm(
+        &self,
+        warming: &Warming,
+        motion: &mut Motion,
+        acts: &Acts,
+        allowance: &Allowance,
+    ) -> Result<(), BodyError> {
+        warming.hold(&mut motion.warmth, &acts.path.at(0, 0.0));
+        let below = self.conductance.zip(acts.below);
+        if below.is_none() {
+            self.conduct(warming, motion, acts, Vec::new(), allowance)?;
+        }
+        let to = motion.warmth.rise.clone();
+        let mut contacts = Contacts::default();
+        let noted = below.is_some().then_some(&mut contacts);
+        self.swell(motion, acts, Some((warming, &to)), noted, allowance)?;
+        if warming.acts() {
+            motion.warmth.felt = to;
+        }
+        if let Some((conductance, surface)) = below {
+            let copies = copies(self.mirrors);
+            let films = contacts.films(surface, conductance, acts.duration, copies);
+            let heats = self.conduct(warming, motion, acts, films, allowance)?;
+            motion.warmth.exchange.fill(0.0);
+            for (cell, heat) in contacts.cells().zip(heats) {
+                motion.warmth.exchange[cell] += copies * heat;
+            }
+        }
+        Ok(())
+    }
+
+    fn conduct(
+        &self,
+        warming: &Warming,
+        Motion { displacement, warmth, .. }: &mut Motion,
+        acts: &Acts,
+        films: Vec<Film>,
+        allowance: &Allowance,
+    ) -> Result<Vec<f64>, BodyError> {
+        let own = (&self.name[..], &self.dynamics.body, &displacement[..]);
+        warming.advance(own, warmth, (acts.path, acts.duration), films, allowance)
+    }
+
+    /// Moves the body, while its stress follows the temperature to a rise of each node [K].
+    fn swell(
+        &self,
+        motion: &mut Motion,
+        acts: &Acts,
+        to: Option<(&Warming, &[f64])>,
+        contacts: Option<&mut Contacts>,
+        allowance: &Allowance,
+    ) -> Result<(), BodyError> {
+        let (body, duration) = (&self.dynamics.body, acts.duration);
+        let loads = |time: f64| self.faces.prescribed(&acts.path.at(0, time)).loads;
+        let felt = motion.warmth.felt.clone();
+        let felt_course = to.filter(|(warming, _)| warming.acts()).map(|(warming, to)| {
+            let ends = [&felt[..], to].map(|rise| warming.of_groups(body, rise));
+            move |[time, dt]: [f64; 2]| warming.swelling(body, &ends, [time, dt], duration)
+        });
+        let courses = felt_course.as_ref().map(|courses| courses as &CoursesOver);
+        let acting = Acting { loads: &loads, courses };
+        let advanced = self.dynamics.advance(motion, duration, &acting, contacts, allowance);
+        advanced.map_err(|failure| named(&self.name, failure))
+    }
+
+    fn given_of(&self, Motion { ledger, warmth, .. }: &Motion) -> Option<Given> {
         let traction = self.traction?;
+        let heat = match warmth.exchange.is_empty() {
+            true => vec![0.0; ledger.exchange.len()],
+            false => warmth.exchange.clone(),
+        };
         let impulse = ledger.exchange.iter().map(|&impulse| [0.0, 0.0, -impulse]);
         Some(Given {
             duration: ledger.duration,
-            heat: vec![0.0; ledger.exchange.len()],
+            heat,
             falling: Vec::new(),
             impulse: if traction { impulse.collect() } else { Vec::new() },
             symmetric: self.dynamics.symmetric(),
@@ -175,25 +277,31 @@ impl Structured for MovingBody {
         self.check_motion(state)
     }
 
+    fn check_inputs(&self, inputs: &[f64]) -> Result<(), BodyError> {
+        self.warming.as_ref().map_or(Ok(()), |warming| warming.check_inputs(inputs))
+    }
+
     fn advance(
         &self,
         state: &mut Motion,
         acts: &Acts,
         allowance: &Allowance,
     ) -> Result<Option<Given>, BodyError> {
-        let loads = |time: f64| self.faces.prescribed(&acts.path.at(0, time)).loads;
-        let advanced = self.dynamics.advance(state, acts.duration, &loads, allowance);
-        advanced.map_err(|failure| named(&self.name, failure))?;
+        match &self.warming {
+            Some(warming) => self.advance_warm(warming, state, acts, allowance)?,
+            None => self.swell(state, acts, None, None, allowance)?,
+        }
         Ok(self.given_of(state))
     }
 
     fn view(&self, state: Motion, _: &[f64]) -> Result<View, BodyError> {
         let touch = self.dynamics.plane.touch(&self.dynamics.body, &state.displacement);
-        let seen = Seen { touch: Some(&touch), ..self.seen(&state) };
+        let over = self.over(&state).map_err(|failure| named(&self.name, failure))?;
+        let seen = Seen { touch: Some(&touch), ..self.seen(&state, &over) };
         let stresses = seen.stresses().map_err(|failure| named(&self.name, failure))?;
         let snapshot = seen.snapshot(&stresses);
         let sums = self.sums(&state, &snapshot);
-        let probed = self.probes.read(&seen, &stresses, self.temperature);
+        let probed = self.probes.read(&seen, &stresses, self.temperatures(&state));
         Ok(View { snapshot, sums, forces: Vec::new(), probed })
     }
 
@@ -202,7 +310,8 @@ impl Structured for MovingBody {
     }
 
     fn drawn(&self, state: Motion, _: &[f64]) -> Result<ParticleFields, BodyError> {
-        Ok(self.seen(&state).particles(self.temperature))
+        let over = self.over(&state).map_err(|failure| named(&self.name, failure))?;
+        Ok(self.seen(&state, &over).particles(self.temperatures(&state)))
     }
 }
 

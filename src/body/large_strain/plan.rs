@@ -6,7 +6,8 @@ use crate::laws::Material;
 use crate::method::fem::Refinement;
 use crate::method::large_strain::{Deformable, Failure, LayerOfBody, Plane};
 use crate::scene::{
-    Coupling, FaceName, KernelIntegration, KernelSettings, LargeStrain, Mechanics, SolidShape,
+    Coupling, FaceName, HeldFace, KernelIntegration, KernelSettings, LargeStrain, Mechanics,
+    SolidShape,
 };
 use crate::space::{
     Form, Integration, Kernel, Mesh, Reproducing, Shape, Side, Sides, Space, finite_elements,
@@ -129,7 +130,8 @@ pub fn kernels(solid: &LargeStrain, mesh: &Mesh) -> Reproducing {
     let KernelSettings { basis, support, integration } = solid.rkpm.unwrap_or_default();
     let order = basis as f64;
     let is_held = |side: &Side| {
-        solid.faces.iter().any(|(&face, held)| !held.is_loaded() && is_on(solid, face, *side))
+        let ends = |own: &HeldFace| own.is_held() || own.temperature.is_some();
+        solid.faces.iter().any(|(&face, own)| ends(own) && is_on(solid, face, *side))
     };
     let held: Vec<Side> = mesh.faces.iter().map(|(side, _)| *side).filter(is_held).collect();
     let kernel = match solid.mechanics {
@@ -167,7 +169,7 @@ pub fn refinement(coupling: &Coupling, solid: &LargeStrain) -> Refinement {
     let reach = |length: f64| coupling.radius.unwrap_or(SPREAD * 0.5 * length);
     let [x, y] = [width, depth].map(|length| [-reach(length), reach(length)]);
     let feature = 0.5 * width.min(depth);
-    Refinement { x, y, top: true, feature, heats: false, edges: [None; 2] }
+    Refinement { x, y, top: true, feature, heats: solid.conducts(), edges: [None; 2] }
 }
 
 /// Axis normal to a side; rollers on round sides are those of sections.

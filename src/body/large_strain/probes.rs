@@ -1,13 +1,14 @@
-//! Points of a solid of large strain whose values are outputs.
+//! Points of a solid of large strain whose values are outputs: probes, and points of fields.
 
 use super::plan;
 use super::snapshot::Seen;
+use super::warming::Temperatures;
 use crate::body::solid::Measure;
 use crate::body::{BodyError, point_quantities};
 use crate::laws::solid::stress::von_mises;
 use crate::math::matrix3::{IDENTITY, Matrix3, packed, product, transposed};
 use crate::method::large_strain::{Deformable, Stresses};
-use crate::scene::{LargeStrain, Mechanics, Scene};
+use crate::scene::{LargeStrain, Mechanics, Sampling, Scene};
 use crate::space::{Form, Functions, Mesh, Refused, Row, Value, fit, linear_row};
 
 /// The points of a body.
@@ -46,17 +47,28 @@ impl Probes {
         mesh: &Mesh,
         body: &Deformable,
     ) -> Result<Self, Refused> {
-        let own = scene.probe.iter().filter(|probe| probe.body == name);
-        own.map(|probe| Probe::new(probe.at, solid, mesh, body)).collect::<Result<_, _>>().map(Self)
+        let own = scene.probe.iter().filter(|probe| probe.body == name).map(|probe| probe.at);
+        let fields = scene.field.iter().filter(|field| field.body_and_place().0 == name);
+        let of_fields = fields.flat_map(|field| match scene.sampling(field) {
+            Some(Sampling::Points(grid)) => grid.points().collect(),
+            _ => Vec::new(),
+        });
+        let all = own.chain(of_fields).map(|at| Probe::new(at, solid, mesh, body));
+        all.collect::<Result<_, _>>().map(Self)
     }
 
-    /// Values at all points of a state with a temperature [K].
-    pub fn read(&self, seen: &Seen, stresses: &Stresses, temperature: f64) -> Vec<Probed> {
+    /// Values at all points of a state.
+    pub fn read(
+        &self,
+        seen: &Seen,
+        stresses: &Stresses,
+        temperatures: Temperatures,
+    ) -> Vec<Probed> {
         if self.0.is_empty() {
             return Vec::new();
         }
         let strains = seen.body.plastic_strains(seen.history);
-        self.0.iter().map(|probe| probe.read(seen, (stresses, &strains), temperature)).collect()
+        self.0.iter().map(|probe| probe.read(seen, (stresses, &strains), temperatures)).collect()
     }
 }
 
@@ -91,7 +103,7 @@ impl Probe {
         &self,
         seen: &Seen,
         (stresses, strains): (&Stresses, &[f64]),
-        temperature: f64,
+        temperatures: Temperatures,
     ) -> Probed {
         let body = seen.body;
         let mut displacement = [0.0; 3];
@@ -120,7 +132,7 @@ impl Probe {
             displacement: self.turn.map(|row| (0..3).map(|a| row[a] * displacement[a]).sum()),
             stress: packed(&turned),
             plastic_strain: plastic_strain.clamp(0.0, most_strain),
-            temperature,
+            temperature: temperatures.at(&self.row),
         }
     }
 }

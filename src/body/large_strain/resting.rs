@@ -6,6 +6,7 @@ use super::faces::{Faces, Prescribed, loaded};
 use super::probes::Probes;
 use super::snapshot::{Seen, columns, copies};
 use super::totals::Sums;
+use super::warming::{Temperatures, Warming, heat_totals};
 use super::{View, is_large, named, plan};
 use crate::body::{
     Acts, Advice, Approach, BodyError, Given, Giver, Maxima, Memo, Reading, Resources, Structured,
@@ -13,7 +14,7 @@ use crate::body::{
 use crate::inputs::InputLayout;
 use crate::laws::solid::large_strain::Thermal;
 use crate::method::large_strain::{
-    Conditions, Course, Equilibrium, FaceLoad, Failure, Rest, STEPS, WORK,
+    Conditions, Course, Courses, Equilibrium, FaceLoad, Failure, Rest, STEPS, WORK, Warmth,
 };
 use crate::method::sph::ParticleFields;
 use crate::runtime::allowance::{Allowance, Interrupt, cost};
@@ -35,6 +36,8 @@ pub struct RestingBody {
     temperature: f64,
     /// Effects of the temperature on each layer.
     thermal: Vec<Thermal>,
+    /// Heat of a body that conducts it.
+    warming: Option<Warming>,
     notes: Vec<String>,
 }
 
@@ -52,6 +55,7 @@ pub struct Resting {
     load_work: f64,
     loads: Vec<[f64; 4]>,
     rest: Rest,
+    warmth: Warmth,
     /// Forces on the faces that are moved [N].
     forces: Vec<[f64; 3]>,
 }
@@ -68,7 +72,7 @@ impl Fields for Resting {
         let of = |name, words, per, width| Field { name, words, per, width };
         let body = |name, words| of(name, words, Per::Body, 1);
         let displacement = self.rest.displacement.as_flattened_mut();
-        vec![
+        let mut fields = vec![
             (body("time", "time since the start [s]"), from_mut(&mut self.time)),
             (body("steps", "steps made"), from_mut(&mut self.steps)),
             (body("temperature", "temperature [K]"), from_mut(&mut self.temperature)),
@@ -84,8 +88,10 @@ impl Fields for Resting {
                 self.forces.as_flattened_mut(),
             ),
             (of("displacement", "displacement [m]", Per::Node, 3), displacement),
-            (of("history", "history of the law", Per::Point, 1), &mut self.rest.history),
-        ]
+            (of("history", "history of the law", Per::Point, 1), &mut self.rest.history[..]),
+        ];
+        fields.extend(self.warmth.fields());
+        fields
     }
 }
 
@@ -104,13 +110,15 @@ impl RestingBody {
         let probes = Probes::new(scene, (name, solid), &mesh, &body);
         let probes = probes.map_err(|refused| named(refused.into()))?;
         let loaded = loaded(solid, &body);
+        let warming = Warming::new(layout, (name, solid), &mesh, &body).map_err(named)?;
+        let warmth = warming.as_ref().map(|own| own.start(0, false)).unwrap_or_default();
         let equilibrium = Equilibrium::new(body, &faces.held(), loaded).map_err(named)?;
         let forces = vec![[0.0; 3]; faces.moved()];
         let loads = vec![[0.0; 4]; faces.loaded()];
         let columns = columns(&equilibrium.body.space, solid.is_box());
         let temperature = solid.initial_temperature;
         let rest = equilibrium.rest();
-        let start = Resting { temperature, loads, rest, forces, ..Resting::default() };
+        let start = Resting { temperature, loads, rest, forces, warmth, ..Resting::default() };
         let own = Self {
             name: name.to_owned(),
             equilibrium,
@@ -122,26 +130,34 @@ impl RestingBody {
             columns,
             temperature,
             thermal: solid.thermal(),
+            warming,
             notes: super::forecast::notes(solid),
         };
         Ok(own)
     }
 
-    /// The step of each layer over a time [s] in which the temperature changes linearly [K].
-    fn course(&self, temperatures: [f64; 2], dt: f64) -> Result<Vec<Course>, Failure> {
+    /// The steps of all points over a time [s] in which the temperature changes linearly.
+    fn course(&self, [from, to]: [Temperatures; 2], dt: f64) -> Result<Courses, Failure> {
+        if let Some(warming) = &self.warming {
+            let body = &self.equilibrium.body;
+            let [before, after] = [from, to].map(|own| warming.of_groups(body, own.rise));
+            return warming.courses(body, [&before, &after], dt);
+        }
+        let temperatures = [from.base, to.base];
         let of_layer = |thermal: &Thermal| {
             let (temperature, stretch) = (temperatures[1], thermal.stretch(temperatures[1]));
             if !(stretch > 0.0 && stretch.is_finite()) {
                 return Err(Failure::Shrunk { temperature, stretch });
             }
-            Ok(Course { time: thermal.reduced_time(temperatures, dt), stretch })
+            Ok(Course { time: thermal.reduced_time(temperatures, dt), stretch, growth: 0.0 })
         };
-        self.thermal.iter().map(of_layer).collect()
+        let of_layers = self.thermal.iter().map(of_layer).collect::<Result<_, _>>()?;
+        Ok(Courses::OfLayers(of_layers))
     }
 
-    /// Thermal stretch of each layer at a temperature [K].
-    fn stretches(&self, temperature: f64) -> Vec<f64> {
-        self.thermal.iter().map(|thermal| thermal.stretch(temperature)).collect()
+    /// Thermal stretches of all points of a state, over no time.
+    fn over(&self, state: &Resting) -> Result<Courses, Failure> {
+        self.course([temperatures(state); 2], 0.0)
     }
 
     /// Returns true if part of the body remembers what happened to it.
@@ -159,8 +175,9 @@ impl RestingBody {
         allowance: &Allowance,
     ) -> Result<(), Failure> {
         let conditions = self.conditions(to);
-        let course = self.course([state.temperature, to.temperature], dt)?;
-        let expansion = self.work_of_expansion(state, to.temperature)?;
+        let end = Temperatures { base: to.temperature, rise: &to.rise };
+        let course = self.course([temperatures(state), end], dt)?;
+        let expansion = self.work_of_expansion(state, end)?;
         let from = self.loads_at(&state.rest, &self.held(state).loads);
         let displaced = state.rest.displacement.clone();
         match self.equilibrium.step(&mut state.rest, &conditions, &course, allowance) {
@@ -182,6 +199,7 @@ impl RestingBody {
                 state.stored = found.stored;
                 state.time += dt;
                 state.temperature = to.temperature;
+                state.warmth.rise.clone_from(&to.rise);
                 state.steps += 1.0;
                 state.forces = self.faces.forces(&found.reactions);
                 Ok(())
@@ -197,19 +215,21 @@ impl RestingBody {
     }
 
     /// Energy that a change of temperature alone gives to a body with a history [J].
-    fn work_of_expansion(&self, state: &Resting, temperature: f64) -> Result<f64, Failure> {
+    fn work_of_expansion(&self, state: &Resting, to: Temperatures) -> Result<f64, Failure> {
         let body = &self.equilibrium.body;
-        if !self.remembers() || temperature == state.temperature {
+        if !self.remembers() || to.base == state.temperature && to.rise == state.warmth.rise {
             return Ok(0.0);
         }
         let (u, mut history) = (&state.rest.displacement, state.rest.history.clone());
-        let over = self.course([temperature; 2], 0.0)?;
+        let over = self.course([to; 2], 0.0)?;
         Ok(body.respond(u, &over, &mut history, &body.team())?.energy - state.stored)
     }
 
     /// The equilibrium under the present inputs, which may have changed since the last step.
     fn present(&self, mut present: Resting, inputs: &[f64]) -> Result<Resting, BodyError> {
-        let to = self.faces.prescribed(inputs);
+        let mut to = self.faces.prescribed(inputs);
+        let warmth = self.held_warmth(&present, inputs);
+        to.rise.clone_from(&warmth.rise);
         if present.steps == 0.0 || self.held(&present) != to {
             let (time, steps) = (present.time, present.steps);
             let interrupt = Interrupt::default();
@@ -217,8 +237,18 @@ impl RestingBody {
             let settled = self.settle(&mut present, &to, 0.0, HALVINGS, &allowance);
             settled.map_err(|failure| named(&self.name, failure))?;
             (present.time, present.steps) = (time, steps);
+            present.warmth = warmth;
         }
         Ok(present)
+    }
+
+    /// The heat of a state with the temperatures that inputs prescribe.
+    fn held_warmth(&self, state: &Resting, inputs: &[f64]) -> Warmth {
+        let mut warmth = state.warmth.clone();
+        if let Some(warming) = &self.warming {
+            warming.hold(&mut warmth, inputs);
+        }
+        warmth
     }
 
     fn conditions(&self, to: &Prescribed) -> Conditions {
@@ -240,16 +270,17 @@ impl RestingBody {
             places: self.faces.places(&state.rest.displacement),
             loads: state.loads.iter().copied().map(FaceLoad::of).collect(),
             temperature: state.temperature,
+            rise: state.warmth.rise.clone(),
         }
     }
 
-    fn seen<'a>(&'a self, state: &'a Resting, stretches: &'a [f64]) -> Seen<'a> {
+    fn seen<'a>(&'a self, state: &'a Resting, over: &'a Courses) -> Seen<'a> {
         Seen {
             body: &self.equilibrium.body,
             mirrors: self.mirrors,
             lifted: 0.0,
             displacement: &state.rest.displacement,
-            stretches,
+            over,
             columns: &self.columns,
             velocity: None,
             history: &state.rest.history,
@@ -273,14 +304,22 @@ impl RestingBody {
         if !state.loads.as_flattened().iter().all(|load| load.is_finite()) {
             return Err("a load is not finite".to_owned());
         }
-        let stretches = self.stretches(state.temperature);
-        let found = self.seen(state, &stretches).stresses().map_err(|error| error.to_string())?;
+        let words = |failure: Failure| failure.to_string();
+        if let Some(warming) = &self.warming {
+            warming.check(&state.warmth)?;
+        }
+        let over = self.over(state).map_err(words)?;
+        let found = self.seen(state, &over).stresses().map_err(words)?;
         let missing = found.energy - state.stored;
         if missing.abs() > ENERGY * found.energy.abs() {
             return Err(format!("{missing:.1e} J of the stored energy have no cause"));
         }
         Ok(())
     }
+}
+
+fn temperatures(state: &Resting) -> Temperatures<'_> {
+    Temperatures { base: state.temperature, rise: &state.warmth.rise }
 }
 
 impl Structured for RestingBody {
@@ -299,6 +338,10 @@ impl Structured for RestingBody {
         self.check_resting(state)
     }
 
+    fn check_inputs(&self, inputs: &[f64]) -> Result<(), BodyError> {
+        self.warming.as_ref().map_or(Ok(()), |warming| warming.check_inputs(inputs))
+    }
+
     fn advance(
         &self,
         state: &mut Resting,
@@ -306,32 +349,43 @@ impl Structured for RestingBody {
         allowance: &Allowance,
     ) -> Result<Option<Given>, BodyError> {
         // Inputs that have jumped act at once, before stress relaxes.
-        let from = self.faces.prescribed(&acts.path.at(0, 0.0));
+        let inputs = acts.path.at(0, 0.0);
+        let mut from = self.faces.prescribed(&inputs);
+        let mut warmth = self.held_warmth(state, &inputs);
+        from.rise.clone_from(&warmth.rise);
         let jumps = state.steps == 0.0 || self.held(state) != from;
         if jumps && self.remembers() {
             let settled = self.settle(state, &from, 0.0, HALVINGS, allowance);
             settled.map_err(|failure| named(&self.name, failure))?;
         }
-        let to = self.faces.prescribed(&acts.path.at(0, acts.duration));
+        let mut to = self.faces.prescribed(&acts.path.at(0, acts.duration));
+        if let Some(warming) = &self.warming {
+            let own = (&self.name[..], &self.equilibrium.body, &state.rest.displacement[..]);
+            let over = (acts.path, acts.duration);
+            warming.advance(own, &mut warmth, over, Vec::new(), allowance)?;
+            to.rise.clone_from(&warmth.rise);
+        }
         let settled = self.settle(state, &to, acts.duration, HALVINGS, allowance);
         settled.map_err(|failure| named(&self.name, failure))?;
+        state.warmth = warmth;
         Ok(None)
     }
 
     fn view(&self, state: Resting, inputs: &[f64]) -> Result<View, BodyError> {
         let state = self.present(state, inputs)?;
-        let stretches = self.stretches(state.temperature);
-        let seen = self.seen(&state, &stretches);
+        let over = self.over(&state).map_err(|failure| named(&self.name, failure))?;
+        let seen = self.seen(&state, &over);
         let stresses = seen.stresses().map_err(|failure| named(&self.name, failure))?;
         let copies = copies(self.mirrors);
         let sums = Sums {
             dissipated: copies * (state.work - state.stored),
             load_work: copies * state.load_work,
             steps: state.steps,
+            heat: heat_totals(self.warming.as_ref(), (seen.body, &state.warmth), copies),
             ..Sums::default()
         };
         let snapshot = seen.snapshot(&stresses);
-        let probed = self.probes.read(&seen, &stresses, state.temperature);
+        let probed = self.probes.read(&seen, &stresses, temperatures(&state));
         Ok(View { snapshot, sums, probed, forces: state.forces })
     }
 
@@ -345,8 +399,8 @@ impl Structured for RestingBody {
 
     fn drawn(&self, state: Resting, inputs: &[f64]) -> Result<ParticleFields, BodyError> {
         let present = self.present(state, inputs)?;
-        let stretches = self.stretches(present.temperature);
-        Ok(self.seen(&present, &stretches).particles(present.temperature))
+        let over = self.over(&present).map_err(|failure| named(&self.name, failure))?;
+        Ok(self.seen(&present, &over).particles(temperatures(&present)))
     }
 }
 
@@ -362,7 +416,8 @@ impl Advice for RestingBody {
     }
 
     fn temperature_set(&self, state: &[f64]) -> Option<f64> {
-        Some(self.structure(state).temperature)
+        // Temperatures of faces have warnings of their own.
+        self.warming.is_none().then(|| self.structure(state).temperature)
     }
 }
 

@@ -1,7 +1,8 @@
 //! Measures of a deformed solid of large strain.
 
+use super::warming::Temperatures;
 use crate::laws::solid::large_strain::Deformed;
-use crate::method::large_strain::{Course, Deformable, Failure, Stresses, Touch};
+use crate::method::large_strain::{Courses, Deformable, Failure, Stresses, Touch};
 use crate::method::sph::ParticleFields;
 use crate::space::{Form, Space};
 
@@ -62,8 +63,8 @@ pub struct Seen<'a> {
     /// Height of the reference configuration above its place in space [m].
     pub lifted: f64,
     pub displacement: &'a [[f64; 3]],
-    /// Thermal stretch of each layer.
-    pub stretches: &'a [f64],
+    /// Thermal stretches, over no time.
+    pub over: &'a Courses,
     /// `None` for a body at rest.
     pub velocity: Option<&'a [[f64; 3]]>,
     pub history: &'a [f64],
@@ -76,7 +77,7 @@ impl Seen<'_> {
     pub fn stresses(&self) -> Result<Stresses, Failure> {
         let mut history = self.history.to_vec();
         let team = &self.body.team();
-        self.body.respond(self.displacement, &self.over(), &mut history, team)
+        self.body.respond(self.displacement, self.over, &mut history, team)
     }
 
     pub fn snapshot(&self, stresses: &Stresses) -> Snapshot {
@@ -145,11 +146,6 @@ impl Seen<'_> {
         }
     }
 
-    /// No time at the thermal stretch of each layer.
-    fn over(&self) -> Vec<Course> {
-        self.stretches.iter().map(|&stretch| Course { time: 0.0, stretch }).collect()
-    }
-
     fn radius(&self, touch: &Touch) -> f64 {
         let count = touch.spots.len().max(1) as f64;
         let is_round = self.body.space.form == Form::Axisymmetric;
@@ -162,11 +158,12 @@ impl Seen<'_> {
     }
 
     /// All nodes as particles, mirror images included; a node of a ring has its radius as x.
-    pub fn particles(&self, temperature: f64) -> ParticleFields {
+    pub fn particles(&self, temperatures: Temperatures) -> ParticleFields {
         let body = self.body;
         let mut fields = ParticleFields::default();
         let swelling = self.swelling();
         let [density, pressure] = [0, 1].map(|n| swelling.iter().map(|s| s[n]).collect::<Vec<_>>());
+        let temperature = temperatures.at_nodes(body);
         let count = body.nodes();
         let moved = body.displacements(self.displacement);
         let velocities = self.velocity.map(|velocity| body.displacements(velocity));
@@ -184,21 +181,21 @@ impl Seen<'_> {
                 fields.mass.extend(&body.mass);
                 fields.density.extend(&density);
                 fields.pressure.extend(&pressure);
+                fields.temperature.extend(&temperature);
             }
         }
-        fields.temperature = vec![temperature; fields.mass.len()];
         fields
     }
 
     /// Density [kg/m³] and pressure of the dilatation [Pa] at each node: means over the points around it.
     fn swelling(&self) -> Vec<[f64; 2]> {
         let body = self.body;
-        let (deformed, dilatations) =
-            body.deformations(self.displacement, &self.over(), &body.team());
+        let (deformed, dilatations) = body.deformations(self.displacement, self.over, &body.team());
         let mut sums = vec![[0.0; 3]; body.nodes()];
         for (number, (group, &mean)) in body.space.groups.iter().zip(&dilatations).enumerate() {
             let layer = body.layer_of_group[number];
-            let (free, density) = (self.stretches[layer].powi(3), body.layers[layer].density);
+            let stretch = self.over.at(body, number).stretch;
+            let (free, density) = (stretch.powi(3), body.layers[layer].density);
             let [slope, _] = body.law_of(number).pressure(mean);
             for point in group.clone() {
                 let Deformed { dilatation, .. } = deformed[point];

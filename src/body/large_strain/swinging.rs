@@ -6,13 +6,14 @@ use super::faces::{Faces, Prescribed, loaded};
 use super::probes::Probes;
 use super::snapshot::{Seen, Snapshot, columns, copies};
 use super::totals::Sums;
+use super::warming::Temperatures;
 use super::{View, is_large, named, plan};
 use crate::body::{
     Acts, Advice, Approach, BodyError, Given, Giver, Maxima, Reading, Resources, Structured,
 };
 use crate::inputs::InputLayout;
 use crate::method::large_strain::{
-    Drive, Failure, IMPLICIT_STEPS, IMPLICIT_WORK, ImplicitDynamics, Motion,
+    Course, Courses, Drive, Failure, IMPLICIT_STEPS, IMPLICIT_WORK, ImplicitDynamics, Motion,
 };
 use crate::method::sph::ParticleFields;
 use crate::runtime::allowance::{Allowance, cost};
@@ -29,6 +30,8 @@ pub struct SwingingBody {
     mirrors: [bool; 2],
     columns: Vec<[usize; 2]>,
     temperature: f64,
+    /// No stretch over no time.
+    still: Courses,
     notes: Vec<String>,
 }
 
@@ -44,7 +47,7 @@ impl Fields for Swinging {
     fn fields(&mut self) -> Vec<(Field, &mut [f64])> {
         let of = |name, words, per, width| Field { name, words, per, width };
         let body = |name, words| of(name, words, Per::Body, 1);
-        let Motion { ledger, displacement, velocity, history } = &mut self.motion;
+        let Motion { ledger, displacement, velocity, history, .. } = &mut self.motion;
         vec![
             (body("time", "time since the start [s]"), from_mut(&mut ledger.time)),
             (body("steps", "time steps made"), from_mut(&mut ledger.steps)),
@@ -89,6 +92,7 @@ impl SwingingBody {
         let loaded = loaded(solid, &body);
         let dynamics = ImplicitDynamics::new(body, &faces.held(), loaded, solid.gravity);
         let dynamics = dynamics.map_err(named)?;
+        let still = dynamics.body.in_all(Course::NONE);
         let motion = dynamics.start(solid.start.velocity);
         let start = Swinging { motion, forces: vec![[0.0; 3]; faces.moved()] };
         Ok(Self {
@@ -100,6 +104,7 @@ impl SwingingBody {
             mirrors: solid.mirrors(),
             columns,
             temperature: solid.initial_temperature,
+            still,
             notes: super::forecast::notes(solid),
         })
     }
@@ -140,13 +145,17 @@ impl SwingingBody {
         Ok(seen.snapshot(&stresses))
     }
 
+    fn temperatures(&self) -> Temperatures<'_> {
+        Temperatures { base: self.temperature, rise: &[] }
+    }
+
     fn seen<'a>(&'a self, motion: &'a Motion) -> Seen<'a> {
         Seen {
             body: &self.dynamics.body,
             mirrors: self.mirrors,
             lifted: 0.0,
             displacement: &motion.displacement,
-            stretches: &[1.0],
+            over: &self.still,
             columns: &self.columns,
             velocity: Some(&motion.velocity),
             history: &motion.history,
@@ -228,7 +237,7 @@ impl Structured for SwingingBody {
         let stresses = seen.stresses().map_err(|failure| named(&self.name, failure))?;
         let snapshot = seen.snapshot(&stresses);
         let sums = self.sums(&motion, &snapshot);
-        let probed = self.probes.read(&seen, &stresses, self.temperature);
+        let probed = self.probes.read(&seen, &stresses, self.temperatures());
         Ok(View { snapshot, sums, forces, probed })
     }
 
@@ -241,7 +250,7 @@ impl Structured for SwingingBody {
         Swinging { motion, .. }: Swinging,
         _: &[f64],
     ) -> Result<ParticleFields, BodyError> {
-        Ok(self.seen(&motion).particles(self.temperature))
+        Ok(self.seen(&motion).particles(self.temperatures()))
     }
 }
 

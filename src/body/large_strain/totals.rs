@@ -1,6 +1,7 @@
 //! Readings of solids of large strain.
 
 use super::snapshot::Snapshot;
+use super::warming::HeatTotals;
 use crate::body::{Descriptor, Direct};
 use crate::quantity::Quantity;
 use crate::scene::{FaceName, HeldFace, LargeStrain};
@@ -15,6 +16,7 @@ pub struct Sums {
     pub lift_off: f64,
     pub steps: f64,
     pub force_outside: f64,
+    pub heat: HeatTotals,
 }
 
 /// A scalar of a whole body.
@@ -38,6 +40,10 @@ enum Offered {
     Loaded,
     /// Those on a solid, over whose edge they may reach.
     OnASolid,
+    /// Those that conduct heat.
+    Conducting,
+    /// Those whose heat passes to the solid below.
+    Warming,
     /// Boxes in a plane.
     PlaneBox,
 }
@@ -45,9 +51,10 @@ enum Offered {
 enum Read {
     Snapshot(fn(&Snapshot) -> f64),
     Sums(fn(&Sums) -> f64),
+    Heat(fn(&HeatTotals) -> f64),
 }
 
-const TOTALS: [Total; 21] = [
+const TOTALS: [Total; 27] = [
     all("width", "extent along x", Quantity::Length, |s| s.width),
     all("height", "extent along z", Quantity::Length, |s| s.height),
     all("centre_z", "height of the centre of mass", Quantity::Length, |s| s.centre),
@@ -116,6 +123,37 @@ const TOTALS: [Total; 21] = [
         of: Offered::PlaneBox,
         read: Read::Snapshot(|s| s.curvature),
     },
+    conducting(
+        "max_temperature",
+        "highest temperature of the body",
+        Quantity::Temperature,
+        |heat| heat.highest,
+    ),
+    conducting("mean_temperature", "mean temperature by capacity", Quantity::Temperature, |heat| {
+        heat.mean
+    }),
+    conducting(
+        "heat_in",
+        "heat that prescribed fluxes have brought in",
+        Quantity::Energy,
+        |heat| heat.brought_in,
+    ),
+    conducting("heat_stored", "heat stored since time zero", Quantity::Energy, |heat| heat.stored),
+    conducting(
+        "heat_lost",
+        "heat that has left through convective and prescribed-temperature faces",
+        Quantity::Energy,
+        |heat| heat.lost,
+    ),
+    Total {
+        of: Offered::Warming,
+        ..conducting(
+            "heat",
+            "heat given to the solid below since time zero",
+            Quantity::Energy,
+            |heat| heat.given,
+        )
+    },
     Total {
         key: "steps",
         words: "steps of equilibrium made inside the unit",
@@ -155,6 +193,15 @@ const fn above(
     Total { key, words, quantity, of: Offered::Above, read: Read::Sums(read) }
 }
 
+const fn conducting(
+    key: &'static str,
+    words: &'static str,
+    quantity: Quantity,
+    read: fn(&HeatTotals) -> f64,
+) -> Total {
+    Total { key, words, quantity, of: Offered::Conducting, read: Read::Heat(read) }
+}
+
 /// Returns the totals that a solid offers, each with its place: first those of the table, then the forces of faces whose
 /// displacement is prescribed. In a plane model they are amounts per metre of depth.
 pub fn offered_totals(solid: &LargeStrain, is_coupled: bool) -> Vec<(usize, Descriptor)> {
@@ -166,6 +213,8 @@ pub fn offered_totals(solid: &LargeStrain, is_coupled: bool) -> Vec<(usize, Desc
         Offered::Above => solid.is_above(),
         Offered::Loaded => solid.faces.values().any(HeldFace::is_loaded),
         Offered::OnASolid => is_coupled,
+        Offered::Conducting => solid.conducts(),
+        Offered::Warming => solid.conductance_below.is_some(),
         Offered::PlaneBox => is_plane && solid.is_box(),
     };
     let described = |key, words, quantity: Quantity| {
@@ -210,6 +259,7 @@ pub fn read(snapshot: &Snapshot, sums: &Sums, place: usize) -> f64 {
     match TOTALS[place].read {
         Read::Snapshot(of) => of(snapshot),
         Read::Sums(of) => of(sums),
+        Read::Heat(of) => of(&sums.heat),
     }
 }
 

@@ -19,6 +19,8 @@ pub struct Plane {
 /// A point in contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spot {
+    /// Number of the point of the boundary.
+    pub point: usize,
     /// x and y in space [m].
     pub at: [f64; 2],
     /// Extent over which it presses [m].
@@ -79,7 +81,7 @@ impl Plane {
             let force = self.stiffness * -at[2] * samples.weights[point];
             touch.force += force;
             touch.energy += 0.5 * force * -at[2];
-            touch.spots.push(Spot { at: [at[0], at[1]], width: self.width, force });
+            touch.spots.push(Spot { point, at: [at[0], at[1]], width: self.width, force });
             let row = samples.row(point).iter();
             touch.nodes.extend(row.map(|value| (value.node, force * value.value)));
         }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{Course, Failure};
+use super::{Course, Courses, Failure};
 use crate::laws::solid::large_strain::{Deformed, LargeStrainLaw};
 use crate::laws::solid::stress::von_mises;
 use crate::math::matrix3::{IDENTITY, Matrix3, contraction, packed};
@@ -49,6 +49,8 @@ pub struct Stresses {
     pub loads: Vec<Matrix3>,
     /// Stored energy [J].
     pub energy: f64,
+    /// Power with which thermal stretches change it [W].
+    pub swelling: f64,
     /// Largest modulus of plane waves over that of the undeformed body.
     pub stiffening: f64,
     /// Smallest J of a point.
@@ -64,6 +66,7 @@ struct Chunk<'a> {
     history: &'a mut [f64],
     loads: &'a mut [Matrix3],
     energy: f64,
+    swelling: f64,
     stiffening: f64,
     least: (f64, usize),
 }
@@ -90,16 +93,17 @@ impl Deformable {
         mirrors: [bool; 2],
         threads: usize,
     ) -> Self {
-        let mut mass = vec![0.0; space.nodes.len()];
-        for (group, &layer) in space.groups.iter().zip(&layers.1) {
-            for point in group.clone() {
-                let share = layers.0[layer].density * space.volume.weights[point];
-                for value in space.volume.row(point) {
-                    mass[value.node as usize] += share * value.value;
-                }
-            }
-        }
+        let densities: Vec<f64> = layers.0.iter().map(|layer| layer.density).collect();
+        let mass = lumped(&space, &layers.1, &densities);
         Self::with(space, layers, mass, mirrors, threads)
+    }
+
+    /// Integrals over the shares of the nodes of a value of each layer per reference volume.
+    pub fn lumped(&self, of_layers: &[f64]) -> Vec<f64> {
+        match of_layers {
+            [only] => self.space.shares.iter().map(|share| only * share).collect(),
+            _ => lumped(&self.space, &self.layer_of_group, of_layers),
+        }
     }
 
     fn with(
@@ -151,6 +155,36 @@ impl Deformable {
         (0..self.nodes()).map(of_node).collect()
     }
 
+    /// Values at the nodes themselves from their coefficients.
+    pub fn at_nodes(&self, values: &[f64]) -> Vec<f64> {
+        let Some(at_nodes) = &self.space.at_nodes else { return values.to_vec() };
+        let row = |node: usize| at_nodes.row(node).iter();
+        let of_node = |node| row(node).map(|own| own.value * values[own.node as usize]).sum();
+        (0..self.nodes()).map(of_node).collect()
+    }
+
+    /// Mean of a field of the nodes over each group of points.
+    pub fn means_of_groups(&self, values: &[f64]) -> Vec<f64> {
+        let volume = &self.space.volume;
+        let at = |point: usize| -> f64 {
+            volume.row(point).iter().map(|own| own.value * values[own.node as usize]).sum()
+        };
+        let of_group = |group: &Range<usize>| {
+            let whole: f64 = volume.weights[group.clone()].iter().sum();
+            group.clone().map(|point| volume.weights[point] * at(point)).sum::<f64>() / whole
+        };
+        self.space.groups.iter().map(of_group).collect()
+    }
+
+    /// Nodes of the functions at points, ascending.
+    pub fn nodes_of(&self, points: &Range<usize>) -> Vec<u32> {
+        let rows = points.clone().flat_map(|point| self.space.volume.row(point));
+        let mut nodes: Vec<u32> = rows.map(|value| value.node).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
+    }
+
     /// Length of the history of all points.
     pub fn history(&self) -> usize {
         self.histories[self.space.groups.len()]
@@ -193,8 +227,8 @@ impl Deformable {
     }
 
     /// A step in which all layers go through the same.
-    pub fn in_all(&self, over: Course) -> Vec<Course> {
-        vec![over; self.layers.len()]
+    pub fn in_all(&self, over: Course) -> Courses {
+        Courses::OfLayers(vec![over; self.layers.len()])
     }
 
     /// `F` at a point for displacements u of the nodes.
@@ -226,27 +260,26 @@ impl Deformable {
         (all, swollen / whole)
     }
 
-    /// Elastic deformation of all points over the thermal stretches of layers, and the mean dilatation of each group.
+    /// Elastic deformation of all points over their thermal stretches, and the mean dilatation of each group.
     pub fn deformations(
         &self,
         u: &[[f64; 3]],
-        over: &[Course],
+        over: &Courses,
         team: &Team,
     ) -> (Vec<Deformed>, Vec<f64>) {
         let groups = &self.space.groups;
-        let of_group =
-            |group: usize| self.group(&groups[group], u, over[self.layer_of_group[group]].stretch);
+        let of_group = |group: usize| self.group(&groups[group], u, over.at(self, group).stretch);
         let all = team.map(groups.len(), of_group);
         let (points, dilatations): (Vec<_>, Vec<_>) = all.into_iter().unzip();
         (points.concat(), dilatations)
     }
 
-    /// Advances the history to displacements u at the end of a step, by the course of each layer; returns the stresses
+    /// Advances the history to displacements u at the end of a step, by the course of each group; returns the stresses
     /// there.
     pub fn respond(
         &self,
         u: &[[f64; 3]],
-        over: &[Course],
+        over: &Courses,
         history: &mut [f64],
         team: &Team,
     ) -> Result<Stresses, Failure> {
@@ -258,9 +291,11 @@ impl Deformable {
         };
         let mut chunks = self.chunks(history, &mut stresses);
         team.for_each(&mut chunks, |_, chunk| self.respond_in(chunk, u, over));
-        let (mut energy, mut stiffening, mut least) = (0.0, 0.0_f64, (f64::INFINITY, 0));
+        let (mut energy, mut swelling) = (0.0, 0.0);
+        let (mut stiffening, mut least) = (0.0_f64, (f64::INFINITY, 0));
         for chunk in &chunks {
             energy += chunk.energy;
+            swelling += chunk.swelling;
             stiffening = stiffening.max(chunk.stiffening);
             // A dilatation that is not a number is below all others.
             if chunk.least.0.is_nan() || chunk.least.0 < least.0 {
@@ -275,7 +310,7 @@ impl Deformable {
                 false => Failure::NotFinite,
             });
         }
-        Ok(Stresses { energy, stiffening, least: least.0, ..stresses })
+        Ok(Stresses { energy, swelling, stiffening, least: least.0, ..stresses })
     }
 
     /// Cuts history and results into chunks.
@@ -295,6 +330,7 @@ impl Deformable {
                 history,
                 loads,
                 energy: 0.0,
+                swelling: 0.0,
                 stiffening: 0.0,
                 least: (f64::INFINITY, 0),
             });
@@ -302,10 +338,10 @@ impl Deformable {
         chunks
     }
 
-    fn respond_in(&self, chunk: &mut Chunk, u: &[[f64; 3]], over: &[Course]) {
+    fn respond_in(&self, chunk: &mut Chunk, u: &[[f64; 3]], over: &Courses) {
         let (mut place, mut history) = (0, &mut chunk.history[..]);
         for number in chunk.groups.clone() {
-            let Course { time, stretch } = over[self.layer_of_group[number]];
+            let Course { time, stretch, growth } = over.at(self, number);
             let (area, volume) = (stretch * stretch, stretch * stretch * stretch);
             let (group, law) = (&self.space.groups[number], self.law_of(number));
             let (length, modulus) = (law.history(), law.wave_modulus());
@@ -325,6 +361,11 @@ impl Deformable {
                         area * weight * (response.stress[a][b] + jp * at.inverse_transposed[a][b]);
                 }
                 chunk.energy += volume * weight * response.energy;
+                if growth != 0.0 {
+                    // ∂W/∂ϑ = (3 W − P : F)/ϑ.
+                    let stored = 3.0 * area * weight * response.energy;
+                    chunk.swelling += growth * (stored - contraction(load, &at.gradient));
+                }
                 let dilatation = volume * at.dilatation;
                 if dilatation.is_nan() || dilatation < chunk.least.0 {
                     chunk.least = (dilatation, point);
@@ -335,6 +376,9 @@ impl Deformable {
                 place += 1;
             }
             chunk.energy += volume * whole * law.energy_of_dilatation(mean);
+            if growth != 0.0 {
+                chunk.swelling += growth * 3.0 * area * whole * law.energy_of_dilatation(mean);
+            }
         }
     }
 
@@ -417,6 +461,20 @@ impl Deformable {
             (0..3).filter(|&a| fixed[a]).for_each(|a| shape[a] = 0.0);
         }
     }
+}
+
+/// Integrals over the functions of the nodes of a value of each layer.
+fn lumped(space: &Space, layer_of_group: &[usize], of_layers: &[f64]) -> Vec<f64> {
+    let mut sums = vec![0.0; space.nodes.len()];
+    for (group, &layer) in space.groups.iter().zip(layer_of_group) {
+        for point in group.clone() {
+            let share = of_layers[layer] * space.volume.weights[point];
+            for value in space.volume.row(point) {
+                sums[value.node as usize] += share * value.value;
+            }
+        }
+    }
+    sums
 }
 
 fn fixed(form: Form, mirrors: [bool; 2], at: [f64; 3]) -> [bool; 3] {

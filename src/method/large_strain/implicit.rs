@@ -8,7 +8,7 @@
 use super::path::{Path, gradients};
 use super::statics::{difference, is_rounding, rounding, sum};
 use super::tangent::{Factor, Stiffness, Terms};
-use super::{Course, Deformable, FaceLoad, Failure, LoadedFaces, Motion};
+use super::{Course, Courses, Deformable, FaceLoad, Failure, LoadedFaces, Motion};
 use crate::math::matrix3::Matrix3;
 use crate::runtime::allowance::Allowance;
 use crate::runtime::parallel::Team;
@@ -63,6 +63,7 @@ const ROUNDING: f64 = 1e-15;
 struct Step<'a> {
     from: &'a Motion,
     start: &'a [Matrix3],
+    over: &'a Courses,
     to: &'a Drive,
     dt: f64,
     team: &'a Team,
@@ -120,7 +121,8 @@ impl ImplicitDynamics {
     ) -> Result<Stepped, Failure> {
         let team = &self.body.team();
         let start = gradients(&self.body, &motion.displacement, team)?;
-        let step = Step { from: motion, start: &start, to, dt, team, allowance };
+        let over = &self.body.in_all(Course::of(dt));
+        let step = Step { from: motion, start: &start, over, to, dt, team, allowance };
         let (mut u, mut now) = self.first(&step)?;
         let mut residuals = vec![now.norm / now.scale];
         while now.norm > TOLERANCE * now.scale + now.rounding {
@@ -213,8 +215,7 @@ impl ImplicitDynamics {
         let (body, from, dt) = (&self.body, step.from, step.dt);
         step.allowance.spend(1.0, IMPLICIT_STEPS, IMPLICIT_WORK * body.space.volume.len())?;
         let end = gradients(body, u, step.team)?;
-        let durations = vec![dt; body.layers.len()];
-        let path = Path { body, start: step.start, end, before: &from.history, durations };
+        let path = Path { body, start: step.start, end, before: &from.history, over: step.over };
         let internal = body.forces_of(&path.loads(step.team), step.team);
         let mut loads = vec![[0.0; 3]; u.len()];
         let middle = middle(&from.displacement, u);

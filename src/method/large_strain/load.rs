@@ -159,6 +159,13 @@ fn pressed(body: &Deformable, point: usize, u: &[[f64; 3]], pressure: f64, matri
     }
 }
 
+/// Area that a point of the boundary represents on a body displaced by u [m²].
+pub fn present_area(body: &Deformable, point: usize, u: &[[f64; 3]]) -> f64 {
+    let Frame { images: [s, t], .. } = frame(body, point, u);
+    let area = cross(s, t);
+    body.space.boundary.samples.weights[point] * area.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
 fn frame(body: &Deformable, point: usize, u: &[[f64; 3]]) -> Frame {
     let normal = body.space.boundary.normals[point];
     let along = match body.space.form {

@@ -10,6 +10,7 @@ mod contact;
 mod course;
 mod deformable;
 mod failure;
+mod heat;
 mod implicit;
 mod load;
 mod motion;
@@ -19,12 +20,15 @@ mod statics;
 mod tangent;
 
 pub use contact::{Plane, Spot, Touch};
-pub use course::Course;
+pub use course::{Course, Courses};
 pub use deformable::{Deformable, LayerOfBody, Stresses};
 pub use failure::Failure;
+pub use heat::{
+    Conduction, Contacts, Film, HEAT_STEPS, HEAT_WORK, HeatDrive, HeatOfLayer, Passed, Warmth,
+};
 pub use implicit::{Drive, IMPLICIT_STEPS, IMPLICIT_WORK, ImplicitDynamics, Stepped};
-pub use load::{FaceLoad, LoadedFaces};
-pub use motion::{Dynamics, Loads};
+pub use load::{FaceLoad, LoadedFaces, present_area};
+pub use motion::{Acting, CoursesOver, Dynamics};
 pub use state::{Ledger, Motion};
 pub use statics::{Conditions, Equilibrium, Found, Rest, STEPS, WORK};
 

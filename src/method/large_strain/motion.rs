@@ -4,9 +4,10 @@
 
 use super::statics::sum;
 use super::{
-    Course, Deformable, FaceLoad, Failure, Ledger, LoadedFaces, Motion, Plane, Stresses, Touch,
+    Contacts, Course, Courses, Deformable, FaceLoad, Failure, Ledger, LoadedFaces, Motion, Plane,
+    Spot, Stresses, Touch,
 };
-use crate::port::WallCells;
+use crate::port::{Cover, WallCells};
 use crate::runtime::allowance::Allowance;
 use crate::runtime::parallel::Team;
 use crate::space::Form;
@@ -34,8 +35,17 @@ const STEPS: &str = "time steps of a solid of large strain";
 /// Numbers that a time step updates for each point of the volume, or as many as take as long.
 const WORK: usize = 60;
 
-/// Loads on faces at a time [s] after the beginning of an advance.
-pub type Loads<'a> = &'a dyn Fn(f64) -> Vec<FaceLoad>;
+/// What acts on a body over an advance, beside gravity and contact.
+pub struct Acting<'a> {
+    /// Loads on faces at a time [s] after its beginning.
+    pub loads: &'a dyn Fn(f64) -> Vec<FaceLoad>,
+    /// Courses of the points over a step, from the time of its end [s] and its length; `None` for a body whose
+    /// temperature has no effect.
+    pub courses: Option<&'a CoursesOver<'a>>,
+}
+
+/// See [`Acting::courses`].
+pub type CoursesOver<'a> = dyn Fn([f64; 2]) -> Result<Courses, Failure> + 'a;
 
 /// Stresses, contact and loads at a moment.
 struct Moment {
@@ -70,6 +80,7 @@ impl Dynamics {
             velocity,
             history: vec![0.0; self.body.history()],
             ledger: Ledger { exchange, ..Ledger::default() },
+            ..Motion::default()
         }
     }
 
@@ -97,33 +108,38 @@ impl Dynamics {
     fn at(
         &self,
         motion: &mut Motion,
-        dt: f64,
-        loads: &[FaceLoad],
+        (time, dt): (f64, f64),
+        acting: &Acting,
         team: &Team,
     ) -> Result<Moment, Failure> {
         let (body, u) = (&self.body, &motion.displacement);
-        let stresses = body.respond(u, &body.in_all(Course::of(dt)), &mut motion.history, team)?;
+        let over = match acting.courses {
+            Some(courses) => courses([time, dt])?,
+            None => body.in_all(Course::of(dt)),
+        };
+        let stresses = body.respond(u, &over, &mut motion.history, team)?;
         let mut of_loads = vec![[0.0; 3]; u.len()];
-        self.loaded.add_forces(body, u, loads, &mut of_loads);
+        self.loaded.add_forces(body, u, &(acting.loads)(time), &mut of_loads);
         let mut forces = sum(&body.forces(&stresses, team), &of_loads);
         let touch = self.plane.touch(body, u);
         touch.add_to(&mut forces);
         Ok(Moment { stresses, touch, loads: of_loads, forces })
     }
 
-    /// Advances by a duration [s] under loads.
+    /// Advances by a duration [s]; notes the contact with cells where `contacts` are given.
     pub fn advance(
         &self,
         motion: &mut Motion,
         duration: f64,
-        loads: Loads,
+        acting: &Acting,
+        mut contacts: Option<&mut Contacts>,
         allowance: &Allowance,
     ) -> Result<(), Failure> {
         motion.ledger.exchange.fill(0.0);
         (motion.ledger.outside, motion.ledger.duration) = (0.0, duration);
         let mut rest = duration;
         let team = &self.body.team();
-        let mut now = self.at(motion, 0.0, &loads(0.0), team)?;
+        let mut now = self.at(motion, (0.0, 0.0), acting, team)?;
         while rest > 0.0 {
             // Equal steps to the end, so that none is tiny.
             let steps = (rest / self.stable(now.stresses.stiffening)).ceil();
@@ -131,7 +147,8 @@ impl Dynamics {
             allowance.spend(1.0, STEPS, self.work())?;
             let dt = rest / steps;
             rest = if steps == 1.0 { 0.0 } else { rest - dt };
-            now = self.step(motion, now, dt, &loads(duration - rest), team)?;
+            let step = (duration - rest, dt);
+            now = self.step(motion, now, step, acting, contacts.as_deref_mut(), team)?;
         }
         Ok(())
     }
@@ -140,16 +157,19 @@ impl Dynamics {
         &self,
         motion: &mut Motion,
         now: Moment,
-        dt: f64,
-        loads: &[FaceLoad],
+        (time, dt): (f64, f64),
+        acting: &Acting,
+        mut contacts: Option<&mut Contacts>,
         team: &Team,
     ) -> Result<Moment, Failure> {
+        self.note(motion, &now, 0.5 * dt, contacts.as_deref_mut());
         self.kick(motion, &now, 0.5 * dt, team);
         let way: Vec<[f64; 3]> = motion.velocity.iter().map(|v| v.map(|v| dt * v)).collect();
         for (u, way) in motion.displacement.iter_mut().zip(&way) {
             (0..3).for_each(|a| u[a] += way[a]);
         }
-        let next = self.at(motion, dt, loads, team)?;
+        let next = self.at(motion, (time, dt), acting, team)?;
+        self.note(motion, &next, 0.5 * dt, contacts);
         self.kick(motion, &next, 0.5 * dt, team);
         let work = [&now, &next].map(|moment| self.body.work(&moment.stresses, &way, team));
         let along = |loads: &[[f64; 3]]| {
@@ -159,6 +179,7 @@ impl Dynamics {
         let ledger = &mut motion.ledger;
         ledger.internal_work += 0.5 * (work[0] + work[1]);
         ledger.load_work += 0.5 * (along(&now.loads) + along(&next.loads));
+        motion.warmth.swelling += 0.5 * dt * (now.stresses.swelling + next.stresses.swelling);
         ledger.time += dt;
         ledger.steps += 1.0;
         if now.touch.force > 0.0 && next.touch.force == 0.0 {
@@ -176,11 +197,32 @@ impl Dynamics {
             }
         });
         self.body.flatten(&mut motion.velocity);
+        for signs in self.images() {
+            self.push(&mut motion.ledger, &moment.touch, dt, signs);
+        }
+    }
+
+    /// Signs of x and y of the images of the model that make up the body.
+    fn images(&self) -> Vec<[f64; 2]> {
         let signs = |mirrored: bool| if mirrored { &[1.0, -1.0][..] } else { &[1.0][..] };
-        for &x in signs(self.mirrors[0]) {
-            for &y in signs(self.mirrors[1]) {
-                self.push(&mut motion.ledger, &moment.touch, dt, [x, y]);
-            }
+        let [along_x, along_y] = self.mirrors.map(signs);
+        along_x.iter().flat_map(|&x| along_y.iter().map(move |&y| [x, y])).collect()
+    }
+
+    /// Cells below a point of an image of the body.
+    fn cover(&self, cells: &WallCells, spot: &Spot, signs: [f64; 2]) -> Cover {
+        match self.body.space.form {
+            Form::Axisymmetric => cells.cover_ring(spot.ring()),
+            Form::Plane | Form::Solid => cells.cover(spot.rectangle(signs)),
+        }
+    }
+
+    /// Notes the contact of a moment that lasts for a time [s].
+    fn note(&self, motion: &Motion, moment: &Moment, dt: f64, contacts: Option<&mut Contacts>) {
+        let (Some(contacts), Some(cells)) = (contacts, &self.cells) else { return };
+        for signs in self.images() {
+            let cover = |spot: usize| self.cover(cells, &moment.touch.spots[spot], signs);
+            contacts.add(&self.body, &motion.displacement, &moment.touch, dt, cover);
         }
     }
 
@@ -193,10 +235,7 @@ impl Dynamics {
         };
         for spot in &touch.spots {
             let impulse = dt * spot.force;
-            let cover = match self.body.space.form {
-                Form::Axisymmetric => cells.cover_ring(spot.ring()),
-                Form::Plane | Form::Solid => cells.cover(spot.rectangle(signs)),
-            };
+            let cover = self.cover(cells, spot, signs);
             for (cell, weight) in cover.cells {
                 ledger.exchange[cell] += weight * impulse;
             }

@@ -8,7 +8,7 @@
 //! points on the path leave an error of the fifth power of the change.
 
 use super::tangent::{GroupTangent, Swelling};
-use super::{Deformable, Failure};
+use super::{Courses, Deformable, Failure};
 use crate::laws::solid::large_strain::Deformed;
 use crate::math::matrix3::{Matrix3, contraction, product, transposed};
 use crate::runtime::parallel::Team;
@@ -20,8 +20,8 @@ pub struct Path<'a> {
     pub end: Vec<Matrix3>,
     /// History at the beginning.
     pub before: &'a [f64],
-    /// Time in which each layer relaxes [s].
-    pub durations: Vec<f64>,
+    /// Times in which points relax, and their thermal stretches.
+    pub over: &'a Courses,
 }
 
 /// Places on the path and their weights.
@@ -71,23 +71,24 @@ impl Path<'_> {
         team.map(groups.len(), of_group).concat()
     }
 
-    /// Work of the stresses at thermal stretches of the layers [J]: `ϑ³` times that per elastic volume.
-    pub fn work(&self, stretches: &[f64], team: &Team) -> f64 {
+    /// Work of the stresses at the thermal stretches [J]: `ϑ³` times that per elastic volume.
+    pub fn work(&self, team: &Team) -> f64 {
         let loads = self.loads(team);
-        let of_group = |(points, &layer): (&std::ops::Range<usize>, &usize)| -> f64 {
+        let of_group = |(group, points): (usize, &std::ops::Range<usize>)| -> f64 {
             let of_point = |point: usize| {
                 let (from, to) = (&self.start[point], &self.end[point]);
                 contraction(&loads[point], to) - contraction(&loads[point], from)
             };
-            stretches[layer].powi(3) * points.clone().map(of_point).sum::<f64>()
+            self.over.at(self.body, group).stretch.powi(3)
+                * points.clone().map(of_point).sum::<f64>()
         };
-        self.body.space.groups.iter().zip(&self.body.layer_of_group).map(of_group).sum()
+        self.body.space.groups.iter().enumerate().map(of_group).sum()
     }
 
     /// Derivatives of P of a group by F₁.
     pub fn tangent(&self, group: usize) -> GroupTangent {
         let body = self.body;
-        let (law, duration) = (body.law_of(group), self.durations[body.layer_of_group[group]]);
+        let (law, duration) = (body.law_of(group), self.over.at(body, group).time);
         let (length, history) = (law.history(), &self.before[body.history_of(group)]);
         let points = body.space.groups[group].clone();
         let stations = STATIONS.map(|s| self.station(group, s));
@@ -147,7 +148,7 @@ impl Path<'_> {
 
     fn station(&self, group: usize, s: f64) -> Station {
         let body = self.body;
-        let (law, duration) = (body.law_of(group), self.durations[body.layer_of_group[group]]);
+        let (law, duration) = (body.law_of(group), self.over.at(body, group).time);
         let (length, history) = (law.history(), &self.before[body.history_of(group)]);
         let points = body.space.groups[group].clone();
         let weights = &body.space.volume.weights[points.clone()];

@@ -2,6 +2,7 @@
 
 use std::slice::from_mut;
 
+use super::Warmth;
 use crate::state::{Field, Fields, Per};
 
 /// Displacements and velocities of the nodes, history of the points, and integrals over time.
@@ -14,6 +15,8 @@ pub struct Motion {
     pub velocity: Vec<[f64; 3]>,
     /// History of the law, point by point.
     pub history: Vec<f64>,
+    /// Heat of a body that conducts it.
+    pub warmth: Warmth,
 }
 
 /// Integrals over time and events.
@@ -44,7 +47,7 @@ impl Fields for Motion {
         let of = |name, words, per, width| Field { name, words, per, width };
         let body = |name, words| of(name, words, Per::Body, 1);
         let ledger = &mut self.ledger;
-        vec![
+        let mut fields = vec![
             (body("time", "time since the start [s]"), from_mut(&mut ledger.time)),
             (body("steps", "time steps made"), from_mut(&mut ledger.steps)),
             (
@@ -72,7 +75,9 @@ impl Fields for Motion {
                 self.displacement.as_flattened_mut(),
             ),
             (of("velocity", "velocity [m/s]", Per::Node, 3), self.velocity.as_flattened_mut()),
-            (of("history", "history of the law", Per::Point, 1), &mut self.history),
-        ]
+            (of("history", "history of the law", Per::Point, 1), &mut self.history[..]),
+        ];
+        fields.extend(self.warmth.fields());
+        fields
     }
 }

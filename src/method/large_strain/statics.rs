@@ -2,7 +2,7 @@
 
 use super::path::Path;
 use super::tangent::{Factor, Linearised, Stiffness, Terms};
-use super::{Course, Deformable, FaceLoad, Failure, LoadedFaces, Stresses};
+use super::{Courses, Deformable, FaceLoad, Failure, LoadedFaces, Stresses};
 use crate::laws::solid::large_strain::Deformed;
 use crate::runtime::allowance::Allowance;
 use crate::runtime::parallel::Team;
@@ -84,7 +84,7 @@ struct Trial<'a> {
 struct Step<'a> {
     from: &'a Rest,
     to: &'a Conditions,
-    over: &'a [Course],
+    over: &'a Courses,
     team: &'a Team,
     allowance: &'a Allowance,
 }
@@ -106,12 +106,12 @@ impl Equilibrium {
         Rest { displacement, history: vec![0.0; self.body.history()] }
     }
 
-    /// Finds the equilibrium after a step with a course of each layer; `rest` changes only if it is found.
+    /// Finds the equilibrium after a step with the courses of all points; `rest` changes only if it is found.
     pub fn step(
         &self,
         rest: &mut Rest,
         to: &Conditions,
-        over: &[Course],
+        over: &Courses,
         allowance: &Allowance,
     ) -> Result<Found, Failure> {
         let team = &self.body.team();
@@ -156,10 +156,9 @@ impl Equilibrium {
             start: &gradients(&start),
             end: gradients(&end.deformations),
             before: &step.from.history,
-            durations: step.over.iter().map(|course| course.time).collect(),
+            over: step.over,
         };
-        let stretches: Vec<f64> = step.over.iter().map(|course| course.stretch).collect();
-        path.work(&stretches, step.team)
+        path.work(step.team)
     }
 
     /// A Newton step, halved while the residual grows or the material is turned inside out.

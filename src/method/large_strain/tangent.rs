@@ -9,7 +9,7 @@ use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
 use faer::{Mat, Side};
 
 use super::load::LoadStiffness;
-use super::{Course, Deformable};
+use super::{Course, Courses, Deformable};
 use crate::laws::solid::large_strain::{Deformed, Tangent};
 use crate::math::matrix3::Matrix3;
 use crate::runtime::parallel::Team;
@@ -184,15 +184,11 @@ pub struct Linearised<'a> {
     pub dilatations: Vec<f64>,
     /// History at the beginning of the step.
     pub before: &'a [f64],
-    pub over: &'a [Course],
+    pub over: &'a Courses,
 }
 
 fn block(body: &Deformable, group: &Range<usize>) -> Block {
-    let rows = group.clone().flat_map(|point| body.space.volume.row(point));
-    let mut nodes: Vec<u32> = rows.map(|value| value.node).collect();
-    nodes.sort_unstable();
-    nodes.dedup();
-    Block { points: group.clone(), nodes }
+    Block { points: group.clone(), nodes: body.nodes_of(group) }
 }
 
 fn columns(unknowns: &[[Option<usize>; 3]], nodes: &[u32]) -> Vec<Option<usize>> {
@@ -214,7 +210,7 @@ impl Linearised<'_> {
     /// Derivatives of the stresses of a group's points.
     pub fn group(&self, body: &Deformable, group: usize) -> GroupTangent {
         let law = body.law_of(group);
-        let Course { time, stretch } = self.over[body.layer_of_group[group]];
+        let Course { time, stretch, .. } = self.over.at(body, group);
         let history = &self.before[body.history_of(group)];
         let [pressure, stiffness] = law.pressure(self.dilatations[group]);
         let length = law.history();

@@ -58,7 +58,8 @@ fn uniform_strain_is_exact() {
         }
         // Nodes inside bear no force.
         let mut history = vec![0.0; body.history()];
-        let stresses = body.respond(&u, &[Course::of(0.01)], &mut history, team).unwrap();
+        let stresses =
+            body.respond(&u, &body.in_all(Course::of(0.01)), &mut history, team).unwrap();
         let forces = body.forces(&stresses, team);
         let mut outside = vec![false; body.nodes()];
         let boundary = &body.space.boundary.samples;
@@ -94,8 +95,9 @@ fn rotation_costs_no_energy() {
         let turn = [[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]];
         let team = &body.team();
         let mut history = vec![0.0; body.history()];
-        let stresses =
-            body.respond(&uniform(&body, &turn), &[Course::of(0.1)], &mut history, team).unwrap();
+        let stresses = body
+            .respond(&uniform(&body, &turn), &body.in_all(Course::of(0.1)), &mut history, team)
+            .unwrap();
         assert!(stresses.energy.abs() < 1e-13);
         assert!(body.forces(&stresses, team).iter().flatten().all(|f| f.abs() < 1e-13));
     }
@@ -106,7 +108,7 @@ fn the_stiffness_is_the_derivative_of_the_forces() {
     for body in bodies() {
         let team = &body.team();
         let mut before = vec![0.0; body.history()];
-        let over = &[Course { time: 0.05, stretch: 1.2 }];
+        let over = &body.in_all(Course { time: 0.05, stretch: 1.2, growth: 0.0 });
         let half = |a: usize, b: usize| 0.5 * (IDENTITY[a][b] + allowed(body.space.form)[a][b]);
         let gradient = std::array::from_fn(|a| std::array::from_fn(|b| half(a, b)));
         body.respond(&uniform(&body, &gradient), over, &mut before, team).unwrap();

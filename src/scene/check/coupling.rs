@@ -62,10 +62,6 @@ fn check_large_strain(
     let from = path.at("from");
     let face = checker.face(&path.at("to"), &coupling.to, |_| vec![FaceName::Top]);
     alone(checker, path, i, coupling);
-    if coupling.conductance.is_some() {
-        let message = "a solid of large strain conducts no heat";
-        checker.refuse(&path.at("conductance"), message, "no `conductance`");
-    }
     if solid.dimension == 2 {
         let message = "a plane body does not fit a solid of three dimensions";
         checker.refuse(&from, message, "a body of `dimension = 3`");

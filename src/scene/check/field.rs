@@ -1,9 +1,10 @@
 //! Checks that fields lie on a face or section of their bodies and have outputs.
 
-use super::{Checker, field_cells, fits, is_in_depth, number, probe};
+use super::{Checker, field_cells, fits, is_in_depth, is_sound, number, probe};
+use crate::scene::LargeStrain;
 use crate::scene::grid::{Grid, lateral_extents, section_size};
 use crate::scene::locate::Path;
-use crate::scene::lookup::Place;
+use crate::scene::lookup::{Place, split_place};
 use crate::scene::types::{Disc, FaceName, Field, Plane, Shape, Solid};
 
 pub fn check(checker: &mut Checker) {
@@ -11,6 +12,11 @@ pub fn check(checker: &mut Checker) {
         let path = Path::default().key("field").index(i);
         checker.distinct(&path.at("gives"), &field.gives);
         let is_fine = checker.is_fine(&path.at("grid")) && checker.is_fine(&path.at("size"));
+        let name = field.body().unwrap_or_default();
+        if let Some(solid) = checker.scene.large_strain(name) {
+            of_large_strain(checker, &path, field, (name, solid), is_fine);
+            continue;
+        }
         if let Some(footprint) = &field.footprint {
             field_cells::check(checker, &path, field, footprint);
             if let Some(solid) = field.body().and_then(|body| checker.scene.solid(body)) {
@@ -39,6 +45,57 @@ fn points(checker: &mut Checker, path: &Path, field: &Field) {
     checker.require(field.grid.is_some(), path, message, allowed);
     let message = "`at` places a footprint; a grid is centred on its face or section";
     checker.require(field.at.is_none(), &path.at("at"), message, "`at` with `footprint`");
+}
+
+/// Checks a field in a solid of large strain: points on a plane face or in a section of a box or a disc.
+fn of_large_strain(
+    checker: &mut Checker,
+    path: &Path,
+    field: &Field,
+    (name, solid): (&str, &LargeStrain),
+    is_fine: bool,
+) {
+    let message = "a field in a solid of large strain has values at points";
+    let fine = field.footprint.is_none();
+    if !checker.require(fine, &path.at("footprint"), message, "`grid = [NX, NY]`") {
+        return;
+    }
+    points(checker, path, field);
+    probe::gives_of_large_strain(checker, path, &field.gives, (name, solid));
+    let at = path.at(if field.on.is_some() { "on" } else { "in" });
+    let Some(shape) = solid.plate() else {
+        let message = "this shape has neither faces nor sections with a grid for a field";
+        checker.refuse(&at, message, "a box or a disc");
+        return;
+    };
+    if !is_sound(&shape) {
+        return;
+    }
+    let place = match (&field.on, &field.body, field.plane) {
+        (Some(on), None, None) => {
+            let faces = plane_faces(&shape);
+            let own = split_place(on).map(|(_, face)| face).filter(|face| faces.contains(face));
+            if own.is_none() {
+                let names: Vec<String> =
+                    faces.iter().map(|face| format!("{name}.{}", face.as_str())).collect();
+                let message = format!("`{on}` is no face for this");
+                checker.refuse(&at, message, names.join(", "));
+            }
+            own.map(Place::Face)
+        }
+        (None, Some(_), Some(plane)) => {
+            let fine = plane_is_inside(checker, &path.at("plane"), plane, &shape);
+            fine.then_some(Place::Section(plane))
+        }
+        _ => {
+            let message = "a field lies either on a face or in a plane of a body";
+            checker.refuse(path, message, "`on`, or `in` together with `plane`");
+            None
+        }
+    };
+    if let Some(place) = place.filter(|_| is_fine) {
+        extent(checker, &path.at("size"), &Grid::at(place, field, &shape), &shape);
+    }
 }
 
 /// The face or section and the body that it belongs to.

@@ -23,6 +23,7 @@ pub fn check(checker: &mut Checker) {
         layers::materials(checker, &path, own, thickness);
         check_material(checker, &path, solid);
         check_kernels(checker, &path, solid);
+        check_heat(checker, &path, solid);
         check_faces(checker, &path, solid);
         match (solid.inertia, solid.motion) {
             (true, MotionSteps::Explicit) => check_explicit(checker, &path, solid),
@@ -144,7 +145,7 @@ fn check_material(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
             layer.material.material(),
             solid.initial_temperature,
         );
-        let message = "no heat flows in a solid of large strain, between its layers neither";
+        let message = "layers of a solid of large strain touch without resistance";
         let fine = layer.contact_resistance.is_none();
         checker.require(fine, &path.key("contact_resistance"), message, "no `contact_resistance`");
     }
@@ -176,6 +177,29 @@ fn check_law(checker: &mut Checker, path: &Path, material: &Material, temperatur
     }
 }
 
+/// Refuses constants that depend on the temperature in a body whose heat flows.
+fn check_heat(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
+    if !solid.conducts() {
+        return;
+    }
+    let own = solid.material.iter().map(|choice| (path.key("material"), choice.material()));
+    let layers = solid.layers.iter().flatten().enumerate();
+    let of_layers = layers
+        .map(|(n, layer)| (path.key("layers").index(n).key("material"), layer.material.material()));
+    for (path, material) in own.chain(of_layers).collect::<Vec<_>>() {
+        let heat = &material.heat;
+        let of_law = material.law.deformation().properties();
+        let curves = [("specific_heat", &heat.specific_heat), ("conductivity", &heat.conductivity)];
+        for (key, property) in curves.into_iter().chain(of_law) {
+            let fine = property.is_constant() || key == "expansion";
+            let message = format!("heat flows in a solid of large strain with one `{key}`");
+            checker.require(fine, &path.key(key), message, "a number; `at` of a substance");
+        }
+        let message = "a solid of large strain does not melt";
+        checker.require(heat.melting.is_none(), &path.key("melting"), message, "no `melting`");
+    }
+}
+
 fn check_faces(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
     for (&name, face) in &solid.faces {
         let at = path.key("faces").key(name.as_str());
@@ -198,13 +222,25 @@ fn check_faces(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
         if !checker.require(fine, &at, message, allowed) {
             continue;
         }
-        let conditions = face.conditions();
-        let fine =
+        let (conditions, thermal) = (face.conditions(), face.heated().thermal());
+        let pairs =
             matches!(&conditions[..], [_] | ["roller", "displacement"] | ["pressure", "traction"]);
+        let fine = pairs || conditions.is_empty() && !thermal.is_empty();
         let message = "a face has one condition";
         let allowed = "one of clamped, roller, displacement, pressure, traction; or roller with displacement; or pressure \
-                       with traction";
+                       with traction; and one of temperature, flux, convection";
         checker.require(fine, &at, message, allowed);
+        let message = "a face has one thermal condition";
+        let allowed = "one of temperature, flux, convection";
+        checker.require(thermal.len() < 2, &at, message, allowed);
+        let is_twice = name.is_one_of_four_sides()
+            && solid
+                .faces
+                .get(&FaceName::Sides)
+                .is_some_and(|sides| !sides.heated().thermal().is_empty());
+        let message = "`sides` has a thermal condition for this face, too";
+        let allowed = "a thermal condition on `sides` or on this face";
+        checker.require(thermal.is_empty() || !is_twice, &at, message, allowed);
         let is_along = match solid.shape {
             SolidShape::Disc(_) => name != FaceName::Sides || solid.is_axisymmetric(),
             SolidShape::Quadrilateral(own) => own.is_straight(name),
@@ -245,14 +281,18 @@ fn is_there(solid: &LargeStrain, face: FaceName) -> bool {
 }
 
 fn check_explicit(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
-    for (name, _) in solid.faces.iter().filter(|(_, face)| !face.is_loaded()) {
+    for (name, _) in solid.faces.iter().filter(|(_, face)| face.is_held()) {
         let message = "a body that moves explicitly is held by nothing";
-        let allowed = "`pressure` or `traction`; or `motion = \"implicit\"`, or `inertia = false`";
+        let allowed = "`pressure`, `traction` or thermal conditions; or `motion = \"implicit\"`, or `inertia = false`";
         checker.refuse(&path.key("faces").key(name.as_str()), message, allowed);
     }
 }
 
 fn check_implicit(checker: &mut Checker, path: &Path, name: &str, solid: &LargeStrain) {
+    let message = "no heat flows in a body that moves implicitly";
+    let allowed =
+        "no thermal conditions on faces; or `motion = \"explicit\"`, or `inertia = false`";
+    checker.require(!solid.conducts(), &path.key("motion"), message, allowed);
     let message = "nothing is below a body that moves implicitly";
     let fine = solid.start.height == 0.0;
     checker.require(fine, &path.at("start.height"), message, "0, or `motion = \"explicit\"`");

@@ -169,7 +169,7 @@ impl<'a> Checker<'a> {
                 "`{body}` is a reservoir, whose values are always outputs and which can be in contact with solids only"
             ),
             Some(Body::LargeStrain(_)) => format!(
-                "`{body}` is a solid of large strain, whose faces have their loads and which probes read, and nothing else"
+                "`{body}` is a solid of large strain, whose faces have their loads and which probes and fields read, and nothing else"
             ),
             Some(Body::Filament(_)) => format!(
                 "`{body}` is a filament, on which nothing else acts and whose values are outputs by themselves"

@@ -49,14 +49,24 @@ fn large_strain(checker: &mut Checker, path: &Path, probe: &Probe, solid: &Large
     }
     let message = "at an interface a solid of large strain is read above it";
     checker.require(probe.side.is_none(), &path.at("side"), message, "no `side`");
+    gives_of_large_strain(checker, path, &probe.gives, (&probe.body, solid));
+}
+
+/// Refuses quantities that a solid of large strain does not have.
+pub fn gives_of_large_strain(
+    checker: &mut Checker,
+    path: &Path,
+    gives: &[Gives],
+    (name, solid): (&str, &LargeStrain),
+) {
     let yields = solid.yields();
-    for (n, gives) in probe.gives.iter().enumerate() {
+    for (n, gives) in gives.iter().enumerate() {
         let fine = match gives {
             Gives::PlasticStrain => yields,
             Gives::Damage => false,
             _ => true,
         };
-        let message = format!("no part of `{}` yields or cracks", probe.body);
+        let message = format!("no part of `{name}` yields or cracks");
         let allowed = "what an elastic body gives";
         checker.require(fine, &path.at("gives").index(n), message, allowed);
     }

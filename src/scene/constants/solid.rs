@@ -2,7 +2,7 @@
 
 use super::{Constant, OfferedConstant};
 use crate::laws::MaterialConstant;
-use crate::scene::types::{Layer, Solid};
+use crate::scene::types::{FaceName, Layer, Solid};
 
 /// The layers of a body that share a material.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -45,12 +45,17 @@ pub fn offered(body: &str, solid: &Solid) -> Vec<OfferedConstant> {
         constant: Constant::InitialTemperature,
     });
     let convective = solid.faces.iter().filter(|(_, face)| face.convection.is_some());
-    list.extend(convective.map(|(&face, _)| OfferedConstant {
+    list.extend(convective.map(|(&face, _)| coefficient(body, face)));
+    list
+}
+
+/// The heat transfer coefficient of a convective face.
+pub(super) fn coefficient(body: &str, face: FaceName) -> OfferedConstant {
+    OfferedConstant {
         key: format!("{}.coefficient", face.as_str()),
         description: format!("heat transfer coefficient of the {} of {body}", face.as_str()),
         constant: Constant::ConvectionCoefficient { face },
-    }));
-    list
+    }
 }
 
 /// Those of the layer at a place, and of its contact with the one above.
