@@ -24,7 +24,6 @@ pub struct Stiffness {
     order: Argsort<usize>,
     llt: SymbolicLlt<usize>,
     lu: OnceLock<SymbolicLu<usize>>,
-    /// For each block of assembly the unknowns of its columns.
     blocks: Vec<Block>,
     /// Number of the further blocks of loads.
     loads: usize,
@@ -63,6 +62,16 @@ pub struct Swelling {
 struct Block {
     points: Range<usize>,
     nodes: Vec<u32>,
+    /// Unknowns of the nodes, which are the columns of the block's matrix.
+    columns: Vec<Column>,
+}
+
+/// An unknown of a block.
+#[derive(Debug, Clone, Copy)]
+struct Column {
+    /// Its place among the axes of the block's nodes, node by node.
+    place: usize,
+    unknown: usize,
 }
 
 /// A factored stiffness.
@@ -91,11 +100,18 @@ impl Stiffness {
         };
         let unknowns: Vec<[Option<usize>; 3]> =
             held.iter().map(|held| held.map(&mut number)).collect();
-        let blocks = body.space.groups.iter().map(|group| block(body, group)).collect::<Vec<_>>();
+        let block = |points: &Range<usize>| {
+            let nodes = body.nodes_of(points);
+            let columns = columns(&unknowns, &nodes);
+            Block { points: points.clone(), nodes, columns }
+        };
+        let blocks: Vec<Block> = body.space.groups.iter().map(block).collect();
+        let of_loads: Vec<_> = couplings.iter().map(|nodes| columns(&unknowns, nodes)).collect();
         let mut pairs = Vec::new();
-        for nodes in blocks.iter().map(|block| &block.nodes).chain(couplings) {
-            let columns = columns(&unknowns, nodes);
-            each_pair(&columns, |_, _, row, column| pairs.push(Pair { row, col: column }));
+        for columns in blocks.iter().map(|block| &block.columns).chain(&of_loads) {
+            let pair =
+                |row: &Column, column: &Column| Pair { row: row.unknown, col: column.unknown };
+            pairs.extend(columns.iter().flat_map(|row| columns.iter().map(move |c| pair(row, c))));
         }
         (0..count).for_each(|n| pairs.push(Pair { row: n, col: n }));
         let (pattern, order) = SymbolicSparseColMat::try_new_from_indices(count, count, &pairs)
@@ -118,14 +134,16 @@ impl Stiffness {
         assert_eq!(terms.loads.len(), self.loads, "loads of another pattern");
         let mut values = Vec::with_capacity(self.entries() + self.count);
         let of_block = |n: usize| element(body, &(terms.of_group)(n), &self.blocks[n]);
-        let matrices = team.map(self.blocks.len(), of_block);
-        let nodes = self.blocks.iter().map(|block| &block.nodes);
-        let of_groups = nodes.zip(&matrices);
-        let of_loads = terms.loads.iter().map(|load| (&load.nodes, &load.matrix));
-        for (nodes, matrix) in of_groups.chain(of_loads) {
-            let columns = columns(&self.unknowns, nodes);
-            let width = 3 * nodes.len();
-            each_pair(&columns, |a, b, _, _| values.push(matrix[a * width + b]));
+        for matrix in team.map(self.blocks.len(), of_block) {
+            values.extend(matrix);
+        }
+        for load in terms.loads {
+            let columns = columns(&self.unknowns, &load.nodes);
+            let width = 3 * load.nodes.len();
+            for row in &columns {
+                let of_row = &load.matrix[row.place * width..(row.place + 1) * width];
+                values.extend(columns.iter().map(|column| of_row[column.place]));
+            }
         }
         for (unknowns, mass) in self.unknowns.iter().zip(&body.mass) {
             let own = unknowns.iter().flatten().map(|_| terms.inertia * mass);
@@ -153,9 +171,9 @@ impl Stiffness {
         Ok(Factor::Indefinite(Box::new(lu)))
     }
 
-    /// Bound on the number of entries of all blocks.
+    /// Number of entries of all blocks of points.
     fn entries(&self) -> usize {
-        self.blocks.iter().map(|block| (3 * block.nodes.len()).pow(2)).sum()
+        self.blocks.iter().map(|block| block.columns.len().pow(2)).sum()
     }
 
     /// Solves for the change of displacements under forces on the nodes.
@@ -187,23 +205,10 @@ pub struct Linearised<'a> {
     pub over: &'a Courses,
 }
 
-fn block(body: &Deformable, group: &Range<usize>) -> Block {
-    Block { points: group.clone(), nodes: body.nodes_of(group) }
-}
-
-fn columns(unknowns: &[[Option<usize>; 3]], nodes: &[u32]) -> Vec<Option<usize>> {
-    nodes.iter().flat_map(|&node| unknowns[node as usize]).collect()
-}
-
-/// Calls back for each pair of unknowns in the lower triangle, with their places in a block.
-fn each_pair(columns: &[Option<usize>], mut take: impl FnMut(usize, usize, usize, usize)) {
-    for (a, row) in columns.iter().enumerate() {
-        for (b, column) in columns.iter().enumerate() {
-            if let (Some(row), Some(column)) = (row, column) {
-                take(a, b, *row, *column);
-            }
-        }
-    }
+/// Unknowns of nodes.
+fn columns(unknowns: &[[Option<usize>; 3]], nodes: &[u32]) -> Vec<Column> {
+    let all = nodes.iter().flat_map(|&node| unknowns[node as usize]).enumerate();
+    all.filter_map(|(place, unknown)| Some(Column { place, unknown: unknown? })).collect()
 }
 
 impl Linearised<'_> {
@@ -234,18 +239,22 @@ impl Linearised<'_> {
 
 /// Stiffness matrix of a block, row by row.
 fn element(body: &Deformable, group: &GroupTangent, block: &Block) -> Vec<f64> {
-    let width = 3 * block.nodes.len();
+    let width = block.columns.len();
     let mut matrix = vec![0.0; width * width];
     let weights = &body.space.volume.weights[block.points.clone()];
     let whole: f64 = weights.iter().sum();
     let mut swellings = vec![vec![[0.0; 2]; width]; group.swellings.len()];
+    let mut of_places = Vec::new();
     for (place, point) in block.points.clone().enumerate() {
         let weight = weights[place];
-        let strains = strains(body, point, &block.nodes);
+        strains(body, point, &block.nodes, &mut of_places);
+        let strains: Vec<Strain> =
+            block.columns.iter().map(|column| of_places[column.place]).collect();
         for (sums, Swelling { forces, changes, .. }) in swellings.iter_mut().zip(&group.swellings) {
             for (sums, strain) in sums.iter_mut().zip(&strains) {
                 for (sum, of) in sums.iter_mut().zip([&forces[place], &changes[place]]) {
-                    *sum += weight * strain.iter().map(|&(n, g)| of[n / 3][n % 3] * g).sum::<f64>();
+                    let entries = strain.entries().iter();
+                    *sum += weight * entries.map(|&(n, g)| of[n / 3][n % 3] * g).sum::<f64>();
                 }
             }
         }
@@ -262,41 +271,55 @@ fn element(body: &Deformable, group: &GroupTangent, block: &Block) -> Vec<f64> {
     matrix
 }
 
-/// Entries of the change of F, as place and value, under a unit displacement of each node and axis.
-type Strain = Vec<(usize, f64)>;
+/// Entries of the change of F, as place and value, under a unit displacement of a node along an axis.
+#[derive(Debug, Clone, Copy, Default)]
+struct Strain {
+    entries: [(usize, f64); 4],
+    count: usize,
+}
 
-fn strains(body: &Deformable, point: usize, nodes: &[u32]) -> Vec<Strain> {
-    let mut strains = vec![Strain::new(); 3 * nodes.len()];
+impl Strain {
+    fn push(&mut self, place: usize, value: f64) {
+        self.entries[self.count] = (place, value);
+        self.count += 1;
+    }
+
+    fn entries(&self) -> &[(usize, f64)] {
+        &self.entries[..self.count]
+    }
+}
+
+/// Finds the strains at a point of all nodes of a block and axes.
+fn strains(body: &Deformable, point: usize, nodes: &[u32], strains: &mut Vec<Strain>) {
+    strains.clear();
+    strains.resize(3 * nodes.len(), Strain::default());
     let volume = &body.space.volume;
     for value in volume.row(point) {
         let place = nodes.binary_search(&value.node).expect("a block has the nodes of its rows");
         for a in 0..3 {
             let strain = &mut strains[3 * place + a];
-            strain.extend(
-                (0..3)
-                    .filter(|&b| value.gradient[b] != 0.0)
-                    .map(|b| (3 * a + b, value.gradient[b])),
-            );
+            for (b, &gradient) in value.gradient.iter().enumerate() {
+                if gradient != 0.0 {
+                    strain.push(3 * a + b, gradient);
+                }
+            }
         }
         if body.space.form == Form::Axisymmetric {
-            strains[3 * place].push((4, value.value / volume.at[point][0]));
+            strains[3 * place].push(4, value.value / volume.at[point][0]);
         }
     }
-    strains
 }
 
 fn add(matrix: &mut [f64], strains: &[Strain], tangent: &Tangent, weight: f64) {
     let width = strains.len();
-    for (b, column) in strains.iter().enumerate() {
-        if column.is_empty() {
-            continue;
-        }
+    for (b, column) in strains.iter().enumerate().filter(|(_, column)| column.count > 0) {
         let mut stress = [0.0; 9];
-        for &(n, g) in column {
+        for &(n, g) in column.entries() {
             (0..9).for_each(|m| stress[m] += weight * tangent[m][n] * g);
         }
         for (a, row) in strains.iter().enumerate() {
-            matrix[a * width + b] += row.iter().map(|&(m, g)| stress[m] * g).sum::<f64>();
+            let entries = row.entries().iter();
+            matrix[a * width + b] += entries.map(|&(m, g)| stress[m] * g).sum::<f64>();
         }
     }
 }
