@@ -4,6 +4,7 @@
 mod advice;
 mod approach;
 mod conductor;
+mod events;
 mod giver;
 mod linear;
 mod maxima;
@@ -15,6 +16,7 @@ use std::any::Any;
 pub use advice::{Advice, Occasion};
 pub use approach::Approach;
 pub use conductor::Conductor;
+pub use events::Events;
 pub use giver::{Given, Giver};
 pub use linear::Linear;
 pub use maxima::Maxima;
@@ -85,6 +87,11 @@ pub trait Body: Giver + Maxima + Approach + Advice + Resources + Send + Sync {
 
     /// Returns the body as a conductor, if its faces respond to heat.
     fn conductor(&self) -> Option<&dyn Conductor> {
+        None
+    }
+
+    /// Returns the body as one with events, if it has any.
+    fn events(&self) -> Option<&dyn Events> {
         None
     }
 }

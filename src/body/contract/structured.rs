@@ -1,7 +1,7 @@
 //! Bodies whose state is one structure with fields.
 
 use super::{
-    Acts, Advice, Approach, Body, Fields, Given, Giver, Maxima, Memo, Received, Resources,
+    Acts, Advice, Approach, Body, Events, Fields, Given, Giver, Maxima, Memo, Received, Resources,
 };
 use crate::body::{BodyError, Reading};
 use crate::method::sph::ParticleFields;
@@ -51,6 +51,11 @@ pub trait Structured: Giver + Maxima + Approach + Advice + Resources + Send + Sy
     /// Returns true if a value follows inputs without delay.
     fn follows_at_once(&self, _reading: &Reading) -> bool {
         false
+    }
+
+    /// Returns the body as one with events, if it has any.
+    fn events(&self) -> Option<&dyn Events> {
+        None
     }
 
     /// Returns the particles that stand for a state under inputs in files.
@@ -141,5 +146,9 @@ impl<T: Structured> Body for T {
     fn fields(&self, state: &[f64], memo: &mut Memo) -> Result<Fields, BodyError> {
         let inputs = &Seen::<T::View>::of_mut(memo).inputs;
         Ok(Fields::Particles(self.drawn(self.structure(state), inputs)?))
+    }
+
+    fn events(&self) -> Option<&dyn Events> {
+        Structured::events(self)
     }
 }

@@ -1,7 +1,7 @@
 //! A lattice in equilibrium with what its input prescribes.
 
 use crate::body::{
-    Acts, Advice, Approach, BodyError, Given, Giver, Maxima, Reading, Resources, Structured,
+    Acts, Advice, Approach, BodyError, Events, Given, Giver, Maxima, Reading, Resources, Structured,
 };
 use crate::inputs::InputLayout;
 use crate::method::lattice::{Lattice, LatticeState};
@@ -104,6 +104,10 @@ impl Structured for RestingLatticeBody {
         totals::read(reading, view)
     }
 
+    fn events(&self) -> Option<&dyn Events> {
+        Some(self)
+    }
+
     fn drawn(&self, state: LatticeState, _: &[f64]) -> Result<ParticleFields, BodyError> {
         let moved = self.lattice.displacements(&state).into_iter().map(|moved| [moved, [0.0; 2]]);
         let inside = self.lattice.at_particles(&state);
@@ -112,6 +116,15 @@ impl Structured for RestingLatticeBody {
 }
 
 impl Giver for RestingLatticeBody {}
+
+impl Events for RestingLatticeBody {
+    /// An event is the separation of a part.
+    fn event_between(&self, before: &[f64], after: &[f64]) -> bool {
+        let [before, after] =
+            [before, after].map(|own| self.lattice.fragments(&self.structure(own)));
+        after > before
+    }
+}
 
 impl Maxima for RestingLatticeBody {}
 

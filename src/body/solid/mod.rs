@@ -36,8 +36,8 @@ pub use totals::offered_totals;
 use std::sync::Arc;
 
 use super::{
-    Acts, Body, BodyError, Conductor, Direct, Extreme, Fields, Given, Linear, Memo, Reading,
-    Received,
+    Acts, Body, BodyError, Conductor, Direct, Events, Extreme, Fields, Given, Linear, Memo,
+    Reading, Received,
 };
 use crate::body::{Advice, Approach, Giver, Maxima, Occasion, Resources};
 use crate::coupling::FaceMeans;
@@ -316,9 +316,20 @@ impl Body for SolidBody {
     fn conductor(&self) -> Option<&dyn Conductor> {
         Some(self)
     }
+
+    fn events(&self) -> Option<&dyn Events> {
+        self.cracking.is_some().then_some(self as &dyn Events)
+    }
 }
 
 impl Giver for SolidBody {}
+
+impl Events for SolidBody {
+    /// An event is a crack that is not part of an earlier one.
+    fn event_between(&self, before: &[f64], after: &[f64]) -> bool {
+        self.has_new_crack(before, after)
+    }
+}
 
 impl Maxima for SolidBody {
     fn peaks(&self) -> usize {
