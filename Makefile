@@ -110,6 +110,8 @@ bench: build $(VENV)/ready-verify ## time against an independent finite-element 
 	$(BIN)/python benches/studies.py
 	$(BIN)/python benches/plans.py
 	$(BIN)/python benches/pressure.py
+	cargo build --release --bench cracks
+	$(BIN)/python benches/cracks_peer.py
 	cargo bench --bench elastic_iterations
 
 charts: build $(VENV)/ready-verify $(PEERS)/ready ## chart errors over time; goes on where it was stopped (needs g++, OpenGL)

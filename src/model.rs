@@ -2,6 +2,7 @@
 
 mod cache;
 mod error;
+mod events;
 mod joints;
 mod memory;
 mod parts;

@@ -11,9 +11,6 @@ use crate::warning;
 const WORST_DEPTH: f64 = 1.13;
 /// Biot number of the depth from which on convection is like a jump of the temperature.
 const SUDDEN: f64 = 1.0;
-/// Depth over the extent of the body behind it up to which the formula of a half plane holds: there a strip under
-/// uniform tension has 6 % more.
-const SHALLOW: f64 = 0.1;
 
 pub fn review(reviewer: &mut Reviewer) {
     let scene = reviewer.scene;
@@ -61,8 +58,8 @@ fn deep(reviewer: &mut Reviewer, path: &Path, (flaw, depth): (&Flaw, f64), solid
     let is_edge = flaw.shape == FlawShape::Edge;
     let Some(face) = flaw.face(&solid.shape).filter(|_| is_edge) else { return };
     let part = depth / flaw.reach(solid, face);
-    if part > SHALLOW {
-        let most = number(SHALLOW * flaw.reach(solid, face));
+    if part > Flaw::SHALLOW {
+        let most = number(Flaw::SHALLOW * flaw.reach(solid, face));
         reviewer.warn(&path.key("depth"), warning::flaw_deep(percent(part), most));
     }
 }

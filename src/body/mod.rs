@@ -18,8 +18,8 @@ mod solid;
 
 pub use build::{Assembly, Readings, build, reductions};
 pub use contract::{
-    Acts, Advice, Approach, Body, Conductor, Fields, Given, Giver, Linear, Maxima, Memo, Occasion,
-    Received, Resources, Structured,
+    Acts, Advice, Approach, Body, Conductor, Events, Fields, Given, Giver, Linear, Maxima, Memo,
+    Occasion, Received, Resources, Structured,
 };
 pub use droplet::{
     Kept, WallQuantity, fine_radius, forget_unused_records, keep_record, notes_on_walls, records,

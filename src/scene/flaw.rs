@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::types::{FaceName, IDENTIFIER, Scene, Shape, Solid};
+use crate::laws::fracture::CrackGrowth;
 use crate::limits::{any, length, plausible};
 
 /// Tolerance of places on faces, relative to the body's thickness.
@@ -36,6 +37,13 @@ pub struct Flaw {
     /// Shape of the crack.
     #[serde(default)]
     pub shape: FlawShape,
+    /// Slow growth of an edge crack, with the depth after it as an output.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend(
+        "condition" = "with a depth that is a number, and a `toughness` of the material",
+        "otherwise" = "none"
+    ))]
+    pub growth: Option<CrackGrowth>,
     /// List of outputs.
     #[schemars(length(min = 1), extend("uniqueItems" = true))]
     pub gives: Vec<FlawGives>,
@@ -92,6 +100,10 @@ impl FlawDepth {
 }
 
 impl Flaw {
+    /// Depth over the extent of the body behind it up to which the formula of a half plane holds: there a strip under
+    /// uniform tension has 6 % more.
+    pub const SHALLOW: f64 = 0.1;
+
     /// Unit normal of the crack plane; NaN if it has no direction.
     pub fn unit_normal(&self) -> [f64; 3] {
         let largest = self.normal.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
@@ -179,5 +191,10 @@ impl Scene {
     /// The flaws in a body.
     pub fn flaws_in(&self, body: &str) -> impl Iterator<Item = &Flaw> {
         self.flaw.iter().filter(move |flaw| flaw.body == body)
+    }
+
+    /// Returns true if a flaw in a body grows.
+    pub fn has_growing_flaws(&self, body: &str) -> bool {
+        self.flaws_in(body).any(|flaw| flaw.growth.is_some())
     }
 }

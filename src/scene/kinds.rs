@@ -204,6 +204,18 @@ impl Scene {
         self.body.values().any(is_filled)
     }
 
+    /// Returns true if a body may crack or come apart, which is an event.
+    pub fn has_events(&self) -> bool {
+        let may_break = |body: &Body| match body {
+            Body::Solid(solid) => solid.cracks(),
+            Body::Lattice(_) => true,
+            Body::Droplet(_) | Body::LargeStrain(_) | Body::Reservoir(_) | Body::Filament(_) => {
+                false
+            }
+        };
+        self.body.values().any(may_break)
+    }
+
     /// The bodies that have no extent, each with its description.
     pub fn lumps(&self) -> impl Iterator<Item = (&str, String)> {
         self.body.iter().filter_map(|(name, body)| Some((name.as_str(), body.lump()?)))

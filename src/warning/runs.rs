@@ -99,6 +99,10 @@ rules! {
     "the mesh has {elements} elements over the depth of `{flaw}`, too few for the stress along it";
     "set a `mesh.depth_spacing` of {finer} m or less"
 
+    Step flaw_has_grown(flaw, part, most)
+    "`{flaw}` has grown through {part} of what was behind its mouth, and its stress intensity is that of a half plane";
+    "do not rely on it beyond {most}"
+
     Step films_stack(most)
     "more than {most} films that still transfer heat lie on one place: heat and temperatures there stay between \
      those of drops and wall, but their accuracy is not known (docs/fidelity.md)";

@@ -293,6 +293,32 @@ def test_reference_results_are_read_by_fmpy_and_come_again(pack, scene, tmp_path
                 assert np.array_equal(unit.read([name]), np.ravel(row[name])), (unit.time, name)
 
 
+def test_fmpy_handles_the_event_of_a_first_crack(pack):
+    # The strip of the scene between rollers, suddenly colder by more than it bears.
+    held = {
+        "left = { roller = true }": "left = { roller = true }\nright = { roller = true }",
+        "bottom = { roller": "bottom = { temperature = 600.0, roller",
+        'fracture = { model = "at1"': 'fracture = { scatter = 0.04, model = "at1"',
+    }
+    unit = str(pack("crack", held, fmi=3))
+    assert read_model_description(unit).coSimulation.hasEventMode
+    times, step = {}, 0.1
+    for use_event_mode in (False, True):
+        result = simulate_fmu(
+            unit,
+            stop_time=2 * step,
+            output_interval=step,
+            start_values={"plate.bottom.temperature": 470.0},
+            output=["plate.crack_count"],
+            use_event_mode=use_event_mode,
+            early_return_allowed=True,
+        )
+        assert result["plate.crack_count"][-1] >= 1
+        times[use_event_mode] = result["time"]
+    assert times[False] == pytest.approx([0.0, step, 2 * step])
+    assert len(times[True]) > 3 and 0.0 < times[True][1] < step
+
+
 def test_flat_names_are_those_of_the_same_arrays(pack):
     said = "step = 1e-5\n"
     flat = read_model_description(str(pack("tiles", {said: said + 'naming = "flat"\n'}, fmi=3)))

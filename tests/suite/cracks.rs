@@ -49,6 +49,7 @@ fn held_strip_breaks_at_its_strength() {
     let stress = 0.95 * 300e6;
     let elastic = 0.5 * stress * stress / YOUNG * volume;
     assert_eq!(trial.get("plate.max_damage"), 0.0);
+    assert_eq!(trial.get("plate.first_crack_time"), 0.0);
     assert!(off(trial.get("plate.elastic_energy"), elastic) < 1e-3);
     assert!(off(trial.get("plate.mechanical_work"), elastic) < 1e-3);
     assert!(off(trial.get("plate.max_principal"), stress) < 1e-3);
@@ -60,6 +61,16 @@ fn held_strip_breaks_at_its_strength() {
     assert!(off(trial.get("plate.dissipated_energy"), 45.0 * length * 1e-3) < 1e-12);
     assert!(trial.get("plate.elastic_energy") < 0.05 * elastic);
     assert_eq!(trial.get("plate.crack_count"), 1.0);
+    let first = trial.get("plate.first_crack_time");
+    assert!(first > 1.0 && first <= 2.0, "{first}");
+    // It is last in the state, after the time since the start.
+    trial.model.check_state(&trial.state).unwrap();
+    for wrong in [-1.0, 2.5, f64::NAN] {
+        let mut state = trial.state.clone();
+        *state.bodies[0].last_mut().unwrap() = wrong;
+        let refusal = trial.model.check_state(&state).unwrap_err().to_string();
+        assert!(refusal.contains("a first crack at"), "{refusal}");
+    }
     let depth = trial.get("plate.crack_depth");
     assert!(off(depth, 0.4e-3) < 1e-9, "{depth}");
 }

@@ -223,3 +223,89 @@ fn the_depth_is_a_parameter_unless_it_is_searched() {
     assert_eq!(causality("w.depth"), Output);
     assert_eq!(causality("plate.toughness"), Parameter);
 }
+
+/// A mesh on which uniform stress is exact, like on any other.
+const COARSE: &str = "mesh = { spacing = 5e-4, depth_spacing = 5e-4, growth = 1.0 }";
+const GROWTH: &str = "growth = { exponent = 10.0, speed = 2.0 }";
+
+/// Depth after slow growth from 40 µm, in `K = Y σ √a`: `a^(1 − n/2)` falls by `(n/2 − 1) v₀ (Yσ/K_Ic)^n t` (A. G. Evans & S.
+/// M. Wiederhorn 1974, doi 10.1007/BF00035405).
+fn grown(stress: f64, time: f64) -> f64 {
+    let rate = 4.0 * 2.0 * (edge(1.0, |_| 1.0) * stress / 3.8e6).powi(10);
+    (4e-5_f64.powi(-4) - rate * time).powf(-0.25)
+}
+
+#[test]
+fn growth_under_steady_tension_has_the_closed_form_in_steps_of_any_length() {
+    let keys = format!("at = [0.0, 0.0, -10e-3]\nnormal = [0.0, 1.0, 0.0]\ndepth = 4e-5\n{GROWTH}");
+    let text =
+        plate(1.0, &format!("stress_free_temperature = 613.15\n{COARSE}"), &flaw("s", &keys));
+    let text = text.replace("536.25", "573.15");
+    let stress = 40.0 * PER_KELVIN;
+    let wanted = grown(stress, 0.01);
+    assert!(wanted > 1.1 * 4e-5 && wanted < 2.0 * 4e-5);
+    for steps in [1, 5] {
+        let mut trial = Trial::new(&text);
+        assert_eq!(trial.get("s.grown_depth"), 4e-5);
+        (0..steps).for_each(|_| trial.step(0.01 / f64::from(steps)));
+        let found = trial.get("s.grown_depth");
+        assert!(off(found - 4e-5, wanted - 4e-5) < 1e-4, "{steps}: {found} {wanted}");
+        // K is that of the present depth.
+        assert!(off(trial.get("s.stress_intensity"), edge(found, |_| stress)) < 1e-5);
+    }
+}
+
+/// A bar under a load, with a flaw in its side.
+fn pulled() -> Trial {
+    let keys =
+        format!("at = [-1.5e-3, 0.0, -5e-3]\nnormal = [0.0, 0.0, 1.0]\ndepth = 4e-5\n{GROWTH}");
+    let load = "[[load]]\nname = \"pull\"\non = \"plate.top\"\ncarries = [\"pressure\"]\n\
+                footprint = { tiles = { count = [1, 1], size = [3e-3, 2e-3] } }\n";
+    let text = plate(1.0, COARSE, &(flaw("s", &keys) + load))
+        .replace("top = { temperature = 536.25 }\nsides = { roller = true }\n", "")
+        .replace(
+            "bottom = { temperature = 573.15, roller",
+            "right = { roller = true }\nfront = { roller = true }\nbottom = { roller",
+        );
+    Trial::new(&text)
+}
+
+#[test]
+fn growth_adds_up_over_cycles_and_states_continue() {
+    let stress = 1.4e8;
+    let mut trial = pulled();
+    let cycle = |trial: &mut Trial| {
+        for pressure in [-stress, 0.0] {
+            trial.set("pull.pressure[1,1]", pressure);
+            trial.step(0.005);
+        }
+    };
+    (0..2).for_each(|_| cycle(&mut trial));
+    let saved = trial.state.clone();
+    cycle(&mut trial);
+    let found = trial.get("s.grown_depth");
+    assert!(off(found - 4e-5, grown(stress, 0.015) - 4e-5) < 1e-3, "{found}");
+    let mut other = pulled();
+    other.restart(&saved);
+    cycle(&mut other);
+    assert_eq!(other.state, trial.state);
+    assert_eq!(trial.get("s.stress_intensity"), 0.0);
+}
+
+#[test]
+fn flaw_at_its_toughness_runs_and_impossible_depths_are_refused() {
+    let mut trial = pulled();
+    trial.set("pull.pressure[1,1]", -4e8);
+    trial.step(1e-6);
+    assert_eq!(trial.get("s.grown_depth"), 3e-3);
+    let ids = trial.model.warnings(&trial.state);
+    assert!(ids.iter().any(|own| own.finding().id == "flaw_has_grown"));
+    trial.model.check_state(&trial.state).unwrap();
+    let own = &trial.state.bodies[0];
+    let place = own.iter().rposition(|value| *value == 3e-3).unwrap();
+    for depth in [3e-5, 4e-3, f64::NAN] {
+        let mut state = trial.state.clone();
+        state.bodies[0][place] = depth;
+        assert!(trial.model.check_state(&state).is_err(), "{depth}");
+    }
+}

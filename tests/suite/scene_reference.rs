@@ -22,7 +22,7 @@ const LATTICE: &str = include_str!("../scenes/lattice.toml");
 /// stands there with a key that there is not, and keys that choose the section's type.
 type Section = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
-const SECTIONS: [Section; 57] = [
+const SECTIONS: [Section; 58] = [
     ("The whole", PLATE, "stop_time =", "zz = 1\nstop_time =", &[]),
     ("`fidelity`", PLATE, "level =", "zz = 1\nlevel =", &[]),
     ("`solver`", PLATE, "stop_time =", "solver = { zz = 1 }\nstop_time =", &[]),
@@ -233,6 +233,7 @@ const SECTIONS: [Section; 57] = [
     ("`range` of a load", PLATE, "carries =", "range = { zz = 1 }\ncarries =", &[]),
     ("`[[probe]]`", PLATE, "[[probe]]", "[[probe]]\nzz = 1", &[]),
     ("`[[flaw]]`", PLATE, "[[probe]]", "[[flaw]]\nzz = 1\n[[probe]]", &[]),
+    ("`growth` of a flaw", PLATE, "[[probe]]", "[[flaw]]\ngrowth = { zz = 1 }\n[[probe]]", &[]),
     ("`[[field]]`", PLATE, "[[probe]]", "[[field]]\nzz = 1\n[[probe]]", &[]),
     ("`[[wall]]`", DROP, "[[wall]]", "[[wall]]\nzz = 1", &[]),
     ("`start` of a wall", DROP, "start = {", "start = { zz = 1,", &[]),

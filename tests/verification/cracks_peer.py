@@ -180,6 +180,13 @@ class Plane:
             (3 / 8 * part**2)[:, None], self.d.interpolate(self.damage).shape
         )
 
+    def cold(self, part):
+        """Temperatures when heat has gone a part of the depth at which the crack starts."""
+        reach = 0.5 * (DEPTH + AHEAD)
+        toughness = sqrt(YOUNG / (1 - POISSON**2))
+        drop = toughness / (sqrt(reach) * shocked(2.0)) * (1 - POISSON) / (YOUNG * EXPANSION)
+        return -drop * erfc(self.depth / (2 * part * reach))
+
     def respond(self, damage, rise):
         strain = strain_of(self.u.interpolate(self.moved))
         strain[:3] -= EXPANSION * np.asarray(self.d.interpolate(rise))
@@ -236,14 +243,11 @@ class Plane:
 
 def main(per_length=3.0, steps=15):
     plane = Plane(per_length)
-    reach = 0.5 * (DEPTH + AHEAD)
-    toughness = sqrt(YOUNG / (1 - POISSON**2))
-    drop = toughness / (sqrt(reach) * shocked(2.0)) * (1 - POISSON) / (YOUNG * EXPANSION)
     print(f"{plane.depth.size} nodes, {'PARDISO' if pardiso else 'SuperLU'}")
     first, begun = None, time.perf_counter()
     for step in range(steps):
         part = 0.9 + 0.02 * step
-        count = plane.advance(-drop * erfc(plane.depth / (2 * part * reach)))
+        count = plane.advance(plane.cold(part))
         dissipated = plane.dissipated()
         first = dissipated if first is None else first
         took = time.perf_counter() - begun

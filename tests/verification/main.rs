@@ -14,6 +14,8 @@ mod common;
 mod conduction;
 mod contact;
 mod cracks;
+#[path = "../common/edge_crack.rs"]
+mod edge_crack;
 mod elasticity;
 #[path = "../common/falling_drop.rs"]
 #[allow(dead_code)]

@@ -4,6 +4,7 @@
 mod advice;
 mod approach;
 mod conductor;
+mod events;
 mod giver;
 mod linear;
 mod maxima;
@@ -15,6 +16,7 @@ use std::any::Any;
 pub use advice::{Advice, Occasion};
 pub use approach::Approach;
 pub use conductor::Conductor;
+pub use events::Events;
 pub use giver::{Given, Giver};
 pub use linear::Linear;
 pub use maxima::Maxima;
@@ -31,7 +33,7 @@ use crate::scene::FaceName;
 use crate::state::Layout;
 
 /// A body of a scene: everything that is known before time starts. Its state is a flat vector.
-pub trait Body: Giver + Maxima + Approach + Advice + Resources + Send + Sync {
+pub trait Body: Giver + Maxima + Approach + Events + Advice + Resources + Send + Sync {
     fn name(&self) -> &str;
 
     /// Returns the state at time zero.

@@ -1,7 +1,7 @@
 //! Bodies whose state is one structure with fields.
 
 use super::{
-    Acts, Advice, Approach, Body, Fields, Given, Giver, Maxima, Memo, Received, Resources,
+    Acts, Advice, Approach, Body, Events, Fields, Given, Giver, Maxima, Memo, Received, Resources,
 };
 use crate::body::{BodyError, Reading};
 use crate::method::sph::ParticleFields;
@@ -10,7 +10,7 @@ use crate::state::{self, Layout, expect_like, layout_like, load, store_all, stor
 
 /// A body whose state is one structure with fields, and whose readings are those of a view of it that is made once a
 /// state. It is a [`Body`] by that.
-pub trait Structured: Giver + Maxima + Approach + Advice + Resources + Send + Sync {
+pub trait Structured: Giver + Maxima + Approach + Events + Advice + Resources + Send + Sync {
     type State: state::Fields + Clone;
     /// Results of a state from which values are read.
     type View: Send + Sync + 'static;

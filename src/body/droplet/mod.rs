@@ -25,7 +25,7 @@ use std::ops::Range;
 use super::{
     Acts, Body, BodyError, Descriptor, Fields, Given, Link, Memo, Reading, Received, link,
 };
-use crate::body::{Giver, Maxima, Resources};
+use crate::body::{Events, Giver, Maxima, Resources};
 use crate::inputs::{InputLayout, InputPath};
 use crate::method::sph::{DropletSph, Failure, ParticleFields, UNKNOWNS};
 use crate::port::{Domain, Surface, WallCells, WallExchange};
@@ -338,6 +338,8 @@ impl Giver for DropletBody {
         })
     }
 }
+
+impl Events for DropletBody {}
 
 impl Maxima for DropletBody {}
 

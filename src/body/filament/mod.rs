@@ -13,8 +13,8 @@ pub use warnings::warnings_on_strands;
 
 use crate::body::droplet::Watch;
 use crate::body::{
-    Acts, Advice, Approach, BodyError, Given, Giver, Link, Maxima, Occasion, Reading, Resources,
-    Structured,
+    Acts, Advice, Approach, BodyError, Events, Given, Giver, Link, Maxima, Occasion, Reading,
+    Resources, Structured,
 };
 use crate::inputs::{InputLayout, InputPath};
 use crate::laws::Constants;
@@ -186,6 +186,8 @@ impl Giver for FilamentBody {
         self.given_of(&self.structure(state))
     }
 }
+
+impl Events for FilamentBody {}
 
 impl Maxima for FilamentBody {}
 

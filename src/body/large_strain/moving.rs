@@ -7,7 +7,8 @@ use super::totals::Sums;
 use super::warming::{Temperatures, Warming, heat_totals};
 use super::{View, is_large, named, plan};
 use crate::body::{
-    Acts, Advice, Approach, BodyError, Given, Giver, Link, Maxima, Reading, Resources, Structured,
+    Acts, Advice, Approach, BodyError, Events, Given, Giver, Link, Maxima, Reading, Resources,
+    Structured,
 };
 use crate::inputs::InputLayout;
 use crate::method::large_strain::{
@@ -332,6 +333,8 @@ impl Giver for MovingBody {
         self.given_of(&self.structure(state))
     }
 }
+
+impl Events for MovingBody {}
 
 impl Maxima for MovingBody {}
 

@@ -9,7 +9,8 @@ use super::totals::Sums;
 use super::warming::{Temperatures, Warming, heat_totals};
 use super::{View, is_large, named, plan};
 use crate::body::{
-    Acts, Advice, Approach, BodyError, Given, Giver, Maxima, Memo, Reading, Resources, Structured,
+    Acts, Advice, Approach, BodyError, Events, Given, Giver, Maxima, Memo, Reading, Resources,
+    Structured,
 };
 use crate::inputs::InputLayout;
 use crate::laws::solid::large_strain::Thermal;
@@ -405,6 +406,8 @@ impl Structured for RestingBody {
 }
 
 impl Giver for RestingBody {}
+
+impl Events for RestingBody {}
 
 impl Maxima for RestingBody {}
 

@@ -9,7 +9,7 @@ use super::totals::Sums;
 use super::warming::Temperatures;
 use super::{View, is_large, named, plan};
 use crate::body::{
-    Acts, Advice, Approach, BodyError, Given, Giver, Maxima, Reading, Resources, Structured,
+    Acts, Advice, Approach, BodyError, Events, Given, Giver, Maxima, Reading, Resources, Structured,
 };
 use crate::inputs::InputLayout;
 use crate::method::large_strain::{
@@ -255,6 +255,8 @@ impl Structured for SwingingBody {
 }
 
 impl Giver for SwingingBody {}
+
+impl Events for SwingingBody {}
 
 impl Maxima for SwingingBody {}
 

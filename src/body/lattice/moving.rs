@@ -3,7 +3,7 @@
 use super::totals::{self, Seen};
 use super::{Drawn, forecast, named, plan};
 use crate::body::{
-    Acts, Advice, Approach, BodyError, Given, Giver, Maxima, Reading, Resources, Structured,
+    Acts, Advice, Approach, BodyError, Events, Given, Giver, Maxima, Reading, Resources, Structured,
 };
 use crate::inputs::{InputLayout, InputPath};
 use crate::method::lattice::{LatticeMotion, MovingLattice};
@@ -103,6 +103,19 @@ impl Giver for MovingLatticeBody {
         own.duration += before.duration;
         own.impulse += before.impulse;
         store_all(&mut own, state);
+    }
+}
+
+impl Events for MovingLatticeBody {
+    fn has_events(&self) -> bool {
+        true
+    }
+
+    /// An event is the separation of a part.
+    fn event_between(&self, before: &[f64], after: &[f64]) -> bool {
+        let [before, after] =
+            [before, after].map(|own| self.lattice.fragments(&self.structure(own)));
+        after > before
     }
 }
 

@@ -1,7 +1,7 @@
 //! A lattice in equilibrium with what its input prescribes.
 
 use crate::body::{
-    Acts, Advice, Approach, BodyError, Given, Giver, Maxima, Reading, Resources, Structured,
+    Acts, Advice, Approach, BodyError, Events, Given, Giver, Maxima, Reading, Resources, Structured,
 };
 use crate::inputs::InputLayout;
 use crate::method::lattice::{Lattice, LatticeState};
@@ -112,6 +112,19 @@ impl Structured for RestingLatticeBody {
 }
 
 impl Giver for RestingLatticeBody {}
+
+impl Events for RestingLatticeBody {
+    fn has_events(&self) -> bool {
+        true
+    }
+
+    /// An event is the separation of a part.
+    fn event_between(&self, before: &[f64], after: &[f64]) -> bool {
+        let [before, after] =
+            [before, after].map(|own| self.lattice.fragments(&self.structure(own)));
+        after > before
+    }
+}
 
 impl Maxima for RestingLatticeBody {}
 

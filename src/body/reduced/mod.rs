@@ -24,7 +24,7 @@ use super::solid::{BodyLoads, Measure, PARTS_OF_A_FOOTPRINT, plan};
 use super::{
     Acts, Body, BodyError, Direct, Fields, Given, Linear, Memo, Reading, Received, point_quantities,
 };
-use crate::body::{Advice, Approach, Giver, Maxima, Resources};
+use crate::body::{Advice, Approach, Events, Giver, Maxima, Resources};
 use crate::inputs::{InputLayout, InputPath};
 use crate::method::fem::NodalFields;
 use crate::method::reduced::ReducedSystem;
@@ -394,6 +394,8 @@ impl Body for ReducedBody {
 }
 
 impl Giver for ReducedBody {}
+
+impl Events for ReducedBody {}
 
 impl Maxima for ReducedBody {}
 

@@ -14,6 +14,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use super::reader::SolidReader;
 use crate::body::BodyError;
 use crate::laws::Constants;
+use crate::laws::fracture::CrackGrowth;
 use crate::math::gauss::gauss_on;
 use crate::math::lagrange::interpolation_weights;
 use crate::method::fem::{Component, Functional, Geometry, Mesh, Plan, SolidFem};
@@ -53,11 +54,27 @@ enum Extent {
     /// Weights of the points in K [√m].
     Given { depth: f64, weights: Vec<f64> },
     /// Depths with the weights of the points for each.
-    Searched { line: Line, trials: Vec<(f64, Vec<f64>)> },
+    Searched { line: Line, trials: Trials },
+    /// As searched, from a depth on.
+    Growing { start: f64, line: Line, trials: Trials, law: CrackGrowth },
+}
+
+/// Depths [m], each with the weights of the points in K [√m].
+type Trials = Vec<(f64, Vec<f64>)>;
+
+/// A crack that grows slowly, from a depth [m] on.
+pub struct Growing<'c> {
+    pub name: &'c str,
+    pub start: f64,
+    pub line: &'c Line,
+    pub trials: &'c [(f64, Vec<f64>)],
+    pub law: CrackGrowth,
+    /// [Pa √m]
+    pub toughness: f64,
 }
 
 /// Distances from the mouth of an edge crack at which stress is taken [m].
-struct Line {
+pub struct Line {
     /// Ends of elements, from 0 on.
     ends: Vec<f64>,
     /// Points of an element, its ends included.
@@ -81,6 +98,22 @@ pub struct Intensity {
 }
 
 impl Line {
+    /// The line through these ends of elements [m], ascending from zero.
+    #[cfg(test)]
+    pub fn new(ends: Vec<f64>, order: usize) -> Self {
+        Self { ends, order }
+    }
+
+    /// Its depth [m].
+    pub fn end(&self) -> f64 {
+        self.ends.last().copied().unwrap_or_default()
+    }
+
+    /// Number of its points.
+    pub fn count(&self) -> usize {
+        self.order * (self.ends.len() - 1) + 1
+    }
+
     /// The line from the mouth to a depth [m].
     fn of(mesh: &Mesh, at: [f64; 3], inward: [f64; 3], depth: f64) -> Self {
         let mut ends = vec![0.0];
@@ -91,7 +124,7 @@ impl Line {
     }
 
     /// Distances of all points.
-    fn distances(&self) -> Vec<f64> {
+    pub fn distances(&self) -> Vec<f64> {
         let of_element = |pair: &[f64]| {
             let (from, length) = (pair[0], pair[1] - pair[0]);
             let inner = move |i: usize| from + length * i as f64 / self.order as f64;
@@ -102,7 +135,7 @@ impl Line {
     }
 
     /// Weights of the points in K of an edge crack of a depth [√m].
-    fn weights(&self, depth: f64) -> Vec<f64> {
+    pub fn weights(&self, depth: f64) -> Vec<f64> {
         let distances = self.distances();
         let mut weights = vec![0.0; distances.len()];
         for (element, pair) in self.ends.windows(2).enumerate() {
@@ -124,7 +157,7 @@ impl Line {
     }
 
     /// Depths that are tried.
-    fn trials(&self) -> Vec<f64> {
+    pub fn trials(&self) -> Vec<f64> {
         let of_element = |pair: &[f64]| {
             let [from, to] = [pair[0], pair[1]];
             (1..=TRIALS).map(move |i| from + (to - from) * i as f64 / TRIALS as f64)
@@ -185,9 +218,28 @@ impl Crack {
         Some(Functional { terms: (0..6).flat_map(of_slot).collect() })
     }
 
+    /// Returns the crack as one that grows; `None` if it does not.
+    pub fn growing(&self) -> Option<Growing<'_>> {
+        let Extent::Growing { start, line, trials, law } = &self.extent else { return None };
+        let (name, toughness) = (&self.name, self.toughness);
+        Some(Growing { name, start: *start, line, trials, law: *law, toughness })
+    }
+
+    /// Stress intensity of one that grows, at a depth [m] that it has reached.
+    pub fn at_depth(&self, reader: &mut SolidReader, depth: f64) -> Result<Intensity, BodyError> {
+        let Some(Growing { line, .. }) = self.growing() else {
+            return Err(BodyError::NoSuchReading);
+        };
+        let value = dot(&line.weights(depth), &self.stresses(reader)?);
+        Ok(Intensity { value: value.max(0.0), depth })
+    }
+
     /// Returns the elements over the depth if they are too few for the stress there.
     pub fn too_few_elements(&self) -> Option<Coarse<'_>> {
-        let Extent::Given { depth, .. } = self.extent else { return None };
+        let depth = match self.extent {
+            Extent::Given { depth, .. } | Extent::Growing { start: depth, .. } => depth,
+            Extent::Searched { .. } => return None,
+        };
         let elements = self.elements.filter(|&elements| elements < LEAST_ELEMENTS)?;
         Some(Coarse { name: &self.name, elements, finer: depth / (2.0 * LEAST_ELEMENTS) })
     }
@@ -216,7 +268,7 @@ impl Crack {
     }
 
     /// Stress across the plane at all points [Pa].
-    fn stresses(&self, reader: &mut SolidReader) -> Result<Vec<f64>, BodyError> {
+    pub fn stresses(&self, reader: &mut SolidReader) -> Result<Vec<f64>, BodyError> {
         let across = |point: &[f64; 3]| {
             let stress = reader.stress_at(*point)?;
             Ok(self.across.iter().zip(stress).map(|(factor, own)| factor * own).sum())
@@ -234,7 +286,7 @@ impl Crack {
     pub fn opened(&self, signed: f64) -> Intensity {
         let depth = match &self.extent {
             Extent::Given { depth, .. } => *depth,
-            Extent::Searched { .. } => 0.0,
+            Extent::Searched { .. } | Extent::Growing { .. } => 0.0,
         };
         Intensity { value: signed.max(0.0), depth }
     }
@@ -276,7 +328,8 @@ fn edge(
 ) -> (Vec<[f64; 3]>, Extent, Option<f64>) {
     let inward = flaw.inward(face);
     let given = flaw.depth.given();
-    let reach = given.unwrap_or_else(|| flaw.reach(solid, face));
+    let reach = given.filter(|_| flaw.growth.is_none());
+    let reach = reach.unwrap_or_else(|| flaw.reach(solid, face));
     let line = Line::of(&plan.mesh, flaw.at, inward, reach);
     // On an interface the layer above counts, so the deepest point stays within its own.
     let inside = 1.0 - 1e-12;
@@ -285,18 +338,17 @@ fn edge(
         .into_iter()
         .map(|distance| std::array::from_fn(|i| flaw.at[i] + inside * distance * inward[i]));
     let points = points.collect();
-    match given {
-        Some(depth) => {
-            let elements = elements_over(&plan.mesh, flaw.at, inward, depth);
-            let weights = line.weights(depth);
-            (points, Extent::Given { depth, weights }, Some(elements))
-        }
-        None => {
-            let trials = line.trials().into_iter().map(|depth| (depth, line.weights(depth)));
-            let trials = trials.collect();
-            (points, Extent::Searched { line, trials }, None)
-        }
-    }
+    let searched = |line: &Line| {
+        let trials = line.trials().into_iter();
+        trials.map(|depth| (depth, line.weights(depth))).collect()
+    };
+    let elements = given.map(|depth| elements_over(&plan.mesh, flaw.at, inward, depth));
+    let extent = match (given, flaw.growth) {
+        (Some(depth), None) => Extent::Given { depth, weights: line.weights(depth) },
+        (Some(start), Some(law)) => Extent::Growing { start, trials: searched(&line), line, law },
+        (None, _) => Extent::Searched { trials: searched(&line), line },
+    };
+    (points, extent, elements)
 }
 
 /// Distances from the mouth of an edge crack, above zero and ascending, at which elements end [m].
@@ -346,7 +398,7 @@ fn penny(flaw: &Flaw, radius: f64) -> (Vec<[f64; 3]>, Extent) {
     (points, Extent::Given { depth: radius, weights })
 }
 
-fn dot(weights: &[f64], values: &[f64]) -> f64 {
+pub fn dot(weights: &[f64], values: &[f64]) -> f64 {
     weights.iter().zip(values).map(|(weight, value)| weight * value).sum()
 }
 

@@ -104,9 +104,12 @@ impl Cracking {
             .with(field("damage", "damage [1]", Per::Node, 1), nodes)
             .with(field("rise", "temperature of the equilibrium [K]", Per::Node, 1), nodes)
             .with(field("work", "work of loads and thermal strain [J]", Per::Body, 1), 1)
+            .with(field("clock", "time since the start [s]", Per::Body, 1), 1)
+            .with(field("first_crack", "clock at the first crack, or 0 [s]", Per::Body, 1), 1)
     }
 
-    /// Places of displacement, damage and temperature in the mechanical part of a state; work is last.
+    /// Places of displacement, damage and temperature in the mechanical part of a state; work, clock and time of the
+    /// first crack follow.
     fn places(&self) -> [Range<usize>; 3] {
         let nodes = self.nodes();
         [0..2 * nodes, 2 * nodes..3 * nodes, 3 * nodes..4 * nodes]
@@ -125,7 +128,27 @@ impl Cracking {
         flat[4 * self.nodes()] = state.work;
     }
 
-    /// Refuses damage outside of its range and impossible temperatures.
+    /// Time since the start and that of the first crack, zero before it [s].
+    fn times(&self, flat: &[f64]) -> [f64; 2] {
+        [1, 2].map(|after| flat[4 * self.nodes() + after])
+    }
+
+    /// Advances the clock, and notes its time at the end of the first part of a step that leaves a crack.
+    fn note_time(&self, flat: &mut [f64], duration: f64) {
+        let [clock, first] = self.times(flat);
+        let clock = clock + duration;
+        flat[4 * self.nodes() + 1] = clock;
+        if first == 0.0 && self.cracks(flat).count > 0 {
+            flat[4 * self.nodes() + 2] = clock;
+        }
+    }
+
+    fn cracks(&self, flat: &[f64]) -> Cracks {
+        let [_, damage, _] = self.places();
+        self.problem.elements.section.cracks(&flat[damage], self.sides)
+    }
+
+    /// Refuses damage outside of its range, and impossible temperatures and times.
     pub fn check(&self, flat: &[f64]) -> Result<(), String> {
         let [_, damage, rise] = self.places();
         let wrong = flat[damage].iter().find(|&&value| !(0.0..=1.0).contains(&value));
@@ -133,7 +156,13 @@ impl Cracking {
             return Err(format!("damage of {value:e}, which is between 0 and 1"));
         }
         let wrong = flat[rise].iter().find(|value| !(-HOTTEST..HOTTEST).contains(*value));
-        wrong.map_or(Ok(()), |value| Err(format!("equilibrium at {value:e} K")))
+        wrong.map_or(Ok(()), |value| Err(format!("equilibrium at {value:e} K")))?;
+        let [clock, first] = self.times(flat);
+        let is_possible = (0.0..=clock).contains(&first) && clock < f64::INFINITY;
+        match is_possible && (first == 0.0 || self.cracks(flat).count > 0) {
+            true => Ok(()),
+            false => Err(format!("a first crack at {first:e} s, {clock:e} s from the start")),
+        }
     }
 
     /// Values of the section's nodes at the nodes of the body's mesh.
@@ -252,7 +281,9 @@ impl SolidBody {
             let advanced = cracking.problem.advance(&mut mechanics, (&rise, &forces), allowance);
             advanced.map_err(|error| self.damage_error(error))?;
             let length = cracking.layout().len();
-            cracking.store(&mechanics, &mut state[self.heat_len..][..length]);
+            let own = &mut state[self.heat_len..][..length];
+            cracking.store(&mechanics, own);
+            cracking.note_time(own, acts.duration);
             return Ok(());
         }
         state.copy_from_slice(&start);
@@ -325,10 +356,23 @@ impl SolidBody {
 
     /// Number and depth of the cracks of a state.
     pub(super) fn cracks_of(&self, state: &[f64]) -> Cracks {
-        let Some(cracking) = &self.cracking else { return Cracks::default() };
+        let own = self.mechanics_of(state);
+        self.cracking.as_ref().map_or(Cracks::default(), |cracking| cracking.cracks(own))
+    }
+
+    /// Time from the start to the first crack [s]; zero before it, and without cracks.
+    pub(super) fn time_of_first_crack(&self, state: &[f64]) -> f64 {
+        let Some(cracking) = &self.cracking else { return 0.0 };
+        let [_, first] = cracking.times(self.mechanics_of(state));
+        first
+    }
+
+    /// Returns true if a crack of the later state is not part of one of the earlier.
+    pub(super) fn has_new_crack(&self, before: &[f64], after: &[f64]) -> bool {
+        let Some(cracking) = &self.cracking else { return false };
         let [_, damage, _] = cracking.places();
-        let damage = &self.mechanics_of(state)[damage];
-        cracking.problem.elements.section.cracks(damage, cracking.sides)
+        let [before, after] = [before, after].map(|own| &self.mechanics_of(own)[damage.clone()]);
+        cracking.problem.elements.section.has_new_crack(before, after)
     }
 
     /// Energies of a body that cracks [J].

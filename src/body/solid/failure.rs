@@ -75,7 +75,7 @@ impl SolidBody {
     }
 
     /// Place of the running maxima in a state.
-    fn place_of_noted(&self, state: &[f64]) -> usize {
+    pub(super) fn place_of_noted(&self, state: &[f64]) -> usize {
         state.len() - self.layout_of_flaws().len()
     }
 

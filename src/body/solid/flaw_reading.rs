@@ -11,21 +11,30 @@ use crate::scene::{Flaw, FlawGives};
 /// A quantity of a flaw.
 struct FlawQuantity {
     descriptor: Descriptor,
-    /// The output name that includes it; `None` for the depth, which goes with searched ones.
-    given_by: Option<FlawGives>,
+    of: Offered,
     read: fn(&Crack, Intensity) -> f64,
     /// Rate of change, from the intensity and its rate.
     rate: fn(&Crack, Intensity, f64) -> Option<f64>,
 }
 
-const QUANTITIES: [FlawQuantity; 4] = [
+/// Flaws that offer a quantity.
+enum Offered {
+    /// Those that give it.
+    By(FlawGives),
+    /// Those whose depth is searched.
+    Searched,
+    /// Those that grow.
+    Growing,
+}
+
+const QUANTITIES: [FlawQuantity; 5] = [
     FlawQuantity {
         descriptor: descriptor(
             "stress_intensity",
             "stress intensity, zero where it is closed,",
             Quantity::StressIntensity,
         ),
-        given_by: Some(FlawGives::StressIntensity),
+        of: Offered::By(FlawGives::StressIntensity),
         read: |_, own| own.value,
         rate: |_, _, rate| Some(rate),
     },
@@ -35,7 +44,7 @@ const QUANTITIES: [FlawQuantity; 4] = [
             "energy release rate in plane strain",
             Quantity::EnergyPerArea,
         ),
-        given_by: Some(FlawGives::EnergyReleaseRate),
+        of: Offered::By(FlawGives::EnergyReleaseRate),
         read: |crack, own| crack.energy_release_rate(own.value),
         rate: |crack, own, rate| Some(crack.energy_release_change(own.value, rate)),
     },
@@ -45,13 +54,22 @@ const QUANTITIES: [FlawQuantity; 4] = [
             "toughness over stress intensity, at most 1e6,",
             Quantity::Ratio,
         ),
-        given_by: Some(FlawGives::Safety),
+        of: Offered::By(FlawGives::Safety),
         read: |crack, own| crack.safety(own.value),
         rate: |crack, own, rate| Some(crack.safety_change(own.value, rate)),
     },
     FlawQuantity {
         descriptor: descriptor("depth", "depth of highest stress intensity", Quantity::Length),
-        given_by: None,
+        of: Offered::Searched,
+        read: |_, own| own.depth,
+        rate: |_, _, _| None,
+    },
+    FlawQuantity {
+        descriptor: Descriptor {
+            direct: Direct::Nothing,
+            ..descriptor("grown_depth", "depth after slow growth", Quantity::Length)
+        },
+        of: Offered::Growing,
         read: |_, own| own.depth,
         rate: |_, _, _| None,
     },
@@ -63,9 +81,10 @@ const fn descriptor(key: &'static str, words: &'static str, quantity: Quantity) 
 
 /// Returns the quantities that a flaw offers, each with its place among all.
 pub fn flaw_quantities(flaw: &Flaw) -> Vec<(usize, Descriptor)> {
-    let is_offered = |quantity: &FlawQuantity| match quantity.given_by {
-        Some(gives) => flaw.gives.contains(&gives),
-        None => flaw.depth.given().is_none(),
+    let is_offered = |quantity: &FlawQuantity| match quantity.of {
+        Offered::By(gives) => flaw.gives.contains(&gives),
+        Offered::Searched => flaw.depth.given().is_none(),
+        Offered::Growing => flaw.growth.is_some(),
     };
     let all = QUANTITIES.iter().enumerate().filter(|(_, quantity)| is_offered(quantity));
     all.map(|(place, quantity)| (place, quantity.descriptor)).collect()
@@ -78,7 +97,7 @@ impl SolidBody {
     }
 }
 
-/// Signed stress intensity of a flaw of given depth, by its row or a solution; `None` if the depth is searched.
+/// Signed stress intensity of a flaw of given depth, by its row or a solution; `None` if the depth is searched or grows.
 fn signed(reader: &mut SolidReader, crack: &Crack, flaw: usize) -> Result<Option<f64>, BodyError> {
     match reader.flaw_by_row(flaw) {
         Some(value) => value.map(Some),
@@ -89,9 +108,11 @@ fn signed(reader: &mut SolidReader, crack: &Crack, flaw: usize) -> Result<Option
 /// Reads a quantity of a flaw, by the place of the flaw among the scene's.
 pub fn read(reader: &mut SolidReader, flaw: usize, quantity: usize) -> Result<f64, BodyError> {
     let crack = reader.body.crack(flaw)?;
-    let intensity = match signed(reader, crack, flaw)? {
-        Some(signed) => crack.opened(signed),
-        None => crack.worst(reader)?,
+    let grown = reader.body.grown_depth(reader.state, flaw);
+    let intensity = match (grown, signed(reader, crack, flaw)?) {
+        (Some(depth), _) => crack.at_depth(reader, depth)?,
+        (None, Some(signed)) => crack.opened(signed),
+        (None, None) => crack.worst(reader)?,
     };
     Ok((QUANTITIES[quantity].read)(crack, intensity))
 }

@@ -33,6 +33,8 @@ pub struct SolidMemo {
     /// Equivalent stress of flaws at the nodes, and its risk.
     equivalent_stress: Option<Vec<f64>>,
     present_risk: Option<f64>,
+    /// Stress along the flaws that grow, one after another [Pa].
+    along_flaws: Vec<f64>,
     /// Largest risk so far.
     risk_so_far: Option<Risk>,
     /// The last point that was read: its components are read one after another.
@@ -272,6 +274,15 @@ impl SolidMemo {
             self.equivalent_stress = Some(found);
         }
         Ok(self.observed())
+    }
+
+    /// Stress along the flaws that grow, when last observed.
+    pub fn along_flaws(&self) -> &[f64] {
+        &self.along_flaws
+    }
+
+    pub fn keep_along_flaws(&mut self, stress: Vec<f64>) {
+        self.along_flaws = stress;
     }
 
     /// The equivalent stress that is already known; none otherwise.

@@ -8,6 +8,7 @@ mod failure;
 mod flaw_reading;
 mod forecast;
 mod front;
+mod growing;
 mod linear;
 mod loads;
 mod means;
@@ -36,8 +37,8 @@ pub use totals::offered_totals;
 use std::sync::Arc;
 
 use super::{
-    Acts, Body, BodyError, Conductor, Direct, Extreme, Fields, Given, Linear, Memo, Reading,
-    Received,
+    Acts, Body, BodyError, Conductor, Direct, Events, Extreme, Fields, Given, Linear, Memo,
+    Reading, Received,
 };
 use crate::body::{Advice, Approach, Giver, Maxima, Occasion, Resources};
 use crate::coupling::FaceMeans;
@@ -164,7 +165,7 @@ impl SolidBody {
         let yielding = self.yielding.as_ref().map(Yielding::layout);
         let mechanics = yielding.or(self.cracking.as_ref().map(Cracking::layout));
         let layout = self.solid.layout().then(mechanics.unwrap_or_default());
-        layout.then(self.layout_of_flaws())
+        layout.then(self.layout_of_growth()).then(self.layout_of_flaws())
     }
 
     /// Meshes on which heat and forces act.
@@ -203,7 +204,8 @@ impl Body for SolidBody {
         let cracks = self.cracking.as_ref().map(|cracking| cracking.initial_state(rise));
         let mechanics = mechanics.or(cracks).into_iter().flatten();
         let heat = self.solid.initial_state().into_iter();
-        heat.chain(mechanics).chain(self.nothing_noted()).collect()
+        let noted = self.start_of_growth().into_iter().chain(self.nothing_noted());
+        heat.chain(mechanics).chain(noted).collect()
     }
 
     fn layout(&self, state: &[f64]) -> Option<Layout> {
@@ -216,6 +218,7 @@ impl Body for SolidBody {
                 self.check_heat(state, inputs)?;
                 let cracks = self.cracking.as_ref();
                 cracks.map_or(Ok(()), |cracks| cracks.check(self.mechanics_of(state)))?;
+                self.check_growth(state)?;
                 self.check_flaws(state)
             }
             wanted => {
@@ -320,6 +323,17 @@ impl Body for SolidBody {
 
 impl Giver for SolidBody {}
 
+impl Events for SolidBody {
+    fn has_events(&self) -> bool {
+        self.cracking.is_some()
+    }
+
+    /// An event is a crack that is not part of an earlier one.
+    fn event_between(&self, before: &[f64], after: &[f64]) -> bool {
+        self.has_new_crack(before, after)
+    }
+}
+
 impl Maxima for SolidBody {
     fn peaks(&self) -> usize {
         self.peaks.len()
@@ -335,7 +349,7 @@ impl Maxima for SolidBody {
     }
 
     fn keeps_field(&self) -> bool {
-        self.solid.flaws().is_some()
+        self.solid.flaws().is_some() || self.has_growing_flaws()
     }
 
     fn field_holds_at_beginning(&self) -> bool {
@@ -343,11 +357,15 @@ impl Maxima for SolidBody {
     }
 
     fn observe_field(&self, state: &[f64], memo: &mut Memo) -> Result<(), BodyError> {
-        self.observe_flaws(state, SolidMemo::of_mut(memo))
+        let memo = SolidMemo::of_mut(memo);
+        self.observe_growth(state, memo)?;
+        self.observe_flaws(state, memo)
     }
 
     fn note_field(&self, state: &mut [f64], memo: &mut Memo, duration: f64) {
-        self.note_flaws(state, SolidMemo::of_mut(memo), duration);
+        let memo = SolidMemo::of_mut(memo);
+        self.note_growth_of_flaws(state, memo, duration);
+        self.note_flaws(state, memo, duration);
     }
 
     fn check_peak(&self, which: usize, peak: &Extreme) -> Result<(), String> {
@@ -379,7 +397,7 @@ impl Advice for SolidBody {
             Occasion::Step => {
                 let particles = warnings::of_particles(self, state);
                 let torn = warnings::of_torn_parts(self, state);
-                particles.into_iter().chain(torn).chain(warnings::of_flaws(self)).collect()
+                particles.into_iter().chain(torn).chain(warnings::of_flaws(self, state)).collect()
             }
             Occasion::Response { .. } => Vec::new(),
             Occasion::End => {

@@ -40,6 +40,7 @@ pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
     plan.notes.extend(chosen);
     plan.notes.extend(solid.has_stress_peaks().then(|| NOTE_ON_PEAKS.to_owned()));
     plan.notes.extend(solid.has_flaws().then(|| NOTE_ON_FLAWS.to_owned()));
+    plan.notes.extend(scene.has_growing_flaws(name).then(|| NOTE_ON_GROWTH.to_owned()));
     plan.notes.extend(Choice::of(scene, (name, solid), &plan).note());
     plan
 }
@@ -70,6 +71,9 @@ const NOTE_ON_PEAKS: &str = "stress is solved at every communication point, for 
 
 const NOTE_ON_FLAWS: &str = "stress is solved at every communication point, for the largest that every flaw has met; \
                              the state has a number more for each node of the whole body";
+
+const NOTE_ON_GROWTH: &str =
+    "stress is solved at every communication point, for the growth of flaws until the next";
 
 /// Temperature differences to which a tolerance refers if heat advances in inner steps [K].
 const TEMPERATURES: f64 = 10.0;

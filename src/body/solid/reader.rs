@@ -190,6 +190,11 @@ impl SolidReader<'_> {
         self.body.cracks_of(self.state).count as f64
     }
 
+    /// Time from the start to the first crack [s].
+    pub fn time_of_first_crack(&self) -> f64 {
+        self.body.time_of_first_crack(self.state)
+    }
+
     /// Depth of the deepest crack [m].
     pub fn crack_depth(&self) -> f64 {
         self.body.cracks_of(self.state).depth

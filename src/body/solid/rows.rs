@@ -102,8 +102,9 @@ impl Choice {
     /// Chooses the readings of a scene's solid that use rows.
     pub fn of(scene: &Scene, (name, solid): (&str, &Solid), plan: &Plan) -> Self {
         let mut choice = Self::default();
-        // Running maxima of stress need a solution at every communication point anyway.
-        let is_solved = solid.has_stress_peaks() || solid.has_flaws();
+        // Running maxima of stress and flaws that grow need a solution at every communication point anyway.
+        let is_noted = solid.has_stress_peaks() || solid.has_flaws();
+        let is_solved = is_noted || scene.has_growing_flaws(name);
         let Some(laws) = plan.law.as_ref().filter(|_| !is_solved) else {
             return choice;
         };
@@ -156,7 +157,8 @@ impl Choice {
             }
         }
         for (place, flaw) in scene.flaw.iter().enumerate() {
-            let is_one_row = flaw.body == name && flaw.depth.given().is_some();
+            let is_fixed = flaw.depth.given().is_some() && flaw.growth.is_none();
+            let is_one_row = flaw.body == name && is_fixed;
             if is_one_row && ((choice.rows + 1) as f64) < most {
                 choice.rows += 1;
                 choice.flaws.push(place);

@@ -35,7 +35,7 @@ enum Offered {
     Breaking,
 }
 
-const TOTALS: [Total; 27] = [
+const TOTALS: [Total; 28] = [
     Total {
         descriptor: Descriptor {
             key: "max_temperature",
@@ -151,6 +151,12 @@ const TOTALS: [Total; 27] = [
         "number of cracks: connected places where damage is 0.9 or more",
         Quantity::Count,
         |reader| Ok(reader.crack_count()),
+    ),
+    of_cracks(
+        "first_crack_time",
+        "time from the start to the first crack, 0 before it",
+        Quantity::Time,
+        |reader| Ok(reader.time_of_first_crack()),
     ),
     of_cracks(
         "crack_depth",

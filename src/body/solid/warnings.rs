@@ -3,6 +3,7 @@
 use super::SolidBody;
 use super::crack::Coarse;
 use crate::quantity::percent;
+use crate::scene::Flaw;
 use crate::warning::{self, Finding};
 
 /// Share of the transferred heat that particles may create or lose without a warning.
@@ -49,13 +50,17 @@ pub fn of_even_damage(body: &SolidBody, state: &[f64]) -> Option<Finding> {
     (most > DAMAGED && mean > EVEN * most).then(|| warning::damage_is_even(shown, shown_mean))
 }
 
-/// Returns the flaws along which the mesh is too coarse.
-pub fn of_flaws(body: &SolidBody) -> Vec<Finding> {
+/// Returns the flaws along which the mesh is too coarse, and those that have grown too deep for their formula.
+pub fn of_flaws(body: &SolidBody, state: &[f64]) -> Vec<Finding> {
     let coarse = body.cracks.iter().filter_map(|(_, crack)| crack.too_few_elements());
     let finding = |Coarse { name, elements, finer }| {
         warning::flaw_unresolved(name, format!("{elements:.1}"), format!("{finer:.0e}"))
     };
-    coarse.map(finding).collect()
+    let grown = body
+        .grown_parts(state)
+        .filter(|(_, part)| *part > Flaw::SHALLOW)
+        .map(|(name, part)| warning::flaw_has_grown(name, percent(part), percent(Flaw::SHALLOW)));
+    coarse.map(finding).chain(grown).collect()
 }
 
 /// Returns `None` if nothing melts or the front keeps the tolerance.

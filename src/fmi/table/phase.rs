@@ -13,11 +13,13 @@ pub enum Phase {
     Terminated,
     Error,
     Fatal,
+    /// Event Mode of FMI 3.0.
+    EventMode,
 }
 
 impl Phase {
     /// All phases, ordered by their numbers in the bytes of saved states.
-    pub const ALL: [Phase; 9] = [
+    pub const ALL: [Phase; 10] = [
         Phase::Instantiated,
         Phase::InitializationMode,
         Phase::StepComplete,
@@ -27,7 +29,13 @@ impl Phase {
         Phase::Terminated,
         Phase::Error,
         Phase::Fatal,
+        Phase::EventMode,
     ];
+
+    /// Returns true while time goes on: between initialisation and termination, unless a step has failed.
+    pub fn is_running(self) -> bool {
+        matches!(self, Phase::StepComplete | Phase::EventMode)
+    }
 
     /// Returns true if an instance can stay in this phase between calls, and so be saved in it.
     pub fn lasts(self) -> bool {

@@ -9,6 +9,8 @@ pub enum Reason {
     NothingPending,
     ScheduledExecution,
     NoEvents,
+    NoEventMode,
+    NoDiscreteStates,
     NoClocks,
     NoStructuralParameters,
 }
@@ -21,7 +23,9 @@ impl From<Reason> for Refusal {
             Reason::ScheduledExecution => {
                 "belongs to scheduled execution; this unit is for co-simulation"
             }
-            Reason::NoEvents => "this unit has no Event Mode",
+            Reason::NoEvents => "this unit has no Event Mode: nothing in it cracks",
+            Reason::NoEventMode => "the instance was made without eventModeUsed",
+            Reason::NoDiscreteStates => "this unit has no discrete states to evaluate",
             Reason::NoClocks => "this unit has no clocks",
             Reason::NoStructuralParameters => "this unit has no structural parameters",
         })

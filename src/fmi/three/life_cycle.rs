@@ -45,6 +45,7 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
     let log = Log::new(to_log_message(log_message, instance_environment), logging_on != FALSE);
     let control = StepControl {
         may_end_early: early_return_allowed != FALSE,
+        reports_events: event_mode_used != FALSE,
         ask: to_ask(intermediate_update, instance_environment),
     };
     instantiate::<Fmi3>("fmi3InstantiateCoSimulation", log, control, || {
@@ -59,13 +60,14 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
         if name.trim().is_empty() {
             return Err(Refusal::error("instanceName is empty"));
         }
-        if event_mode_used != FALSE {
-            return Err(Reason::NoEvents.into());
-        }
         if required_intermediate_variable_count > 0 {
             return Err(Refusal::error("no variable takes part in intermediate updates"));
         }
-        read(Path::new(resources), token).map_err(Refusal::error)
+        let packed = read(Path::new(resources), token).map_err(Refusal::error)?;
+        match event_mode_used != FALSE && !packed.has_events() {
+            true => Err(Reason::NoEvents.into()),
+            false => Ok(packed),
+        }
     })
 }
 
@@ -140,7 +142,7 @@ pub unsafe extern "C" fn fmi3EnterInitializationMode(
     })
 }
 
-/// Ends the initialization; from here on parameters are fixed.
+/// Ends the initialization; from here on parameters are fixed. Masters that use Event Mode are in it then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3ExitInitializationMode(instance: Handle) -> Status {
     gated!(instance, Fmi3::fmi3ExitInitializationMode, Unit::finish_initialization)

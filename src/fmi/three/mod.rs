@@ -5,6 +5,7 @@
 mod callbacks;
 mod dependencies;
 mod derivatives;
+mod events;
 mod life_cycle;
 mod states;
 mod step;

@@ -10,8 +10,9 @@ use crate::fmi::unit::Unit;
 
 /// Advances the unit by a step.
 ///
-/// Inputs are constant over the step. It never requests events or termination. If allowed, it ends early when it is too
-/// long for one call, or when the master requests it in an intermediate update.
+/// Inputs are constant over the step. It never requests termination. If allowed, it ends early when it is too long for
+/// one call, when the master requests it in an intermediate update, or at an event. Events are reported to masters that
+/// use Event Mode; where a step may not end early, they are at its end.
 ///
 /// A refused or discarded step leaves the unit unchanged: the master may correct inputs or times and try again. No
 /// state is kept except those saved by the master, so `no_set_fmu_state_prior_to_current_point` has no effect.
@@ -45,6 +46,8 @@ pub unsafe extern "C" fn fmi3DoStep(
         for (flag, name) in flags {
             write(flag, &[FALSE], name)?;
         }
+        let has_event = answer.is_ok() && unit.is_at_event;
+        write(event_handling_needed, &[Boolean::from(has_event)], "eventHandlingNeeded")?;
         write(early_return, &[Boolean::from(is_early)], "earlyReturn")?;
         write(last_successful_time, &[unit.time()], "lastSuccessfulTime")?;
         answer

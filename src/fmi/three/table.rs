@@ -8,42 +8,46 @@ use crate::fmi::gate::answer::{Reference, Refusal};
 use crate::fmi::table::{Phase, Version, table};
 use crate::fmi::unit::Unit;
 
-// One column per phase; x: allowed. There are none for modes that a unit without events, clocks and structural
-// parameters never enters.
+// One column per phase; x: allowed. There are none for modes that a unit without clocks and structural parameters never
+// enters.
 table! {
     Fmi3
     //                                   Instantiated
     //                                   |Initialization Mode
-    //                                   ||Step Mode
-    //                                   |||Terminated
-    //                                   ||||after an internal error
-    //                                   |||||after a fatal one
-    fmi3SetDebugLogging                 "xxxxx."
-    fmi3FreeInstance                    "xxxxx."
-    fmi3EnterInitializationMode         "x....."
-    fmi3ExitInitializationMode          ".x...."
-    fmi3Terminate                       "..x..."
-    fmi3Reset                           "xxxxx."
-    fmi3GetFloat64                      "xxxx.."
-    fmi3GetInt32                        "xxxx.."
-    fmi3GetString                       "xxxx.."
-    fmi3SetFloat64                      "xxx..."
-    fmi3SetInt32                        "xxx..."
-    fmi3SetString                       "xxx..."
-    fmi3GetNumberOfVariableDependencies "xxxx.."
-    fmi3GetVariableDependencies         "xxxx.."
-    fmi3GetFMUState                     "xxxx.."
-    fmi3SetFMUState                     "xxxxx."
-    fmi3FreeFMUState                    "xxxxx."
-    fmi3SerializedFMUStateSize          "xxxxx."
-    fmi3SerializeFMUState               "xxxxx."
-    fmi3DeserializeFMUState             "xxxxx."
-    fmi3GetDirectionalDerivative        ".xxx.."
-    fmi3GetAdjointDerivative            ".xxx.."
-    fmi3GetOutputDerivatives            "..xx.."
-    fmi3DoStep                          "..x..."
+    //                                   ||Event Mode
+    //                                   |||Step Mode
+    //                                   ||||Terminated
+    //                                   |||||after an internal error
+    //                                   ||||||after a fatal one
+    fmi3SetDebugLogging                 "xxxxxx."
+    fmi3FreeInstance                    "xxxxxx."
+    fmi3EnterInitializationMode         "x......"
+    fmi3ExitInitializationMode          ".x....."
+    fmi3EnterEventMode                  "...x..."
+    fmi3UpdateDiscreteStates            "..x...."
+    fmi3EnterStepMode                   "..x...."
+    fmi3Terminate                       "..xx..."
+    fmi3Reset                           "xxxxxx."
+    fmi3GetFloat64                      "xxxxx.."
+    fmi3GetInt32                        "xxxxx.."
+    fmi3GetString                       "xxxxx.."
+    fmi3SetFloat64                      "xxxx..."
+    fmi3SetInt32                        "xxxx..."
+    fmi3SetString                       "xxxx..."
+    fmi3GetNumberOfVariableDependencies "xxxxx.."
+    fmi3GetVariableDependencies         "xxxxx.."
+    fmi3GetFMUState                     "xxxxx.."
+    fmi3SetFMUState                     "xxxxxx."
+    fmi3FreeFMUState                    "xxxxxx."
+    fmi3SerializedFMUStateSize          "xxxxxx."
+    fmi3SerializeFMUState               "xxxxxx."
+    fmi3DeserializeFMUState             "xxxxxx."
+    fmi3GetDirectionalDerivative        ".xxxx.."
+    fmi3GetAdjointDerivative            ".xxxx.."
+    fmi3GetOutputDerivatives            "...xx.."
+    fmi3DoStep                          "...x..."
 
-    #[absent("xxxx..")] {
+    #[absent("xxxxx..")] {
         fn fmi3GetFloat32(value_references: *const Reference, value_reference_count: usize,
             values: *mut Float32, value_count: usize);
         fn fmi3GetInt8(value_references: *const Reference, value_reference_count: usize, values: *mut Int8,
@@ -65,7 +69,7 @@ table! {
         fn fmi3GetBinary(value_references: *const Reference, value_reference_count: usize,
             value_sizes: *mut usize, values: *mut Binary, value_count: usize);
     }
-    #[absent("xxx...")] {
+    #[absent("xxxx...")] {
         fn fmi3SetFloat32(value_references: *const Reference, value_reference_count: usize,
             values: *const Float32, value_count: usize);
         fn fmi3SetInt8(value_references: *const Reference, value_reference_count: usize, values: *const Int8,
@@ -88,14 +92,8 @@ table! {
             value_sizes: *const usize, values: *const Binary, value_count: usize);
     }
 
-    #[refused(NoEvents)] {
-        fn fmi3EnterEventMode();
-        fn fmi3EnterStepMode();
+    #[refused(NoDiscreteStates)] {
         fn fmi3EvaluateDiscreteStates();
-        fn fmi3UpdateDiscreteStates(discrete_states_need_update: *mut Boolean,
-            terminate_simulation: *mut Boolean, nominals_of_continuous_states_changed: *mut Boolean,
-            values_of_continuous_states_changed: *mut Boolean, next_event_time_defined: *mut Boolean,
-            next_event_time: *mut Float64);
     }
     #[refused(NoStructuralParameters)] {
         fn fmi3EnterConfigurationMode();
@@ -144,6 +142,7 @@ impl Version for Fmi3 {
     const PHASES: &'static [(Phase, &'static str)] = &[
         (Phase::Instantiated, "Instantiated"),
         (Phase::InitializationMode, "Initialization Mode"),
+        (Phase::EventMode, "Event Mode"),
         (Phase::StepComplete, "Step Mode"),
         (Phase::Terminated, "Terminated"),
         (Phase::Error, "after an internal error"),

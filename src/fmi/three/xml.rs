@@ -42,6 +42,7 @@ impl Description for Arrays<'_> {
         let has_droplets = self.scene.has_drops();
         // Modal heat advances by any step at once, with constant inputs.
         let has_long_steps = self.scene.has_particles();
+        let has_events = self.scene.has_events();
         vec![
             ("modelIdentifier", self.scene.name.clone()),
             ("needsExecutionTool", "false".into()),
@@ -54,9 +55,9 @@ impl Description for Arrays<'_> {
             ("canHandleVariableCommunicationStepSize", "true".into()),
             ("maxOutputDerivativeOrder", highest_output_derivative(self.scene).to_string()),
             ("providesIntermediateUpdate", has_droplets.to_string()),
-            ("mightReturnEarlyFromDoStep", has_long_steps.to_string()),
+            ("mightReturnEarlyFromDoStep", (has_long_steps || has_events).to_string()),
             ("canReturnEarlyAfterIntermediateUpdate", has_droplets.to_string()),
-            ("hasEventMode", "false".into()),
+            ("hasEventMode", has_events.to_string()),
         ]
     }
 

@@ -28,7 +28,7 @@ pub use step_control::{Ask, StepControl};
 
 use super::gate::answer::{Answer, Refusal, Status};
 use super::gate::log::Log;
-use super::table::{Function, Phase, Rule};
+use super::table::{Function, Phase, Reason, Rule};
 
 use crate::model::{Kept, KeptReduction, State, Stiffness, initial_inputs};
 use crate::output::{FieldSeries, FolderLock};
@@ -86,7 +86,9 @@ pub struct Unit {
     pub(super) series: Option<(FieldSeries, FolderLock)>,
     /// Ends the step under way from another thread.
     pub(super) interrupt: Interrupt,
-    /// Host settings that let a step end early or report its progress.
+    /// True if the last step has ended at an event that is to be reported.
+    pub is_at_event: bool,
+    /// Host settings that let a step end early, or report its progress or events.
     pub(super) control: Rc<StepControl>,
 }
 
@@ -132,6 +134,7 @@ impl Unit {
             is_settled: false,
             series: None,
             interrupt: Interrupt::default(),
+            is_at_event: false,
             control: Rc::default(),
         }
     }
@@ -181,8 +184,28 @@ impl Unit {
         // From here on running maxima follow no input without delay.
         let noted = run.model.note_peaks(state, &mut run.cache);
         noted.map_err(|error| Refusal::error(explain(&registry, error).message))?;
-        self.phase = Phase::StepComplete;
+        self.phase =
+            if self.control.reports_events { Phase::EventMode } else { Phase::StepComplete };
         Ok(self.open_series())
+    }
+
+    /// Enters Event Mode, in which inputs are set and nothing advances.
+    pub fn enter_event_mode(&mut self) -> Answer {
+        let reason = match (self.scene.has_events(), self.control.reports_events) {
+            (true, true) => {
+                self.phase = Phase::EventMode;
+                return Ok(Status::Ok);
+            }
+            (true, false) => Reason::NoEventMode,
+            (false, _) => Reason::NoEvents,
+        };
+        Err(reason.into())
+    }
+
+    /// Returns to steps.
+    pub fn leave_event_mode(&mut self) -> Answer {
+        self.phase = Phase::StepComplete;
+        Ok(Status::Ok)
     }
 
     /// Ends the run: closes files, and sends warnings that only the end of a run allows.

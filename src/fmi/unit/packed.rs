@@ -29,6 +29,11 @@ pub struct Packed {
 }
 
 impl Packed {
+    /// Returns true if the scene may have events.
+    pub fn has_events(&self) -> bool {
+        self.scene.has_events()
+    }
+
     pub(super) fn of((scene, warnings): (Scene, Vec<Warning>), text: &str) -> Self {
         let registry = Registry::of(&scene);
         let guid = guid::guid(text, &registry);

@@ -126,7 +126,11 @@ impl Unit {
         let snapshot = snapshot.clone();
         let directory = snapshot.directory.unwrap_or_else(|| self.directory.clone());
         let same_files = directory == self.directory;
-        self.phase = snapshot.phase;
+        // Instances that do not use Event Mode continue in steps.
+        self.phase = match snapshot.phase {
+            Phase::EventMode if !self.control.reports_events => Phase::StepComplete,
+            phase => phase,
+        };
         self.scene = snapshot.scene;
         self.directory = directory;
         self.experiment = snapshot.experiment;
@@ -135,7 +139,7 @@ impl Unit {
         self.has_set_derivatives = snapshot.has_set_derivatives;
         self.texts.clear();
         self.run = snapshot.model.map(Run::new);
-        if self.phase != Phase::StepComplete {
+        if !self.phase.is_running() {
             self.series = None;
             return Ok(Status::Ok);
         }

@@ -27,7 +27,7 @@ use crate::variables::{Parameter, Registry, Slot};
 const MARK: &[u8; 8] = b"impinge\n";
 /// Version of the format, to be raised whenever the states of bodies change. Earlier versions are refused: version 3
 /// included a folder name.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 const GUID_LENGTH: usize = 38;
 const HEAD: usize = MARK.len() + 4 + 8 + GUID_LENGTH;
 const CHECKSUM: usize = 16;

@@ -24,6 +24,7 @@ impl Unit {
     /// early then ends at the time reached.
     pub fn step(&mut self, point: f64, step: f64) -> Answer {
         self.check_step(point, step)?;
+        self.is_at_event = false;
         let registry = Arc::clone(&self.registry);
         let has_set = self.has_set_derivatives;
         let told = self.told.take();
@@ -38,17 +39,20 @@ impl Unit {
             control.advance((&*run.model, &mut run.cache), state, (point, step), &interrupt)
         });
         drop(stepping);
-        if let Err(error) = stepped {
-            let is_cancelled = error.halt() == Some(&Halt::Interrupted);
-            if let Some(past) = past {
-                state.derivatives = past;
+        let is_at_event = match stepped {
+            Ok(is_at_event) => is_at_event,
+            Err(error) => {
+                let is_cancelled = error.halt() == Some(&Halt::Interrupted);
+                if let Some(past) = past {
+                    state.derivatives = past;
+                }
+                let refusal = explain(&registry, error);
+                if refusal.status == Status::Discard {
+                    self.phase = if is_cancelled { Phase::StepCanceled } else { Phase::StepFailed };
+                }
+                return Err(refusal);
             }
-            let refusal = explain(&registry, error);
-            if refusal.status == Status::Discard {
-                self.phase = if is_cancelled { Phase::StepCanceled } else { Phase::StepFailed };
-            }
-            return Err(refusal);
-        }
+        };
         run.tangent = None;
         run.checked &= !has_set;
         let warnings = run.model.warnings(state);
@@ -58,6 +62,7 @@ impl Unit {
         self.warn_of_phases();
         self.warn_of_length(step);
         self.has_set_derivatives = false;
+        self.is_at_event = is_at_event;
         Ok(self.write_fields())
     }
 

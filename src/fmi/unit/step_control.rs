@@ -1,7 +1,7 @@
 //! Control of a step: to its end, or only as far as its host and the limits allow.
 //!
-//! FMI 3.0 lets a unit return early, and report its progress to the host. A unit does so between parts of a step; each
-//! part equals a step of its length.
+//! FMI 3.0 lets a unit return early, and report its progress and events to the host. A unit does so between parts of a
+//! step; each part equals a step of its length.
 
 use crate::model::{Cache, Model, ModelError, State};
 use crate::runtime::allowance::{Allowance, EARLY_UPDATES, Halt, Interrupt};
@@ -14,27 +14,45 @@ pub type Ask = Box<dyn Fn(f64, bool) -> Option<f64>>;
 #[derive(Default)]
 pub struct StepControl {
     pub may_end_early: bool,
+    /// True if the host handles events in Event Mode.
+    pub reports_events: bool,
     pub ask: Option<Ask>,
 }
 
 /// Smallest fraction of a step that is tried after a longer one was too long.
 const LEAST: f64 = 1e-12;
+/// Number of halvings of a part of a step that search it for the time of an event.
+const HALVINGS: u32 = 4;
+
+/// A part of a step, between two times [s].
+#[derive(Clone, Copy)]
+struct Part<'a> {
+    from: f64,
+    to: f64,
+    /// True if the step begins with it.
+    is_first: bool,
+    allowance: &'a Allowance,
+}
 
 impl StepControl {
     /// Advances a state from `point` by `step` [s]. Its time afterwards is the sum of both, or an earlier one if the
-    /// step ended early. After an error it is unchanged.
+    /// step ended early. After an error it is unchanged. Returns true if an event lies in the step, at whose end it is
+    /// if the step may end early.
     pub fn advance(
         &self,
         (model, cache): (&Model, &mut Cache),
         state: &mut State,
         (point, step): (f64, f64),
         interrupt: &Interrupt,
-    ) -> Result<(), ModelError> {
+    ) -> Result<bool, ModelError> {
         let mut allowance = Allowance::of_step(interrupt);
         let mut length = step;
         loop {
             let advanced = self.go((model, &mut *cache), state, (point, length), &allowance);
-            let Err(error) = advanced else { return Ok(()) };
+            let error = match advanced {
+                Ok(is_at_event) => return Ok(is_at_event),
+                Err(error) => error,
+            };
             let part = error.halt().and_then(|halt| halt.part_within(EARLY_UPDATES));
             // Repeated shortening finds a length that fits, as the work is not always proportional to it.
             let shorter = part.map(|part| length * part.clamp(LEAST, 0.5));
@@ -59,40 +77,106 @@ impl StepControl {
         state: &mut State,
         (point, step): (f64, f64),
         allowance: &Allowance,
-    ) -> Result<(), ModelError> {
+    ) -> Result<bool, ModelError> {
         let Some(ask) = self.ask.as_ref().filter(|_| model.parts(step) > 1.0) else {
-            model.step_within(allowance, state, cache, step)?;
-            state.set_time(point + step);
-            return Ok(());
+            let part = Part { from: point, to: point + step, is_first: true, allowance };
+            return self.go_on((model, cache), state, (part, step));
         };
         model.foresee(state, step, allowance)?;
         let (before, may_end) = (state.clone(), self.may_end(state));
-        let (mut now, mut end) = (point, point + step);
+        let (mut now, mut end, mut has_event) = (point, point + step, false);
         while now < end {
             let parts = model.parts(end - now);
             let next = if parts > 1.0 { now + (end - now) / parts } else { end };
             // Guards against a step lost in rounding.
             let next = if next > now { next } else { end };
-            let stepped = match now == point {
-                true => model.step_within(allowance, state, cache, next - now),
-                false => model.step_on(allowance, state, cache, next - now),
-            };
-            if let Err(error) = stepped {
-                if now > point && may_end && is_too_long(&error) {
-                    break;
+            let part = Part { from: now, to: next, is_first: now == point, allowance };
+            match self.go_on((model, &mut *cache), state, (part, next - now)) {
+                Ok(is_at_event) => has_event |= is_at_event,
+                Err(error) if now > point && may_end && is_too_long(&error) => break,
+                Err(error) => {
+                    *state = before;
+                    // The cache follows from the state that the parts reached.
+                    cache.clear();
+                    return Err(error);
                 }
-                *state = before;
-                // The cache follows from the state that the parts reached.
-                cache.clear();
-                return Err(error);
             }
-            now = next;
-            state.set_time(now);
+            now = state.time;
+            if has_event && may_end {
+                break;
+            }
             if now < end
                 && let Some(wanted) = ask(now, may_end).filter(|_| may_end)
             {
                 // An invalid or past time means now.
                 end = if wanted > now { end.min(wanted) } else { now };
+            }
+        }
+        Ok(has_event)
+    }
+
+    /// Advances through a part of a step of a length [s], or to an event in it if the step may end early. Returns true if
+    /// there is one. After an error the state is unchanged.
+    fn go_on(
+        &self,
+        (model, cache): (&Model, &mut Cache),
+        state: &mut State,
+        (part, length): (Part, f64),
+    ) -> Result<bool, ModelError> {
+        let start = (self.reports_events && model.has_events()).then(|| state.clone());
+        part.advance((model, &mut *cache), state, length)?;
+        let Some(start) = start.filter(|start| model.event_between(start, state)) else {
+            return Ok(false);
+        };
+        if self.may_end(&start) {
+            let searched = part.search((model, &mut *cache), start.clone(), state);
+            cache.clear();
+            if let Err(error) = searched {
+                *state = start;
+                return Err(error);
+            }
+        }
+        Ok(true)
+    }
+}
+
+impl Part<'_> {
+    /// Advances a state by a length [s] to the end of the part.
+    fn advance(
+        &self,
+        (model, cache): (&Model, &mut Cache),
+        state: &mut State,
+        length: f64,
+    ) -> Result<(), ModelError> {
+        match self.is_first {
+            true => model.step_within(self.allowance, state, cache, length)?,
+            false => model.step_on(self.allowance, state, cache, length)?,
+        }
+        state.set_time(self.to);
+        Ok(())
+    }
+
+    /// Halves the time in which an event lies, and sets the state to that at the end of its last part.
+    fn search(
+        self,
+        (model, cache): (&Model, &mut Cache),
+        start: State,
+        state: &mut State,
+    ) -> Result<(), ModelError> {
+        let (mut rest, mut before) = (self, start);
+        for _ in 0..HALVINGS {
+            let half = Part { to: 0.5 * (rest.from + rest.to), ..rest };
+            let mut trial = before.clone();
+            cache.clear();
+            match half.advance((model, &mut *cache), &mut trial, half.to - half.from) {
+                Err(error) if is_too_long(&error) => return Ok(()),
+                advanced => advanced?,
+            }
+            if model.event_between(&before, &trial) {
+                (rest, *state) = (half, trial);
+            } else {
+                rest = Part { from: half.to, is_first: false, ..rest };
+                before = trial;
             }
         }
         Ok(())
@@ -132,7 +216,7 @@ fluid = { density = 1000.0, viscosity = 1e-3, specific_heat = 4180.0, conductivi
             assert!(asked.interrupt());
             None
         });
-        let control = StepControl { may_end_early: true, ask: Some(ask) };
+        let control = StepControl { may_end_early: true, ask: Some(ask), ..StepControl::default() };
         let mut state = model.initial_state();
         let before = state.clone();
         let under_way = interrupt.begin();

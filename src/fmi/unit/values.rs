@@ -9,7 +9,6 @@ use super::Unit;
 use super::built::{expect_room, explain};
 use super::kind::{Kind, look_up, wrong_type};
 use crate::fmi::gate::answer::{Answer, Reference, Refusal, Status};
-use crate::fmi::table::Phase;
 use crate::quantity::Quantity;
 use crate::runtime::address_space::SPARE;
 use crate::runtime::thread::{STACK, aside};
@@ -178,7 +177,7 @@ impl Unit {
         let name = &variable.name;
         match variable.causality() {
             Causality::Output => Err(Refusal::error(format!("{name} is an output"))),
-            Causality::Parameter if !variable.is_tunable && self.phase == Phase::StepComplete => {
+            Causality::Parameter if !variable.is_tunable && self.phase.is_running() => {
                 Err(Refusal::error(format!(
                     "{name} is a fixed parameter: it may be set until initialisation ends"
                 )))

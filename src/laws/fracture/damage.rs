@@ -63,11 +63,41 @@ pub struct GradientDamage {
 pub struct PointResponse {
     /// [Pa]
     pub stress: Components,
-    /// Derivatives of the stress by the strain [Pa].
-    pub tangent: [Components; 4],
+    /// Derivatives of the stress by the strain, in principal axes.
+    pub stiffness: PrincipalStiffness,
     /// Energy that cracks release, and that which they leave [J/m³].
     pub released: f64,
     pub remaining: f64,
+}
+
+/// Stiffness of a point in its principal axes.
+#[derive(Debug, Clone, Copy)]
+pub struct PrincipalStiffness {
+    /// Derivatives of principal stresses by principal strains [Pa].
+    normal: [[f64; 3]; 3],
+    /// Stiffness against a turn of the axes in the plane [Pa].
+    turning: f64,
+    /// Cosine and sine of twice the angle of the first principal axis.
+    double_angle: [f64; 2],
+}
+
+impl PrincipalStiffness {
+    /// Derivatives of the stress by the strain [Pa].
+    pub fn tangent(&self) -> [Components; 4] {
+        let Self { normal, turning, double_angle: [cosine, sine] } = *self;
+        let (high, low) = (0.5 * (1.0 + cosine), 0.5 * (1.0 - cosine));
+        let axes: [Components; 3] =
+            [[high, low, 0.0, 0.5 * sine], [low, high, 0.0, -0.5 * sine], [0.0, 0.0, 1.0, 0.0]];
+        let turn = [-sine, sine, 0.0, cosine];
+        std::array::from_fn(|a| {
+            let rows: [f64; 3] =
+                std::array::from_fn(|j| (0..3).map(|i| axes[i][a] * normal[i][j]).sum());
+            std::array::from_fn(|b| {
+                let normal: f64 = (0..3).map(|j| rows[j] * axes[j][b]).sum();
+                normal + turning * turn[a] * turn[b]
+            })
+        })
+    }
 }
 
 /// `g(d) = (1 − d)²`, plus the residual part.
@@ -155,21 +185,9 @@ impl GradientDamage {
         };
         let (centre, spread) = (0.5 * (p[0] + p[1]), 0.5 * (p[0] - p[1]));
         let stress = [centre + spread * cosine, centre - spread * cosine, p[2], spread * sine];
-        let (high, low) = (0.5 * (1.0 + cosine), 0.5 * (1.0 - cosine));
-        let axes: [Components; 3] =
-            [[high, low, 0.0, 0.5 * sine], [low, high, 0.0, -0.5 * sine], [0.0, 0.0, 1.0, 0.0]];
-        let turn = [-sine, sine, 0.0, cosine];
-        let tangent = std::array::from_fn(|a| {
-            let rows: [f64; 3] =
-                std::array::from_fn(|j| (0..3).map(|i| axes[i][a] * h[i][j]).sum());
-            std::array::from_fn(|b| {
-                let normal: f64 = (0..3).map(|j| rows[j] * axes[j][b]).sum();
-                normal + turning * turn[a] * turn[b]
-            })
-        });
         PointResponse {
             stress,
-            tangent,
+            stiffness: PrincipalStiffness { normal: h, turning, double_angle: [cosine, sine] },
             released: intact.energy - left.energy,
             remaining: left.energy,
         }
@@ -216,7 +234,7 @@ mod tests {
                     assert!((slope - own.stress[axis]).abs() < 1e-6, "{split:?} {strain:?} {axis}");
                     for row in 0..4 {
                         let slope = (at(H).stress[row] - at(-H).stress[row]) / (2.0 * H);
-                        let found = own.tangent[row][axis];
+                        let found = own.stiffness.tangent()[row][axis];
                         assert!((slope - found).abs() < 1e-5, "{split:?} {strain:?} {row} {axis}");
                     }
                 }

@@ -1,6 +1,7 @@
 //! Brittle fracture: statistics of flaws, which lead to a probability of failure, toughness, cracks that run,
 //! and links that soften.
 
+mod crack_growth;
 mod cracking;
 mod damage;
 mod normal_average;
@@ -11,6 +12,7 @@ mod softening;
 mod split;
 mod weibull;
 
+pub use crack_growth::CrackGrowth;
 pub use cracking::Cracking;
 pub use damage::{Components, Dissipation, GradientDamage, PointResponse, degradation};
 pub use quasi_brittle::{QuasiBrittle, SofteningKeys, SofteningModel};

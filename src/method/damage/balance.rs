@@ -2,11 +2,12 @@
 //!
 //! Each linear system is solved by conjugate gradients, preconditioned by the factor of an earlier stiffness: from one
 //! system to the next few elements break, and each costs few iterations. The stiffness is factored anew where they
-//! become many.
+//! become many. Factors are in single precision, with which solving takes half of the time. The stiffness is that of the
+//! intact section, in which damaged elements are corrected.
 
 use super::DamageError;
 use super::elements::{Elements, Nodal, Released};
-use crate::math::cholesky::SparseCholesky;
+use crate::math::cholesky::{Elimination, RoundedCholesky};
 use crate::math::nested_dissection::nested_dissection;
 use crate::math::nine_point::{Grid, NinePoint, Padded};
 use crate::math::separable::dot;
@@ -19,8 +20,10 @@ const MOST_HALVINGS: usize = 8;
 const MOST_ITERATIONS: usize = 400;
 /// Conjugate-gradient iterations from which on a new factor costs less.
 const WORTH_A_FACTOR: usize = 8;
-/// Reduction of the residual by the conjugate gradients of a Newton step.
+/// Largest reduction of the residual by the conjugate gradients of a Newton step, and the part of the tolerated residual
+/// to which they reduce it otherwise.
 const REDUCTION: f64 = 1e-2;
+const SHARE_OF_TOLERANCE: f64 = 0.5;
 /// Updates per unknown that a factorisation and an iteration take, for the allowance of a step.
 const WORK_OF_FACTOR: f64 = 3000.0;
 const WORK_OF_ITERATION: f64 = 100.0;
@@ -63,7 +66,11 @@ pub struct Balance<'a> {
     pub team: &'a Team,
     pub allowance: &'a Allowance,
     stiffness: NinePoint<2>,
-    factor: Option<SparseCholesky>,
+    /// Stiffness without damage.
+    intact: NinePoint<2>,
+    factor: Option<RoundedCholesky>,
+    /// Pattern of all factors, once known.
+    elimination: Option<Elimination>,
     /// Size of loads and of prevented thermal expansion [N], once known, and that of reactions.
     acting: Option<f64>,
     reactions: f64,
@@ -85,7 +92,9 @@ impl<'a> Balance<'a> {
             team,
             allowance,
             stiffness,
+            intact: elements.intact_stiffness(team),
             factor: None,
+            elimination: None,
             acting: None,
             reactions: 0.0,
             factorings: 0,
@@ -112,7 +121,8 @@ impl<'a> Balance<'a> {
             if step > 0 {
                 self.evaluate(displacement, (damage, rise), load, &mut residual, true);
             }
-            let change = self.change(&residual)?;
+            let reduction = SHARE_OF_TOLERANCE * tolerance * self.scale(rise, load) / size;
+            let change = self.change(&residual, reduction.max(REDUCTION))?;
             let slope = dot(&residual, &change);
             let before = displacement.to_vec();
             let mut part = 1.0;
@@ -145,7 +155,10 @@ impl<'a> Balance<'a> {
         with_stiffness: bool,
     ) -> Released {
         let nodal = Nodal { displacement, damage, rise };
-        let stiffness = with_stiffness.then_some(&mut self.stiffness);
+        let stiffness = with_stiffness.then(|| {
+            self.stiffness.copy_from(&self.intact);
+            &mut self.stiffness
+        });
         let (forces, released) = self.elements.forces(&nodal, stiffness, self.team);
         let mut reactions = 0.0;
         for (n, residual) in residual.iter_mut().enumerate() {
@@ -176,12 +189,12 @@ impl<'a> Balance<'a> {
         (own * own + self.reactions * self.reactions).sqrt().max(f64::MIN_POSITIVE)
     }
 
-    /// Change of displacements under a change of force.
-    fn change(&mut self, force: &[f64]) -> Result<Vec<f64>, DamageError> {
+    /// Change of displacements under a change of force, to a reduction of its residual.
+    fn change(&mut self, force: &[f64], reduction: f64) -> Result<Vec<f64>, DamageError> {
         if self.factor.is_none() {
             self.refactor()?;
         }
-        let (change, iterations) = self.iterate(force)?;
+        let (change, iterations) = self.iterate(force, reduction)?;
         if iterations > WORTH_A_FACTOR {
             self.factor = None;
         }
@@ -195,12 +208,18 @@ impl<'a> Balance<'a> {
         let threads = self.team.threads();
         // The old factor goes before the new one comes.
         self.factor = None;
-        self.factor = Some(SparseCholesky::factor(&lower, &self.unknowns.order, threads)?);
+        let elimination = match self.elimination.take() {
+            Some(known) => known,
+            None => Elimination::new(&lower, &self.unknowns.order)?,
+        };
+        let factor = elimination.factor(&lower, threads);
+        self.elimination = Some(elimination);
+        self.factor = Some(factor?.rounded());
         Ok(())
     }
 
     /// Preconditioned conjugate gradients from zero.
-    fn iterate(&mut self, force: &[f64]) -> Result<(Vec<f64>, usize), DamageError> {
+    fn iterate(&mut self, force: &[f64], reduction: f64) -> Result<(Vec<f64>, usize), DamageError> {
         let unknowns = self.unknowns;
         let mut residual = force.to_vec();
         let mut solution = vec![0.0; force.len()];
@@ -208,7 +227,7 @@ impl<'a> Balance<'a> {
         let mut direction = Padded::<2>::zeros(unknowns.grid);
         direction.inner_mut().copy_from_slice(&improved);
         let mut energy = dot(&residual, &improved);
-        let wanted = REDUCTION * REDUCTION * energy;
+        let wanted = reduction * reduction * energy;
         let mut product = vec![0.0; force.len()];
         for iteration in 0..MOST_ITERATIONS {
             if energy <= wanted || energy <= 0.0 {

@@ -1,5 +1,7 @@
 //! Broken places of a section: how many cracks they are, how deep these reach, and how wide they are open.
 
+use std::collections::BTreeSet;
+
 use super::section::Section;
 use crate::math::nine_point::Grid;
 
@@ -68,6 +70,13 @@ impl Section {
         let copies = |region: &Vec<usize>| if mirrored && !touches(region) { 2 } else { 1 };
         let depths = regions.iter().map(|region| self.depth(region, sides));
         Cracks { count: regions.iter().map(copies).sum(), depth: depths.fold(0.0, f64::max) }
+    }
+
+    /// Returns true if a crack at later damage is not part of one at earlier damage.
+    pub fn has_new_crack(&self, before: &[f64], after: &[f64]) -> bool {
+        let known: BTreeSet<usize> = regions(self.grid(), before).into_iter().flatten().collect();
+        let is_new = |region: &Vec<usize>| region.iter().all(|node| !known.contains(node));
+        regions(self.grid(), after).iter().any(is_new)
     }
 
     /// Depth of a region [m]: how far it reaches from the face that it touches, from the nearest one if it touches several
@@ -143,6 +152,19 @@ mod tests {
         assert_eq!(found.count, 2);
         assert!((found.depth - 2e-3).abs() < 1e-15);
         assert_eq!(section.cracks(&[0.5; 45], FACES), Cracks::default());
+    }
+
+    #[test]
+    fn growth_is_no_new_crack() {
+        let (section, before) = broken(&[[2, 4], [2, 3], [6, 4]]);
+        let (_, grown) = broken(&[[2, 4], [2, 3], [2, 2], [6, 4]]);
+        let (_, second) = broken(&[[2, 4], [2, 3], [6, 4], [6, 3]]);
+        let (_, joined) = broken(&[[2, 4], [2, 3], [3, 4], [4, 4], [5, 4], [6, 4]]);
+        assert_eq!(
+            [&before, &grown, &second, &joined].map(|after| section.has_new_crack(&before, after)),
+            [false, false, true, false]
+        );
+        assert!(section.has_new_crack(&[0.5; 45], &before));
     }
 
     #[test]

@@ -91,18 +91,50 @@ impl Elements {
             for (force, strain) in found.forces.iter_mut().zip(&strains) {
                 *force += point.volume * dot(strain, &response.stress);
             }
-            let Some(stiffness) = &mut found.stiffness else { return };
-            for (column, strain) in strains.iter().enumerate() {
-                let stress = response.tangent.map(|row| point.volume * dot(&row, strain));
-                for (row, strain) in strains.iter().enumerate() {
-                    stiffness[row * 8 + column] += dot(strain, &stress);
-                }
+            if let Some(stiffness) = &mut found.stiffness {
+                add_stiffness(stiffness, point, &strains, response.stiffness.tangent());
             }
         });
+        found.stiffness.iter_mut().for_each(|stiffness| mirror(stiffness));
         found
     }
 
-    /// Computes nodal forces of the stresses [N] and the energy that cracks release; assembles the stiffness on request.
+    /// Stiffness of an intact element.
+    fn intact(&self, element: [usize; 2]) -> Box<[f64; 64]> {
+        let tangent = self.law.respond([0.0; 4], 0.0).stiffness.tangent();
+        let mut stiffness = Box::new([0.0; 64]);
+        for point in &self.section.points(element) {
+            let strains = std::array::from_fn(|k| point.unit_strains(k / 2)[k % 2]);
+            add_stiffness(&mut stiffness, point, &strains, tangent);
+        }
+        mirror(&mut stiffness);
+        stiffness
+    }
+
+    /// Stiffness of the intact section.
+    pub fn intact_stiffness(&self, team: &Team) -> NinePoint<2> {
+        let mut matrix = NinePoint::zeros(self.grid);
+        let [columns, rows] = self.grid.elements();
+        for first in (0..rows).step_by(ROWS) {
+            let found = team.map((rows - first).min(ROWS), |row| {
+                (0..columns).map(|i| self.intact([i, first + row])).collect::<Vec<_>>()
+            });
+            for (row, own) in found.iter().enumerate() {
+                for (i, element) in own.iter().enumerate() {
+                    matrix.add_element([i, first + row], &element[..]);
+                }
+            }
+        }
+        matrix
+    }
+
+    /// Returns true if a corner of an element is damaged.
+    fn is_damaged(&self, element: [usize; 2], nodal: &Nodal) -> bool {
+        self.grid.corners(element).iter().any(|&corner| nodal.damage[corner] > 0.0)
+    }
+
+    /// Computes nodal forces of the stresses [N] and the energy that cracks release. On request it adds the loss of
+    /// stiffness of damaged elements to that of the intact section.
     pub fn forces(
         &self,
         nodal: &Nodal,
@@ -112,14 +144,19 @@ impl Elements {
         let [columns, rows] = self.grid.elements();
         let mut forces = vec![0.0; 2 * self.grid.nodes()];
         let mut released = Vec::with_capacity(columns * rows);
-        if let Some(matrix) = &mut stiffness {
-            matrix.clear();
-        }
         let wants = stiffness.is_some();
         // Computed on all threads, added in fixed order.
         for first in (0..rows).step_by(ROWS) {
             let found = team.map((rows - first).min(ROWS), |row| {
-                let of_row = (0..columns).map(|i| self.respond([i, first + row], nodal, wants));
+                let of_row = (0..columns).map(|i| {
+                    let place = [i, first + row];
+                    let is_damaged = wants && self.is_damaged(place, nodal);
+                    let mut found = self.respond(place, nodal, is_damaged);
+                    if let Some(own) = &mut found.stiffness {
+                        own.iter_mut().zip(&*self.intact(place)).for_each(|(own, all)| *own -= all);
+                    }
+                    found
+                });
                 of_row.collect::<Vec<_>>()
             });
             for (row, own) in found.iter().enumerate() {
@@ -258,6 +295,30 @@ impl Elements {
             });
         }
         sums.into_iter().map(|(stress, volume)| stress.map(|sum| sum / volume)).collect()
+    }
+}
+
+/// Adds the part of a point to the lower triangle of an element's stiffness.
+fn add_stiffness(
+    stiffness: &mut [f64; 64],
+    point: &Point,
+    strains: &[Components; 8],
+    tangent: [Components; 4],
+) {
+    for (column, strain) in strains.iter().enumerate() {
+        let stress = tangent.map(|row| point.volume * dot(&row, strain));
+        for (row, strain) in strains.iter().enumerate().skip(column) {
+            stiffness[row * 8 + column] += dot(strain, &stress);
+        }
+    }
+}
+
+/// Copies the lower triangle of an element's stiffness to the upper one.
+fn mirror(stiffness: &mut [f64; 64]) {
+    for row in 0..8 {
+        for column in 0..row {
+            stiffness[column * 8 + row] = stiffness[row * 8 + column];
+        }
     }
 }
 

@@ -217,8 +217,13 @@ impl MovingLattice {
                 broken: Broken::of(&self.particles, &motion.damage),
             },
             kinetic_energy: self.kinetic_energy(motion),
-            fragments: fragments(self.particles.places.len(), &self.links, &motion.damage),
+            fragments: self.fragments(motion),
         }
+    }
+
+    /// Number of parts that unbroken links connect.
+    pub fn fragments(&self, motion: &LatticeMotion) -> usize {
+        fragments(self.particles.places.len(), &self.links, &motion.damage)
     }
 
     /// Largest damage of the links of each particle, and the pressure in it [Pa].

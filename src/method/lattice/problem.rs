@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use super::arrangement::{Arrangement, Cell, Particles, Strip, distance};
 use super::equilibrium::{Balanced, Equilibrium, Trial, WORK, product};
+use super::fragments::fragments;
 use super::frame::{COMPONENTS, Frame, Support};
 use super::frequency::highest_frequency;
 use super::link::{Link, Sheet};
@@ -240,6 +241,11 @@ impl Lattice {
             elastic_energy: self.elastic_energy(state),
             broken: Broken::of(&self.particles, &state.damage),
         }
+    }
+
+    /// Number of parts that unbroken links connect.
+    pub fn fragments(&self, state: &LatticeState) -> usize {
+        fragments(self.particles.places.len(), self.links(), &state.damage)
     }
 
     /// Displacement of each particle [m].

@@ -28,7 +28,31 @@ pub fn check(checker: &mut Checker) {
             FlawShape::Penny => penny(checker, &path, flaw, solid),
         }
         toughness(checker, &path, flaw, solid);
+        growth(checker, &path, flaw, solid);
     }
+}
+
+/// Growth needs a depth to start from, a line along which K is known, and a toughness.
+fn growth(checker: &mut Checker, path: &Path, flaw: &Flaw, solid: &Solid) {
+    if flaw.growth.is_none() {
+        return;
+    }
+    let own = path.at("growth");
+    let message = "a worst flaw has no depth from which it grows";
+    let is_given = flaw.depth.given().is_some();
+    checker.require(is_given, &path.at("depth"), message, "a depth (m), or no `growth`");
+    let message = "the stress around a penny is known at its radius only";
+    let is_edge = flaw.shape == FlawShape::Edge;
+    checker.require(is_edge, &path.at("shape"), message, "edge, or no `growth`");
+    let message = "the material here has no `toughness`, to which the speed refers";
+    let allowed = "a `toughness` (Pa √m) of the material, or no `growth`";
+    checker.require(has_toughness(flaw, solid), &own, message, allowed);
+}
+
+fn has_toughness(flaw: &Flaw, solid: &Solid) -> bool {
+    let layers = solid.materials_of_layers();
+    let material = layers.get(flaw.layer(solid));
+    material.is_some_and(|own| own.fracture.toughness.is_some())
 }
 
 fn edge(checker: &mut Checker, path: &Path, flaw: &Flaw, solid: &Solid) {
@@ -75,10 +99,7 @@ fn penny(checker: &mut Checker, path: &Path, flaw: &Flaw, solid: &Solid) {
 /// Safety needs the toughness of the layer.
 fn toughness(checker: &mut Checker, path: &Path, flaw: &Flaw, solid: &Solid) {
     let place = flaw.gives.iter().position(|gives| *gives == FlawGives::Safety);
-    let layers = solid.materials_of_layers();
-    let material = layers.get(flaw.layer(solid));
-    let is_known = material.is_some_and(|own| own.fracture.toughness.is_some());
-    if let Some(place) = place.filter(|_| !is_known) {
+    if let Some(place) = place.filter(|_| !has_toughness(flaw, solid)) {
         let message = "the material here has no `toughness`";
         let allowed = "stress_intensity, energy_release_rate, or a toughness (Pa √m)";
         checker.refuse(&path.at("gives").index(place), message, allowed);

@@ -3,6 +3,7 @@
 mod arrays;
 mod derivatives;
 mod early_return;
+mod events;
 mod fuzz;
 mod instantiation;
 mod life_cycle;

@@ -4,7 +4,7 @@ use impinge::limits::keyword;
 use serde_json::Value;
 
 /// Headings of `docs/scene.md` with a table, and where in the schema the table that they describe stands.
-pub const SECTIONS: [(&str, &str); 59] = [
+pub const SECTIONS: [(&str, &str); 60] = [
     ("The whole", ""),
     ("`fidelity`", "/$defs/Fidelity"),
     ("`solver`", "/$defs/Solver"),
@@ -61,6 +61,7 @@ pub const SECTIONS: [(&str, &str); 59] = [
     ("`range` of a load", "/$defs/LoadRange"),
     ("`[[probe]]`", "/$defs/Probe"),
     ("`[[flaw]]`", "/$defs/Flaw"),
+    ("`growth` of a flaw", "/$defs/CrackGrowth"),
     ("`[[field]]`", "/$defs/Field"),
     ("`[[wall]]`", "/$defs/Wall"),
     ("`start` of a wall", "/$defs/WallStart"),

@@ -17,7 +17,7 @@ use crate::advice::MEASURED_FILMS;
 use crate::body::{
     Acts, Body, BodyError, Fields, Given, Link, Memo, Reading, Received, wall_quantities,
 };
-use crate::body::{Advice, Approach, Giver, Maxima, Occasion, Resources};
+use crate::body::{Advice, Approach, Events, Giver, Maxima, Occasion, Resources};
 use crate::inputs::{InputLayout, InputPath};
 use crate::method::record::{Falling, Replay, ReplayPlan, ReplayTotals};
 use crate::method::sph::{Failure, ParticleFields, WarmPlace};
@@ -260,6 +260,8 @@ impl Giver for ReplayBody {
             .flatten()
     }
 }
+
+impl Events for ReplayBody {}
 
 impl Maxima for ReplayBody {}
 
