@@ -1,7 +1,7 @@
 //! Measures of a deformed solid of large strain.
 
 use crate::laws::solid::large_strain::Deformed;
-use crate::method::large_strain::{Course, Deformable, Failure, Stresses, Touch};
+use crate::method::large_strain::{Course, Deformable, Failure, Fragments, Stresses, Touch};
 use crate::method::sph::ParticleFields;
 use crate::space::{Form, Space};
 
@@ -27,6 +27,8 @@ pub struct Snapshot {
     pub contact_radius: f64,
     /// Mean curvature of the middle half of a strip in the plane [1/m].
     pub curvature: f64,
+    /// Damage and parts of a body of concrete.
+    pub fragments: Fragments,
 }
 
 /// Number of mirror images of which a model is one.
@@ -107,6 +109,7 @@ impl Seen<'_> {
             mass: copies * mass,
             contact_radius: self.touch.map_or(0.0, |touch| self.radius(touch)),
             curvature: self.curvature(&moved),
+            fragments: self.fragments(),
             ..Snapshot::default()
         };
         if let Some(velocity) = self.velocity {
@@ -122,6 +125,10 @@ impl Seen<'_> {
             }
         }
         snapshot
+    }
+
+    fn fragments(&self) -> Fragments {
+        self.body.fragments(self.history, self.velocity, self.mirrors).unwrap_or_default()
     }
 
     /// Change of the columns' directions over the length of the strip between them [1/m].
@@ -166,6 +173,11 @@ impl Seen<'_> {
         let body = self.body;
         let mut fields = ParticleFields::default();
         let swelling = self.swelling();
+        let is_concrete = body.layers.iter().any(|layer| layer.law.concrete().is_some());
+        let damage = match is_concrete {
+            true => body.damages_at_nodes(&body.damages(self.history)),
+            false => Vec::new(),
+        };
         let [density, pressure] = [0, 1].map(|n| swelling.iter().map(|s| s[n]).collect::<Vec<_>>());
         let count = body.nodes();
         let moved = body.displacements(self.displacement);
@@ -184,6 +196,7 @@ impl Seen<'_> {
                 fields.mass.extend(&body.mass);
                 fields.density.extend(&density);
                 fields.pressure.extend(&pressure);
+                fields.damage.extend(&damage);
             }
         }
         fields.temperature = vec![temperature; fields.mass.len()];
