@@ -37,6 +37,46 @@ pub fn eigenvalue_bound(m: &Matrix3) -> f64 {
     m.iter().map(|row| row.iter().map(|x| x.abs()).sum()).fold(0.0, f64::max)
 }
 
+/// Eigenvalues of a symmetric matrix, and its eigenvectors as columns, by cyclic rotations (C. G. J. Jacobi 1846).
+pub fn eigen(m: &Matrix3) -> ([f64; 3], Matrix3) {
+    let (mut m, mut vectors) = (*m, IDENTITY);
+    for _ in 0..SWEEPS {
+        let beside = m[0][1].abs() + m[0][2].abs() + m[1][2].abs();
+        let along = m[0][0].abs() + m[1][1].abs() + m[2][2].abs();
+        // False for what is not a number, too.
+        let is_rough = beside > f64::EPSILON * f64::EPSILON * along;
+        if !is_rough {
+            break;
+        }
+        for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+            rotate(&mut m, &mut vectors, i, j);
+        }
+    }
+    ([m[0][0], m[1][1], m[2][2]], vectors)
+}
+
+/// Sweeps of rotations after which any matrix is diagonal to rounding; they converge quadratically.
+const SWEEPS: usize = 12;
+
+/// Turns the axes i and j so that the entry between them vanishes.
+fn rotate(m: &mut Matrix3, vectors: &mut Matrix3, i: usize, j: usize) {
+    if m[i][j] == 0.0 {
+        return;
+    }
+    let half = 0.5 * (m[j][j] - m[i][i]) / m[i][j];
+    let tangent = half.signum() / (half.abs() + half.hypot(1.0));
+    let cosine = 1.0 / tangent.hypot(1.0);
+    let sine = tangent * cosine;
+    let turned = |[a, b]: [f64; 2]| [cosine * a - sine * b, sine * a + cosine * b];
+    for row in m.iter_mut().chain(vectors.iter_mut()) {
+        [row[i], row[j]] = turned([row[i], row[j]]);
+    }
+    for k in 0..3 {
+        [m[i][k], m[j][k]] = turned([m[i][k], m[j][k]]);
+    }
+    (m[i][j], m[j][i]) = (0.0, 0.0);
+}
+
 /// Symmetric matrices as xx, yy, zz, xy, yz, xz.
 pub type Symmetric = [f64; 6];
 

@@ -16,6 +16,7 @@ pub mod lanes;
 pub mod matrix3;
 pub mod nested_dissection;
 pub mod nine_point;
+pub mod parts;
 pub mod product;
 pub mod separable;
 pub mod singular_values;

@@ -11,6 +11,7 @@ use super::materials::{MaterialChoice, heights};
 use super::quadrilateral::Quadrilateral;
 use super::types::{Convection, Disc, Face, FaceName, Layer, Shape};
 use crate::laws::Material;
+use crate::laws::solid::SolidLaw;
 use crate::laws::solid::large_strain::Thermal;
 use crate::limits::{
     Keys, Limits, above_zero, heat_flux, length, own_temperature, plausible, signed, traction,
@@ -30,7 +31,7 @@ pub struct LargeStrain {
     /// Material of the body: a table, or the name of a `[material.NAME]`.
     #[schemars(extend(
         "otherwise" = "`layers`",
-        "condition" = "`model`: `neo_hookean`, `viscoelastic`, `elastoplastic`"
+        "condition" = "`model`: `neo_hookean`, `viscoelastic`, `elastoplastic`, `concrete`"
     ))]
     pub material: Option<MaterialChoice>,
     /// Layers from the top, instead of `material`; they fill the thickness.
@@ -176,11 +177,18 @@ pub struct KernelSettings {
     pub support: Option<f64>,
     /// Points at which the mechanics is integrated.
     pub integration: KernelIntegration,
+    /// Radius over which gradients are averaged once more, a length of the material on which strain localises [m].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = length("the radius of smoothing")
+        .plausible(&plausible::EXTENT)
+        .condition("with `integration = \"nsni\"`, four distances of nodes or more")
+        .otherwise("none"))]
+    pub smoothing: Option<f64>,
 }
 
 impl Default for KernelSettings {
     fn default() -> Self {
-        Self { basis: 1, support: None, integration: KernelIntegration::default() }
+        Self { basis: 1, support: None, integration: KernelIntegration::default(), smoothing: None }
     }
 }
 
@@ -228,7 +236,8 @@ pub struct Ball {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum LargeStrainSymmetry {
-    /// Axisymmetric if ball or disc move along the axis, else a quarter (half of a plane model) where that is exact.
+    /// Axisymmetric if ball or disc move along the axis, else a quarter (half of a plane model) where that is exact; the
+    /// whole body with a second smoothing.
     #[default]
     Auto,
     /// The whole body.
@@ -386,7 +395,9 @@ impl LargeStrain {
         let is_straight = u == 0.0 && v == 0.0 && self.faces.values().all(HeldFace::is_straight);
         match self.symmetry {
             LargeStrainSymmetry::Axisymmetric => true,
-            LargeStrainSymmetry::Auto => self.dimension == 3 && is_round && is_straight,
+            LargeStrainSymmetry::Auto => {
+                self.dimension == 3 && is_round && is_straight && self.smoothing().is_none()
+            }
             LargeStrainSymmetry::None | LargeStrainSymmetry::Quarter => false,
         }
     }
@@ -439,6 +450,7 @@ impl LargeStrain {
         match self.symmetry {
             _ if self.is_axisymmetric() => [false; 2],
             LargeStrainSymmetry::Quarter => [true, self.dimension == 3],
+            LargeStrainSymmetry::Auto if self.smoothing().is_some() => [false; 2],
             LargeStrainSymmetry::Auto => [
                 u == 0.0 && x && right && straight && !self.is_quadrilateral(),
                 v == 0.0 && y && back && straight && self.dimension == 3,
@@ -466,6 +478,17 @@ impl LargeStrain {
     pub fn yields(&self) -> bool {
         let law = |own: &Material| own.law.deformation().large_strain(self.initial_temperature);
         self.materials_of_layers().into_iter().filter_map(law).any(|law| law.yields())
+    }
+
+    /// Returns true if part of the body is of concrete.
+    pub fn is_of_concrete(&self) -> bool {
+        let mut materials = self.materials_of_layers().into_iter();
+        materials.any(|material| matches!(material.law, SolidLaw::Concrete(_)))
+    }
+
+    /// Radius of the second smoothing [m]; `None` without one.
+    pub fn smoothing(&self) -> Option<f64> {
+        self.rkpm.and_then(|settings| settings.smoothing)
     }
 
     /// Bottom and top of each layer, from the top [m].

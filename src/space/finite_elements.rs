@@ -32,6 +32,7 @@ pub fn finite_elements(mesh: &Mesh) -> Space {
         boundary: boundary(mesh),
         at_nodes: None,
         shares,
+        links: mesh.edges(),
     }
 }
 

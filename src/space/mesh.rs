@@ -33,6 +33,21 @@ pub struct Mesh {
 const COINCIDENT: f64 = 1e-6;
 
 impl Mesh {
+    /// Pairs of nodes at both ends of an edge of a cell, each once.
+    pub fn edges(&self) -> Vec<[u32; 2]> {
+        let of_cell = |cell: &Vec<u32>| {
+            let bits: &[usize] = if cell.len() == 8 { &[1, 2, 4] } else { &[1, 2] };
+            let lower = |corner: usize| bits.iter().filter(move |&&bit| corner & bit == 0);
+            let pairs = (0..cell.len()).flat_map(|a| lower(a).map(move |bit| (a, a | bit)));
+            let sorted = |(a, b): (usize, usize)| [cell[a].min(cell[b]), cell[a].max(cell[b])];
+            pairs.map(sorted).collect::<Vec<_>>()
+        };
+        let mut edges: Vec<[u32; 2]> = self.cells.iter().flat_map(of_cell).collect();
+        edges.sort_unstable();
+        edges.dedup();
+        edges
+    }
+
     /// A box with its origin at the centre of its top: `low` to `high`, cut into `count` cells along each axis of the
     /// form.
     pub fn of_box(form: Form, low: [f64; 3], high: [f64; 3], count: [usize; 3]) -> Self {

@@ -66,6 +66,8 @@ pub struct Space {
     pub at_nodes: Option<Samples>,
     /// Fraction of the volume that each node represents, by which mass is lumped [m³].
     pub shares: Vec<f64>,
+    /// Nodes that share an edge of the mesh, each pair once or more.
+    pub links: Vec<[u32; 2]>,
 }
 
 /// Points of a boundary; their weights are areas.

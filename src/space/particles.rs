@@ -68,6 +68,7 @@ pub fn particles(mesh: &Mesh, support: f64) -> Result<Space, Refused> {
         boundary: boundary(mesh),
         at_nodes: None,
         shares,
+        links: mesh.edges(),
     })
 }
 

@@ -9,6 +9,7 @@ mod kernel;
 mod nodal_cells;
 mod nodal_points;
 mod refused;
+mod second_smoothing;
 mod sides;
 
 pub(super) use functions::spacings;
@@ -17,7 +18,8 @@ pub use kernel::Kernel;
 pub use refused::Refused;
 pub use sides::Sides;
 
-use super::{Mesh, Samples, Side, Space};
+use super::{Form, Mesh, Samples, Side, Space};
+use second_smoothing::smoothed_again;
 
 /// Settings of a discretisation by reproducing kernels.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,6 +31,8 @@ pub struct Reproducing {
     /// Half of the width of supports over the spacing of nodes; it must exceed `basis`.
     pub support: f64,
     pub integration: Integration,
+    /// Radius over which nodal integration averages gradients once more [m].
+    pub smoothing: Option<f64>,
     /// Flat sides on which functions of other nodes vanish, so that displacements of their nodes prescribe those of the
     /// sides. Elsewhere prescribed displacements need Nitsche's method or multipliers.
     pub held: Sides,
@@ -42,6 +46,7 @@ impl Default for Reproducing {
             shape: Shape::Box,
             support: 1.75,
             integration: Integration::Nsni,
+            smoothing: None,
             held: Sides::default(),
         }
     }
@@ -76,6 +81,7 @@ pub enum Integration {
 /// it also holds with linear weights.
 pub fn reproducing(mesh: &Mesh, settings: Reproducing) -> Result<Space, Refused> {
     settings.check()?;
+    settings.check_smoothing(mesh.form)?;
     let surface = facets::surface(mesh);
     let planes = facets::planes(mesh, &surface, settings.held);
     let functions = Functions::new(mesh, settings, planes);
@@ -91,7 +97,12 @@ pub fn reproducing(mesh: &Mesh, settings: Reproducing) -> Result<Space, Refused>
                 Integration::Scni => nodal_points::smoothed,
                 _ => nodal_points::stabilised,
             };
-            (points(mesh, cells)?, boundary)
+            let volume = points(mesh, cells)?;
+            let of_cell = volume.len() / mesh.nodes.len();
+            match settings.smoothing {
+                Some(radius) => (smoothed_again(mesh.form, &volume, of_cell, radius), boundary),
+                None => (volume, boundary),
+            }
         }
     };
     let shares = shares(mesh, &volume);
@@ -104,6 +115,7 @@ pub fn reproducing(mesh: &Mesh, settings: Reproducing) -> Result<Space, Refused>
         boundary,
         at_nodes: Some(at_nodes),
         shares,
+        links: mesh.edges(),
     })
 }
 
@@ -130,6 +142,16 @@ impl Reproducing {
         if self.integration == Integration::Gauss(0) {
             return Err(Refused::Setting(
                 "Gauss quadrature needs at least one point along each edge",
+            ));
+        }
+        Ok(())
+    }
+
+    fn check_smoothing(&self, form: Form) -> Result<(), Refused> {
+        let fine = form != Form::Axisymmetric && !matches!(self.integration, Integration::Gauss(_));
+        if self.smoothing.is_some_and(|radius| !(fine && radius > 0.0 && radius.is_finite())) {
+            return Err(Refused::Setting(
+                "a second smoothing has a radius above 0 and averages gradients of nodal integration, not of rings",
             ));
         }
         Ok(())

@@ -17,12 +17,13 @@ const DROP: &str = include_str!("../scenes/drop.toml");
 const IMPACT: &str = include_str!("../scenes/impact.toml");
 const FILAMENT: &str = include_str!("../scenes/filament.toml");
 const LATTICE: &str = include_str!("../scenes/lattice.toml");
+const CONCRETE: &str = include_str!("../scenes/concrete.toml");
 
 /// A section, a scene with a place in it that takes the section's keys, what stands there, what
 /// stands there with a key that there is not, and keys that choose the section's type.
 type Section = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
-const SECTIONS: [Section; 58] = [
+const SECTIONS: [Section; 65] = [
     ("The whole", PLATE, "stop_time =", "zz = 1\nstop_time =", &[]),
     ("`fidelity`", PLATE, "level =", "zz = 1\nlevel =", &[]),
     ("`solver`", PLATE, "stop_time =", "solver = { zz = 1 }\nstop_time =", &[]),
@@ -54,7 +55,16 @@ const SECTIONS: [Section; 58] = [
         PLATE,
         "\"thermoelastic\"",
         "\"viscoplastic\", zz = 1",
-        &["model", "substance", "at", "hardening", "shear_relaxation", "bulk_relaxation", "shift"],
+        &[
+            "model",
+            "substance",
+            "at",
+            "hardening",
+            "shear_relaxation",
+            "bulk_relaxation",
+            "shift",
+            "kcc",
+        ],
     ),
     (
         "`melting` of a material",
@@ -84,6 +94,12 @@ const SECTIONS: [Section; 58] = [
         "\"viscoelastic\", shear_relaxation = [{ zz = 1 }]",
         &[],
     ),
+    ("`kcc` of a material", CONCRETE, "dilatancy =", "zz = 1\ndilatancy =", &[]),
+    ("`strength` of `kcc`", CONCRETE, "strength = { a0", "strength = { zz = 1, a0", &[]),
+    ("`residual` of `kcc`", CONCRETE, "residual = {", "residual = { zz = 1,", &[]),
+    ("`damage` of `kcc`", CONCRETE, "damage = {", "damage = { zz = 1,", &[]),
+    ("`compaction` of `kcc`", CONCRETE, "dilatancy =", "compaction = { zz = 1 }\ndilatancy =", &[]),
+    ("`meridians` of `kcc`", CONCRETE, "dilatancy =", "meridians = { zz = 1 }\ndilatancy =", &[]),
     (
         "`shift` of a material",
         PLATE,
@@ -170,6 +186,13 @@ const SECTIONS: [Section; 58] = [
         PLATE,
         "[body.plate]",
         "[body.gel]\nkind = \"solid\"\nstrain = \"finite\"\nshape = { ball = { zz = 1 } }\n[body.plate]",
+        &[],
+    ),
+    (
+        "`shape.quadrilateral`",
+        PLATE,
+        "[body.plate]",
+        "[body.gel]\nkind = \"solid\"\nstrain = \"finite\"\nshape = { quadrilateral = { zz = 1 } }\n[body.plate]",
         &[],
     ),
     (

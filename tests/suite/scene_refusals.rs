@@ -12,16 +12,18 @@ const TILES: &str = include_str!("../scenes/tiles.toml");
 const DROP: &str = include_str!("../scenes/drop.toml");
 const IMPACT: &str = include_str!("../scenes/impact.toml");
 const GEL: &str = include_str!("../scenes/gel.toml");
+const CONCRETE: &str = include_str!("../scenes/concrete.toml");
 const FILAMENT: &str = include_str!("../scenes/filament.toml");
 const LATTICE: &str = include_str!("../scenes/lattice.toml");
 const CRACK: &str = include_str!("../scenes/crack.toml");
-const SCENES: [(&str, &str); 9] = [
+const SCENES: [(&str, &str); 10] = [
     ("plate", PLATE),
     ("disc", DISC),
     ("tiles", TILES),
     ("drop", DROP),
     ("impact", IMPACT),
     ("gel", GEL),
+    ("concrete", CONCRETE),
     ("filament", FILAMENT),
     ("lattice", LATTICE),
     ("crack", CRACK),

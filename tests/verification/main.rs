@@ -11,6 +11,7 @@ mod classical_flows;
 #[path = "../common/mod.rs"]
 #[allow(dead_code)]
 mod common;
+mod concrete;
 mod conduction;
 mod contact;
 mod cracks;

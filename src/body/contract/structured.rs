@@ -10,7 +10,9 @@ use crate::state::{self, Layout, expect_like, layout_like, load, store_all, stor
 
 /// A body whose state is one structure with fields, and whose readings are those of a view of it that is made once a
 /// state. It is a [`Body`] by that.
-pub trait Structured: Giver + Maxima + Approach + Events + Advice + Resources + Send + Sync {
+pub trait Structured:
+    Giver + Maxima + Approach + Events + Advice + Resources + Send + Sync
+{
     type State: state::Fields + Clone;
     /// Results of a state from which values are read.
     type View: Send + Sync + 'static;

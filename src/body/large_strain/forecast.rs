@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::plan;
 use crate::body::threads_for;
-use crate::laws::solid::large_strain::Thermal;
+use crate::laws::solid::large_strain::{Concrete, Thermal};
 use crate::scene::{Coupling, LargeStrain, Mechanics, MotionSteps, Scene};
 use crate::space::{Form, Integration, Mesh};
 
@@ -108,7 +108,9 @@ fn points(solid: &LargeStrain, mesh: &Mesh) -> (usize, f64) {
             (mesh.cells.len() * corners, ball * support.powi(axes as i32))
         }
         (_, integration) => {
-            let reach = (2.0 * kernels.support).powi(axes as i32);
+            // Averaged gradients have the functions of all cells within the radius.
+            let averaged = kernels.smoothing.map_or(0.0, |radius| radius / solid.spacing());
+            let reach = (2.0 * (kernels.support + averaged)).powi(axes as i32);
             let points = match integration {
                 Integration::Scni => mesh.nodes.len(),
                 Integration::Nsni => 2 * axes * mesh.nodes.len(),
@@ -186,12 +188,25 @@ pub fn notes(solid: &LargeStrain) -> Vec<String> {
                 .to_owned(),
         ),
     });
-    let mut layers = plan::layers(solid).into_iter();
-    let hardly_changes = layers.any(|own| own.law.is_nearly_incompressible());
+    let layers = plan::layers(solid);
+    let hardly_changes = layers.iter().any(|own| own.law.is_nearly_incompressible());
+    notes.extend(layers.iter().filter_map(|own| own.law.concrete()).map(note_on_concrete));
     if matches!(solid.mechanics, Mechanics::Rkpm | Mechanics::Efg) && hardly_changes {
         notes.push(NOTE_ON_LOCKING.to_owned());
     }
     notes
+}
+
+/// Note on what follows from the constants of concrete.
+fn note_on_concrete(law: &Concrete) -> String {
+    format!(
+        "the concrete bears {:.3e} Pa in uniaxial compression; beyond the peak uniaxial tension takes {:.3e} J/m³, with the \
+         exponent {:.3} and {:.3} of damage by opening",
+        law.surfaces.compressive,
+        law.energy_of_tension(),
+        law.exponents[1],
+        law.opening
+    )
 }
 
 fn note_on_temperature(solid: &LargeStrain) -> Option<&'static str> {

@@ -121,6 +121,9 @@ impl MovingBody {
 
     /// Refuses a motion that breaks a conservation law.
     fn check_motion(&self, motion: &Motion) -> Result<(), String> {
+        if !self.dynamics.body.is_sound(&motion.history) {
+            return Err("plastic strain, damage and compaction are not negative".to_owned());
+        }
         let fixed = &self.dynamics.body.fixed;
         for values in [&motion.displacement, &motion.velocity] {
             let moves = |(value, fixed): (&[f64; 3], &[bool; 3])| {

@@ -127,7 +127,7 @@ const LEAST_IN_LAYER: usize = 2;
 
 /// Settings of reproducing kernels, with functions that can be held at the faces of a body.
 pub fn kernels(solid: &LargeStrain, mesh: &Mesh) -> Reproducing {
-    let KernelSettings { basis, support, integration } = solid.rkpm.unwrap_or_default();
+    let KernelSettings { basis, support, integration, smoothing } = solid.rkpm.unwrap_or_default();
     let order = basis as f64;
     let is_held = |side: &Side| {
         let ends = |own: &HeldFace| own.is_held() || own.temperature.is_some();
@@ -148,6 +148,7 @@ pub fn kernels(solid: &LargeStrain, mesh: &Mesh) -> Reproducing {
             KernelIntegration::Scni => Integration::Scni,
             KernelIntegration::Gauss => Integration::Gauss(basis + 1),
         },
+        smoothing,
         held: Sides::of(&held),
     }
 }

@@ -290,6 +290,9 @@ impl RestingBody {
     }
 
     fn check_resting(&self, state: &Resting) -> Result<(), String> {
+        if !self.equilibrium.body.is_sound(&state.rest.history) {
+            return Err("plastic strain, damage and compaction are not negative".to_owned());
+        }
         if state.time < 0.0 || state.steps < 0.0 {
             return Err("time and steps are not negative".to_owned());
         }

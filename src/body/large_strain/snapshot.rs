@@ -2,7 +2,7 @@
 
 use super::warming::Temperatures;
 use crate::laws::solid::large_strain::Deformed;
-use crate::method::large_strain::{Courses, Deformable, Failure, Stresses, Touch};
+use crate::method::large_strain::{Courses, Deformable, Failure, Fragments, Stresses, Touch};
 use crate::method::sph::ParticleFields;
 use crate::space::{Form, Space};
 
@@ -28,6 +28,8 @@ pub struct Snapshot {
     pub contact_radius: f64,
     /// Mean curvature of the middle half of a strip in the plane [1/m].
     pub curvature: f64,
+    /// Damage and parts of a body of concrete.
+    pub fragments: Fragments,
 }
 
 /// Number of mirror images of which a model is one.
@@ -108,6 +110,7 @@ impl Seen<'_> {
             mass: copies * mass,
             contact_radius: self.touch.map_or(0.0, |touch| self.radius(touch)),
             curvature: self.curvature(&moved),
+            fragments: self.fragments(),
             ..Snapshot::default()
         };
         if let Some(velocity) = self.velocity {
@@ -123,6 +126,10 @@ impl Seen<'_> {
             }
         }
         snapshot
+    }
+
+    fn fragments(&self) -> Fragments {
+        self.body.fragments(self.history, self.velocity, self.mirrors).unwrap_or_default()
     }
 
     /// Change of the columns' directions over the length of the strip between them [1/m].
@@ -162,6 +169,11 @@ impl Seen<'_> {
         let body = self.body;
         let mut fields = ParticleFields::default();
         let swelling = self.swelling();
+        let is_concrete = body.layers.iter().any(|layer| layer.law.concrete().is_some());
+        let damage = match is_concrete {
+            true => body.damages_at_nodes(&body.damages(self.history)),
+            false => Vec::new(),
+        };
         let [density, pressure] = [0, 1].map(|n| swelling.iter().map(|s| s[n]).collect::<Vec<_>>());
         let temperature = temperatures.at_nodes(body);
         let count = body.nodes();
@@ -182,6 +194,7 @@ impl Seen<'_> {
                 fields.density.extend(&density);
                 fields.pressure.extend(&pressure);
                 fields.temperature.extend(&temperature);
+                fields.damage.extend(&damage);
             }
         }
         fields

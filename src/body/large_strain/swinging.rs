@@ -165,6 +165,9 @@ impl SwingingBody {
 
     /// Refuses a motion whose energy does not balance.
     fn check_motion(&self, motion: &Motion) -> Result<(), String> {
+        if !self.dynamics.body.is_sound(&motion.history) {
+            return Err("plastic strain, damage and compaction are not negative".to_owned());
+        }
         self.faces.check(&motion.displacement)?;
         self.faces.check(&motion.velocity)?;
         let ledger = &motion.ledger;

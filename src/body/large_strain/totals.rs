@@ -3,6 +3,7 @@
 use super::snapshot::Snapshot;
 use super::warming::HeatTotals;
 use crate::body::{Descriptor, Direct};
+use crate::method::large_strain::Fragments;
 use crate::quantity::Quantity;
 use crate::scene::{FaceName, HeldFace, LargeStrain};
 
@@ -46,15 +47,20 @@ enum Offered {
     Warming,
     /// Boxes in a plane.
     PlaneBox,
+    /// Those of concrete.
+    Concrete,
+    /// Those of concrete with inertia.
+    MovingConcrete,
 }
 
 enum Read {
     Snapshot(fn(&Snapshot) -> f64),
+    Fragments(fn(&Fragments) -> f64),
     Sums(fn(&Sums) -> f64),
     Heat(fn(&HeatTotals) -> f64),
 }
 
-const TOTALS: [Total; 27] = [
+const TOTALS: [Total; 33] = [
     all("width", "extent along x", Quantity::Length, |s| s.width),
     all("height", "extent along z", Quantity::Length, |s| s.height),
     all("centre_z", "height of the centre of mass", Quantity::Length, |s| s.centre),
@@ -154,6 +160,34 @@ const TOTALS: [Total; 27] = [
             |heat| heat.given,
         )
     },
+    concrete(
+        "max_damage",
+        "largest damage of a point, 0 intact to 1 broken",
+        Quantity::Ratio,
+        |f| f.max_damage,
+    ),
+    concrete("mean_damage", "mean damage of the volume", Quantity::Ratio, |f| f.mean_damage),
+    concrete("fragments", "number of parts of unbroken nodes, 1 at first", Quantity::Count, |f| {
+        f.count as f64
+    }),
+    concrete("largest_fragment_mass", "mass of the largest fragment", Quantity::Mass, |f| {
+        f.largest_mass
+    }),
+    concrete(
+        "broken_mass",
+        "mass of broken nodes, which are in no fragment",
+        Quantity::Mass,
+        |f| f.broken_mass,
+    ),
+    Total {
+        of: Offered::MovingConcrete,
+        ..concrete(
+            "largest_fragment_speed",
+            "speed of the centre of the largest fragment",
+            Quantity::Velocity,
+            |f| f.largest_speed,
+        )
+    },
     Total {
         key: "steps",
         words: "steps of equilibrium made inside the unit",
@@ -182,6 +216,15 @@ const fn moving(
     read: fn(&Snapshot) -> f64,
 ) -> Total {
     Total { key, words, quantity, of: Offered::Moving, read: Read::Snapshot(read) }
+}
+
+const fn concrete(
+    key: &'static str,
+    words: &'static str,
+    quantity: Quantity,
+    read: fn(&Fragments) -> f64,
+) -> Total {
+    Total { key, words, quantity, of: Offered::Concrete, read: Read::Fragments(read) }
 }
 
 const fn above(
@@ -216,6 +259,8 @@ pub fn offered_totals(solid: &LargeStrain, is_coupled: bool) -> Vec<(usize, Desc
         Offered::Conducting => solid.conducts(),
         Offered::Warming => solid.conductance_below.is_some(),
         Offered::PlaneBox => is_plane && solid.is_box(),
+        Offered::Concrete => solid.is_of_concrete(),
+        Offered::MovingConcrete => solid.is_of_concrete() && solid.inertia,
     };
     let described = |key, words, quantity: Quantity| {
         let quantity = if is_plane { quantity.per_depth() } else { quantity };
@@ -258,6 +303,7 @@ pub fn force(place: usize) -> Option<(usize, usize)> {
 pub fn read(snapshot: &Snapshot, sums: &Sums, place: usize) -> f64 {
     match TOTALS[place].read {
         Read::Snapshot(of) => of(snapshot),
+        Read::Fragments(of) => of(&snapshot.fragments),
         Read::Sums(of) => of(sums),
         Read::Heat(of) => of(&sums.heat),
     }

@@ -58,6 +58,12 @@ pub trait Deformation: Keys {
         None
     }
 
+    /// Reason why constants make no law of large strain at a temperature [K], with what is allowed; `None` if they do, or a
+    /// constant is missing.
+    fn obstacle(&self, _temperature: f64) -> Option<(&'static str, String)> {
+        None
+    }
+
     /// Effects of a uniform temperature on a solid of large strain without stress at a temperature [K].
     fn thermal(&self, free: f64) -> Thermal {
         let shift = self.relaxing().and_then(|relaxing| relaxing.shift);

@@ -4,6 +4,7 @@
 //! that turns them into a [`Law`]. Then add it to the list of [`SolidLaw`] below.
 
 mod admissible;
+mod concrete;
 mod elasticity;
 mod elastoplastic;
 pub mod large_strain;
@@ -22,6 +23,7 @@ mod viscoplastic;
 mod yielding;
 
 pub use admissible::admissible;
+pub use concrete::{ConcreteLaw, Kcc};
 pub use elasticity::Elasticity;
 pub use elastoplastic::{
     Elastoplastic, ElastoplasticLaw, OfTemperature, PointConstants, PointTangent, constant,
@@ -118,4 +120,6 @@ solid_laws! {
     Viscoelastic(ViscoelasticLaw) = "viscoelastic",
     /// Rubber and gels of large strain: compressible neo-Hooke.
     NeoHookean(NeoHookeanLaw) = "neo_hookean",
+    /// Concrete that cracks, crushes and dilates: the law of Karagozian & Case.
+    Concrete(ConcreteLaw) = "concrete",
 }

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::{Course, Courses, Failure};
-use crate::laws::solid::large_strain::{Deformed, LargeStrainLaw};
+use crate::laws::solid::large_strain::{Concrete, Deformed, LargeStrainLaw};
 use crate::laws::solid::stress::von_mises;
 use crate::math::matrix3::{IDENTITY, Matrix3, contraction, packed};
 use crate::runtime::parallel::Team;
@@ -214,6 +214,17 @@ impl Deformable {
             (0..points).map(move |n| law.plastic_strain(&own[length * n..length * (n + 1)]))
         };
         (0..self.space.groups.len()).flat_map(of_group).collect()
+    }
+
+    /// Returns true if a run may produce a history of all points.
+    pub fn is_sound(&self, history: &[f64]) -> bool {
+        let of_group = |group: usize| {
+            let length = self.law_of(group).history();
+            let is_concrete = self.law_of(group).concrete().is_some();
+            let own = &history[self.history_of(group)];
+            !is_concrete || own.chunks_exact(length).all(Concrete::is_sound)
+        };
+        (0..self.space.groups.len()).all(of_group)
     }
 
     /// Returns true if the derivatives of the stresses of all layers are symmetric.

@@ -10,6 +10,7 @@ mod contact;
 mod course;
 mod deformable;
 mod failure;
+mod fragments;
 mod heat;
 mod implicit;
 mod load;
@@ -23,6 +24,7 @@ pub use contact::{Plane, Spot, Touch};
 pub use course::{Course, Courses};
 pub use deformable::{Deformable, LayerOfBody, Stresses};
 pub use failure::Failure;
+pub use fragments::Fragments;
 pub use heat::{
     Conduction, Contacts, Film, HEAT_STEPS, HEAT_WORK, HeatDrive, HeatOfLayer, Passed, Warmth,
 };

@@ -4,7 +4,8 @@ use super::layers::Materials;
 use super::{Checker, fits, layers, material};
 use crate::laws::Material;
 use crate::scene::large_strain::{
-    LargeStrain, LargeStrainStart, LargeStrainSymmetry, Mechanics, MotionSteps, SolidShape,
+    KernelIntegration, KernelSettings, LargeStrain, LargeStrainStart, LargeStrainSymmetry,
+    Mechanics, MotionSteps, SolidShape,
 };
 use crate::scene::locate::Path;
 use crate::scene::types::FaceName;
@@ -130,7 +131,35 @@ fn check_kernels(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
     let fine = settings.support.is_none_or(|support| support > settings.basis as f64);
     let message = "supports reach too few nodes for this basis";
     checker.require(fine, &path.key("support"), message, "above `basis`, up to 6");
+    if settings.smoothing.is_some() {
+        check_smoothing(checker, &path.key("smoothing"), solid, settings);
+    }
 }
+
+fn check_smoothing(
+    checker: &mut Checker,
+    path: &Path,
+    solid: &LargeStrain,
+    settings: KernelSettings,
+) {
+    let fine = settings.integration == KernelIntegration::Nsni;
+    let message =
+        "a second smoothing leaves other integration without stiffness against short waves";
+    checker.require(fine, path, message, "`integration = \"nsni\"`, or no `smoothing`");
+    let fine = matches!(solid.symmetry, LargeStrainSymmetry::Auto | LargeStrainSymmetry::None);
+    let message = "a second smoothing goes on across planes of symmetry and the axis";
+    checker.require(fine, path, message, "`symmetry = \"none\"`, or no `smoothing`");
+    let least = LEAST_SMOOTHING * solid.spacing();
+    let fine =
+        settings.smoothing.is_none_or(|radius| radius >= least && radius <= MOST_SMOOTHING * least);
+    let message = "the radius is that of too few or too many nodes";
+    let allowed = format!("{least} to {} m, or another `mesh.spacing`", MOST_SMOOTHING * least);
+    checker.require(fine, path, message, allowed);
+}
+
+/// Smallest radius of smoothing over the distance of nodes, and the largest over the smallest.
+const LEAST_SMOOTHING: f64 = 2.0;
+const MOST_SMOOTHING: f64 = 10.0;
 
 fn check_material(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
     let own = solid.material.iter().map(|choice| (path.key("material"), choice.material()));
@@ -168,11 +197,14 @@ fn check_law(checker: &mut Checker, path: &Path, material: &Material, temperatur
         let message = "cracks run in bodies of small strain";
         checker.refuse(&path.key("fracture"), message, "no `fracture`");
     }
-    if material.law.deformation().large_strain(temperature).is_none() {
+    if let Some((message, allowed)) = material.law.deformation().obstacle(temperature) {
+        checker.refuse(&path.key("kcc"), message, allowed);
+    } else if material.law.deformation().large_strain(temperature).is_none() {
         let message = "a solid of large strain cannot be made of this material";
-        let allowed = "`model = \"neo_hookean\"` with `young` and `poisson`; `\"viscoelastic\"` with \
-                       `shear_relaxation`, too, without `bulk_relaxation`; or `\"elastoplastic\"` with `yield_stress`, \
-                       without `kinematic_hardening`, with a `saturation` not below the yield stress";
+        let allowed = "`model = \"neo_hookean\"` with `young` and `poisson`; `\"concrete\"` with `kcc`, too; \
+                       `\"viscoelastic\"` with `shear_relaxation`, without `bulk_relaxation`; or \
+                       `\"elastoplastic\"` with `yield_stress`, without `kinematic_hardening`, with a `saturation` \
+                       not below the yield stress";
         checker.refuse(path, message, allowed);
     }
 }

@@ -4,7 +4,7 @@ use impinge::limits::keyword;
 use serde_json::Value;
 
 /// Headings of `docs/scene.md` with a table, and where in the schema the table that they describe stands.
-pub const SECTIONS: [(&str, &str); 60] = [
+pub const SECTIONS: [(&str, &str); 67] = [
     ("The whole", ""),
     ("`fidelity`", "/$defs/Fidelity"),
     ("`solver`", "/$defs/Solver"),
@@ -19,6 +19,12 @@ pub const SECTIONS: [(&str, &str); 60] = [
     ("`evaporation` of a fluid", "/$defs/Evaporation"),
     ("`creep` of a material", "/$defs/Creep"),
     ("`hardening` of a material", "/$defs/Saturation"),
+    ("`kcc` of a material", "/$defs/Kcc"),
+    ("`strength` of `kcc`", "/$defs/SurfaceKeys"),
+    ("`residual` of `kcc`", "/$defs/ResidualKeys"),
+    ("`damage` of `kcc`", "/$defs/DamageKeys"),
+    ("`compaction` of `kcc`", "/$defs/CompactionKeys"),
+    ("`meridians` of `kcc`", "/$defs/MeridianKeys"),
     ("`shear_relaxation` of a material", "/$defs/Branch"),
     ("`shift` of a material", "/$defs/Shift"),
     ("`weibull` of a material", "/$defs/Weibull"),

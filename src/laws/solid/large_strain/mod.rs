@@ -2,13 +2,16 @@
 //!
 //! The energy of the dilatation `J = det F` per reference volume is `U(J) = ½ κ (½ (J² − 1) − ln J)`, source: J. C. Simo and
 //! T. J. R. Hughes, *Computational Inelasticity*, Springer 1998, eq. 9.2.3. Deviators have no part in the volume:
-//! [`relaxing`] is neo-Hooke with Maxwell branches, [`plastic`] multiplicative J₂ plasticity. [`thermal`] adds expansion.
+//! [`relaxing`] is neo-Hooke with Maxwell branches, [`plastic`] multiplicative J₂ plasticity. [`concrete`] has the whole stress,
+//! and U is 0. [`thermal`] adds expansion.
 
+pub mod concrete;
 mod deformed;
 mod plastic;
 mod relaxing;
 mod thermal;
 
+pub use concrete::Concrete;
 pub use deformed::Deformed;
 pub use plastic::Plastic;
 pub use relaxing::{MaxwellBranch, Relaxing};
@@ -31,6 +34,8 @@ pub struct LargeStrainLaw {
 pub enum Deviator {
     Relaxing(Relaxing),
     Plastic(Plastic),
+    /// The change of volume included.
+    Concrete(Concrete),
 }
 
 /// Response of a point to a change of shape.
@@ -58,17 +63,30 @@ impl LargeStrainLaw {
         match &self.deviator {
             Deviator::Relaxing(relaxing) => relaxing.history(),
             Deviator::Plastic(_) => Plastic::HISTORY,
+            Deviator::Concrete(_) => Concrete::HISTORY,
         }
     }
 
     /// Returns true if the material yields.
     pub fn yields(&self) -> bool {
-        matches!(self.deviator, Deviator::Plastic(_))
+        matches!(self.deviator, Deviator::Plastic(_) | Deviator::Concrete(_))
+    }
+
+    /// Returns the law of concrete, if it is one.
+    pub fn concrete(&self) -> Option<&Concrete> {
+        match &self.deviator {
+            Deviator::Concrete(concrete) => Some(concrete),
+            Deviator::Relaxing(_) | Deviator::Plastic(_) => None,
+        }
     }
 
     /// Accumulated plastic strain of a history of a point.
     pub fn plastic_strain(&self, history: &[f64]) -> f64 {
-        if self.yields() { history[Plastic::STRAIN] } else { 0.0 }
+        match &self.deviator {
+            Deviator::Relaxing(_) => 0.0,
+            Deviator::Plastic(_) => history[Plastic::STRAIN],
+            Deviator::Concrete(_) => history[Concrete::STRAIN],
+        }
     }
 
     /// Returns false if the tangent is not symmetric.
@@ -88,11 +106,17 @@ impl LargeStrainLaw {
 
     /// U′ and U″ at a dilatation [Pa].
     pub fn pressure(&self, j: f64) -> [f64; 2] {
+        if self.concrete().is_some() {
+            return [0.0; 2];
+        }
         [0.5 * self.bulk * (j - 1.0 / j), 0.5 * self.bulk * (1.0 + 1.0 / (j * j))]
     }
 
     /// U [J/m³].
     pub fn energy_of_dilatation(&self, j: f64) -> f64 {
+        if self.concrete().is_some() {
+            return 0.0;
+        }
         0.5 * self.bulk * (0.5 * (j * j - 1.0) - j.ln())
     }
 
@@ -101,6 +125,7 @@ impl LargeStrainLaw {
         match &self.deviator {
             Deviator::Relaxing(relaxing) => relaxing.respond(self.shear, at, dt, history),
             Deviator::Plastic(plastic) => plastic.respond(self.shear, at, history),
+            Deviator::Concrete(concrete) => concrete.respond([self.bulk, self.shear], at, history),
         }
     }
 
@@ -109,6 +134,7 @@ impl LargeStrainLaw {
         let mut tangent = match &self.deviator {
             Deviator::Relaxing(relaxing) => relaxing.tangent(self.shear, at, dt, before),
             Deviator::Plastic(plastic) => plastic.tangent(self.shear, at, before),
+            Deviator::Concrete(concrete) => concrete.tangent([self.bulk, self.shear], at, before),
         };
         let (g, jp) = (&at.inverse_transposed, at.dilatation * pressure);
         for (row, line) in tangent.iter_mut().enumerate() {
