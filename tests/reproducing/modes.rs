@@ -76,7 +76,7 @@ fn second_smoothing_needs_what_gradients_vary_within_cells() {
             let found = twice(Integration::Nsni);
             let zero = found.iter().filter(|&&x| x.abs() < 1e-8 * first).count();
             assert_eq!(zero, rigid, "{radius} {:?}", &found[..8]);
-            assert!(found[rigid] > 0.4 * first, "{radius} {} {first}", found[rigid]);
+            assert!(found[rigid] > 0.35 * first, "{radius} {} {first}", found[rigid]);
             let below = twice(Integration::Scni).iter().filter(|&&x| x < 0.4 * first).count();
             assert!(radius < 3.0 || below > rigid + weak, "{radius} {below}");
         }
