@@ -20,10 +20,8 @@ const MOST_HALVINGS: usize = 8;
 const MOST_ITERATIONS: usize = 400;
 /// Conjugate-gradient iterations from which on a new factor costs less.
 const WORTH_A_FACTOR: usize = 8;
-/// Largest reduction of the residual by the conjugate gradients of a Newton step, and the part of the tolerated residual
-/// to which they reduce it otherwise.
+/// Reduction of the residual by the conjugate gradients of a Newton step.
 const REDUCTION: f64 = 1e-2;
-const SHARE_OF_TOLERANCE: f64 = 0.5;
 /// Updates per unknown that a factorisation and an iteration take, for the allowance of a step.
 const WORK_OF_FACTOR: f64 = 3000.0;
 const WORK_OF_ITERATION: f64 = 100.0;
@@ -121,8 +119,7 @@ impl<'a> Balance<'a> {
             if step > 0 {
                 self.evaluate(displacement, (damage, rise), load, &mut residual, true);
             }
-            let reduction = SHARE_OF_TOLERANCE * tolerance * self.scale(rise, load) / size;
-            let change = self.change(&residual, reduction.max(REDUCTION))?;
+            let change = self.change(&residual)?;
             let slope = dot(&residual, &change);
             let before = displacement.to_vec();
             let mut part = 1.0;
@@ -189,12 +186,12 @@ impl<'a> Balance<'a> {
         (own * own + self.reactions * self.reactions).sqrt().max(f64::MIN_POSITIVE)
     }
 
-    /// Change of displacements under a change of force, to a reduction of its residual.
-    fn change(&mut self, force: &[f64], reduction: f64) -> Result<Vec<f64>, DamageError> {
+    /// Change of displacements under a change of force.
+    fn change(&mut self, force: &[f64]) -> Result<Vec<f64>, DamageError> {
         if self.factor.is_none() {
             self.refactor()?;
         }
-        let (change, iterations) = self.iterate(force, reduction)?;
+        let (change, iterations) = self.iterate(force)?;
         if iterations > WORTH_A_FACTOR {
             self.factor = None;
         }
@@ -219,7 +216,7 @@ impl<'a> Balance<'a> {
     }
 
     /// Preconditioned conjugate gradients from zero.
-    fn iterate(&mut self, force: &[f64], reduction: f64) -> Result<(Vec<f64>, usize), DamageError> {
+    fn iterate(&mut self, force: &[f64]) -> Result<(Vec<f64>, usize), DamageError> {
         let unknowns = self.unknowns;
         let mut residual = force.to_vec();
         let mut solution = vec![0.0; force.len()];
@@ -227,7 +224,7 @@ impl<'a> Balance<'a> {
         let mut direction = Padded::<2>::zeros(unknowns.grid);
         direction.inner_mut().copy_from_slice(&improved);
         let mut energy = dot(&residual, &improved);
-        let wanted = reduction * reduction * energy;
+        let wanted = REDUCTION * REDUCTION * energy;
         let mut product = vec![0.0; force.len()];
         for iteration in 0..MOST_ITERATIONS {
             if energy <= wanted || energy <= 0.0 {
