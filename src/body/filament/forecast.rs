@@ -148,12 +148,12 @@ fn notes_on_particles(scene: &Scene, (name, filament): (&str, &Filament)) -> Vec
         Viscous::WithPressure { .. } => "pressure and viscosity are solved at the end of each step",
         _ => "pressure and viscosity are explicit, as that is cheaper",
     };
-    let cost = match scene.coupling_from(name) {
-        Some(_) => {
-            "all of them take part in every step, so the cost grows with the square of the length"
-        }
-        None => {
-            "all of them take part in every step, so the cost grows with the square of the length, and the plate takes no heat"
+    let fluid = &filament.fluid;
+    let cost = match fluid.viscosity.yield_stress() > 0.0 && fluid.conductivity == 0.0 {
+        true => "fluid that has come to rest takes no part in steps",
+        false => {
+            "all of them take part in every step, so the cost grows with the square of the length: only fluid that yields and \
+             conducts no heat comes to rest"
         }
     };
     vec![

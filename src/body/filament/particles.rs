@@ -126,6 +126,7 @@ impl ParticleFilament {
             ],
             duration: exchange.duration,
             particles: sums,
+            resting: laid.resting,
             density,
             ..Seen::default()
         }

@@ -50,6 +50,8 @@ pub struct Seen {
     pub duration: f64,
     /// Sums over particles; zero for a line.
     pub particles: DropletTotals,
+    /// Number of particles that rest.
+    pub resting: usize,
     /// Density at rest [kg/m³].
     pub density: f64,
 }
@@ -61,11 +63,11 @@ impl Seen {
     }
 }
 
-const TOTALS: [Total; 35] = [
+const TOTALS: [Total; 36] = [
     total("volume", "volume that has come so far", Quantity::Volume, |seen| seen.volume),
     total(
         "volume_drift",
-        "error of the volume balance: volume of the strand minus volume that has come",
+        "error of the volume balance: volume of the segments minus volume that has come",
         Quantity::Volume,
         |seen| seen.totals.volume - seen.volume,
     ),
@@ -254,6 +256,15 @@ const TOTALS: [Total; 35] = [
         total("yielded_fraction", "fraction of the mass that yields", Quantity::Ratio, |seen| {
             seen.particles.yielded_mass / seen.particles.mass
         }),
+    ),
+    of(
+        Offered::OfYieldingParticles,
+        total(
+            "resting",
+            "number of particles at rest, which take no part in steps",
+            Quantity::Count,
+            |seen| seen.resting as f64,
+        ),
     ),
 ];
 

@@ -1,7 +1,7 @@
 //! Checks whether a vector from outside is a state that a run of these droplets can reach.
 
 use super::cloud::{Cloud, HeadNumbers, cloud_of, head_len, ledger_of, particles_in};
-use super::feed::{BY_NOZZLE, Column, FREE, Fed};
+use super::feed::{ASLEEP, BY_NOZZLE, Column, FREE, Fed};
 use super::images::Source;
 use super::kick::{DENSITIES, FARTHEST, FASTEST};
 use super::method::Method;
@@ -147,8 +147,10 @@ fn check_origins(cloud: &Cloud, column: &Column, layers: usize) -> Result<(), St
         if layer.fract() != 0.0 || !(0.0..layers as f64).contains(&layer) {
             return Err(format!("particle {i} of layer {layer}, of {layers}"));
         }
-        let expected = if (layer as usize) < passed { FREE } else { BY_NOZZLE };
-        if hold != expected {
+        let is_free = (layer as usize) < passed;
+        let rests = hold == ASLEEP && cloud.velocity[i] == [0.0; 3];
+        let is_known = if is_free { hold == FREE || rests } else { hold == BY_NOZZLE };
+        if !is_known {
             return Err(format!("particle {i} with the hold {hold} in layer {layer}"));
         }
         counts[layer as usize] += 1;

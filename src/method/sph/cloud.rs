@@ -246,7 +246,8 @@ impl Fields for Cloud {
             of("content", "heat content over the specific heat of the molten fluid [K]", 1);
         fields.extend(self.content.iter_mut().map(|list| (content, &mut list[..])));
         let layer = of("layer", "number of its layer in the nozzle", 1);
-        let hold = of("hold", "0 for free particles, 1 for those in the nozzle", 1);
+        let hold =
+            of("hold", "0 for free particles, 1 for those in the nozzle, 2 for those that rest", 1);
         fields.extend(
             self.origin
                 .iter_mut()
@@ -363,6 +364,35 @@ impl Cloud {
             origin.layer.push(0.0);
             origin.hold.push(FREE);
         });
+    }
+
+    /// Appends the particles of another cloud.
+    pub fn append(&mut self, other: Self) {
+        self.position.extend(other.position);
+        self.velocity.extend(other.velocity);
+        self.mass.extend(other.mass);
+        self.density.extend(other.density);
+        self.temperature.extend(other.temperature);
+        self.initial.extend(other.initial);
+        self.acceleration.extend(other.acceleration);
+        self.tension.extend(other.tension);
+        self.potential.extend(other.potential);
+        self.gradient.extend(other.gradient);
+        self.moment.extend(other.moment);
+        self.stress.iter_mut().for_each(|list| list.extend(other.stress.iter().flatten()));
+        self.content.iter_mut().for_each(|list| list.extend(other.content.iter().flatten()));
+        for (own, other) in self.origin.iter_mut().zip(other.origin) {
+            own.layer.extend(other.layer);
+            own.hold.extend(other.hold);
+        }
+    }
+
+    /// Takes out all particles but those of some numbers, and returns the others in their order.
+    pub fn keep(&mut self, kept: &[u32], others: &[u32], team: &Team) -> Self {
+        let mut rest = self.clone();
+        rest.permute(others, team);
+        self.permute(kept, team);
+        rest
     }
 
     /// Reorders the particles.

@@ -5,6 +5,7 @@ mod extremes;
 mod fed;
 mod frozen;
 mod half_space;
+mod sleep;
 mod totals;
 
 use super::acceptance::{self, Released};

@@ -18,6 +18,7 @@ use crate::state::{Field, Per};
 /// What holds a particle, as a number of its state.
 pub const FREE: f64 = 0.0;
 pub const BY_NOZZLE: f64 = 1.0;
+pub const ASLEEP: f64 = 2.0;
 
 /// Part of a layer that counts as rounding of the volume.
 const SLACK: f64 = 1e-9;

@@ -133,7 +133,7 @@ pub fn kick(part: &mut Part, times: Times, gravity: [f64; 3], bonds: &[Bond]) ->
             (0..3).for_each(|a| motion.by_nozzle[a] += part.mass[i] * (held[a] - velocity[a]));
             (velocity, speed) = (held, held.iter().map(|v| v * v).sum());
         } else if bond.is_held() {
-            if bond == Bond::Wall && velocity != [0.0; 3] {
+            if matches!(bond, Bond::Wall | Bond::Asleep) && velocity != [0.0; 3] {
                 motion.stopped.push((part.first + i, velocity));
             }
             (velocity, speed) = ([0.0; 3], if speed.is_finite() { 0.0 } else { speed });

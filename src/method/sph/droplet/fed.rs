@@ -4,7 +4,7 @@ use super::{DropletSph, Run};
 use crate::inputs::Motion;
 use crate::method::sph::cloud::{Cloud, Ledger, cloud_of, ledger_of};
 use crate::method::sph::failure::Failure;
-use crate::method::sph::feed::{BY_NOZZLE, Column, FREE, Fed};
+use crate::method::sph::feed::{ASLEEP, BY_NOZZLE, Column, FREE, Fed};
 use crate::method::sph::plan::Feed;
 use crate::port::Surface;
 use crate::runtime::allowance::Allowance;
@@ -30,6 +30,8 @@ pub struct Laid {
     pub velocity: Vec<[f64; 3]>,
     pub volume: Vec<f64>,
     pub layer: Vec<usize>,
+    /// Number of them that rest, and take no part in steps.
+    pub resting: usize,
 }
 
 impl DropletSph {
@@ -99,6 +101,7 @@ impl DropletSph {
             laid.velocity.push(cloud.velocity[i].map(|v| v * units.speed));
             laid.volume.push(cloud.mass[i] * units.mass() / units.density);
             laid.layer.push(origin.layer[i] as usize);
+            laid.resting += usize::from(origin.hold[i] == ASLEEP);
         }
         laid
     }
@@ -129,7 +132,9 @@ impl DropletSph {
             velocity[2] -= speed;
             self.check_speed(velocity, run.ledger.time)?;
             self.drive_column(run, velocity, motion.temperature_at(0.5 * (from + to)));
+            let rest = self.put_to_sleep(run, to - from);
             run.advance(to - from)?;
+            run.cloud.append(rest);
             run.ledger.time = start + to;
             let now = fed(&mut run.ledger);
             (now.nozzle, now.volume) = (end, before.volume + motion.volume(to));

@@ -16,7 +16,7 @@ mod body;
 mod links;
 
 use super::cloud::Cloud;
-use super::feed::FREE;
+use super::feed::{ASLEEP, FREE};
 use super::images::Ends;
 use super::method::Method;
 use crate::runtime::parallel::Team;
@@ -57,6 +57,8 @@ pub enum Bond {
     Piece(u32),
     /// Fluid in a nozzle, which has its velocity.
     Nozzle,
+    /// Fluid at rest beside fluid that moves.
+    Asleep,
 }
 
 impl Bond {
@@ -65,7 +67,7 @@ impl Bond {
     }
 
     fn is_frozen(self) -> bool {
-        !matches!(self, Self::None | Self::Nozzle)
+        !matches!(self, Self::None | Self::Nozzle | Self::Asleep)
     }
 
     /// Factor of viscosity of a particle in sums over pairs of explicit viscosity.
@@ -79,7 +81,7 @@ impl Bond {
     }
 
     pub fn is_held(self) -> bool {
-        matches!(self, Self::Wall | Self::Plane | Self::Nozzle)
+        matches!(self, Self::Wall | Self::Plane | Self::Nozzle | Self::Asleep)
     }
 }
 
@@ -123,9 +125,10 @@ impl Pieces {
     fn hold(&mut self, cloud: &Cloud) {
         let Some(origin) = &cloud.origin else { return };
         self.bonds.resize(cloud.len(), Bond::None);
-        for (bond, _) in self.bonds.iter_mut().zip(&origin.hold).filter(|(_, hold)| **hold != FREE)
+        for (bond, hold) in
+            self.bonds.iter_mut().zip(&origin.hold).filter(|(_, hold)| **hold != FREE)
         {
-            *bond = Bond::Nozzle;
+            *bond = if *hold == ASLEEP { Bond::Asleep } else { Bond::Nozzle };
         }
     }
 

@@ -254,7 +254,7 @@ impl<'a> System<'a> {
         reactions.by_wall = self.team.map(forces.len(), |i| {
             let [fluid, wall] = self.with_pressure(i, forces[i]);
             let force = match self.frozen.bond(i) {
-                Bond::Wall => fluid.map(|force| -force),
+                Bond::Wall | Bond::Asleep => fluid.map(|force| -force),
                 Bond::Plane => [0.0; 3],
                 Bond::None | Bond::Piece(_) | Bond::Nozzle => wall,
             };
