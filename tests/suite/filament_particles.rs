@@ -41,7 +41,7 @@ interval = 5e-3
 /// its fluid has the section of the outlet.
 #[test]
 fn balances_close() {
-    let text = strand("") + "[[target]]\nof = \"ink\"\nline = [[-1e-3, 0.0], [1e-3, 0.0]]\n";
+    let text = strand("") + "[[target]]\nof = \"ink\"\nline = [[-3e-3, 0.0], [3e-3, 0.0]]\n";
     let mut trial = Trial::new(&text);
     (0..5).for_each(|_| trial.step(0.02));
     let mut get = |key: &str| trial.get(&format!("ink.{key}"));
@@ -108,4 +108,25 @@ fn steps_beyond_the_nozzle_are_refused() {
     trial.set_derivative("ink.nozzle_x", 1, 50.0);
     let refusal = trial.try_step(1e-4).unwrap_err().to_string();
     assert!(refusal.contains("speed of sound"), "{refusal}");
+}
+
+/// Paste behind the nozzle comes to rest, and its weight and momentum reach the plate all the same.
+#[test]
+fn paste_comes_to_rest() {
+    let warm = "viscosity = 5.0, specific_heat = 2000.0, conductivity = 0.2";
+    let paste = "viscosity = { law = \"bingham\", yield_stress = 100.0, plastic_viscosity = 1.0 }, specific_heat = 2000.0, \
+                 conductivity = 0.0";
+    let text = strand("").replace(warm, paste).replace("height = 1e-3", "height = 0.9e-3");
+    let text = text.replace("spacing = 0.2e-3", "spacing = 0.25e-3");
+    let mut trial = Trial::new(&text[..text.find("[body.plate]").unwrap()]);
+    (0..5).for_each(|_| trial.step(0.02));
+    let [resting, particles] = ["resting", "particles"].map(|key| trial.get(&format!("ink.{key}")));
+    assert!(resting > 0.0 && resting < particles, "{resting} of {particles}");
+    let before = trial.get("ink.impulse_z");
+    trial.step(0.5);
+    let pushes = (before - trial.get("ink.impulse_z")) / 0.5;
+    // The nozzle bears a part of the weight.
+    assert!((0.3..1.3).contains(&(pushes / (9.81 * trial.get("ink.mass")))), "{pushes}");
+    assert!(trial.get("ink.max_speed") < 1e-3);
+    trial.model.check_state(&trial.state).unwrap();
 }
