@@ -48,6 +48,7 @@ fn plan(lean: bool, surface_tension: f64) -> DropletPlan {
         mirrors: [false; 2],
         extents: [Extent::Open; 3],
         demand: None,
+        feed: None,
         releases: vec![release],
         wall: None,
     }

@@ -203,6 +203,7 @@ impl Run {
             mirrors: [false; 2],
             extents,
             demand: None,
+            feed: None,
             releases: Vec::new(),
             wall: None,
         }

@@ -3,7 +3,7 @@
 use super::contract::Body;
 use super::droplet::{DropletBody, ReplayBody};
 use super::error::BodyError;
-use super::filament::FilamentBody;
+use super::filament::{FilamentBody, ParticleFilament};
 use super::large_strain::{MovingBody, RestingBody, SwingingBody};
 use super::lattice::{MovingLatticeBody, RestingLatticeBody};
 use super::link::{self, Joint, Link};
@@ -11,7 +11,7 @@ use super::reduced::ReducedBody;
 use super::reservoir::ReservoirBody;
 use super::solid::SolidBody;
 use crate::inputs::InputLayout;
-use crate::scene::{self, MotionSteps, Scene};
+use crate::scene::{self, FilamentMethod, MotionSteps, Scene};
 
 /// All bodies of a scene.
 pub struct Assembly {
@@ -82,8 +82,13 @@ pub fn build(
                 let below = built[link.to].as_ref()?.conductor()?;
                 Some((below.cells(link.face)?, link))
             });
-            let body = FilamentBody::new(scene, (layout, start), (name, filament), cells);
-            built[index] = Some(Box::new(body));
+            let (inputs, own) = ((layout, start), (name.as_str(), &**filament));
+            built[index] = Some(match filament.method {
+                FilamentMethod::Line => Box::new(FilamentBody::new(scene, inputs, own, cells)),
+                FilamentMethod::Particles => {
+                    Box::new(ParticleFilament::new(scene, inputs, own, cells, threads))
+                }
+            });
         }
     }
     for (index, (name, body)) in scene.body.iter().enumerate() {

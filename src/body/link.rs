@@ -189,7 +189,7 @@ pub fn links(scene: &Scene, place: impl Fn(&str) -> Option<usize>) -> Vec<Link> 
             from => {
                 let plan = plan(scene, solid, scene.solid(solid)?);
                 match from {
-                    scene::Body::Filament(own) => filament::interval(coupling, own, &plan),
+                    scene::Body::Filament(own) => filament::interval(scene, coupling, (own, &plan)),
                     _ => interval(coupling, scene.droplet(&coupling.from)?, &plan),
                 }
             }

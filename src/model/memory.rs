@@ -43,7 +43,7 @@ impl Forecast {
         let filaments = self.filaments.iter().map(|body| Need {
             name: &body.name,
             memory: body.memory,
-            size: format!("{:.2e} segments", body.segments as f64),
+            size: format!("{:.2e} {}", body.count as f64, body.of),
             remedy: "a smaller `most` or a larger `spacing`",
         });
         let lattices = self.lattices.iter().map(|body| Need {

@@ -54,7 +54,7 @@ impl FilesForecast {
         let droplets = forecast.droplets.iter().map(|body| body.drawn as f64 * OF_PARTICLE);
         let large_strains =
             forecast.large_strains.iter().map(|body| body.drawn as f64 * OF_PARTICLE);
-        let filaments = forecast.filaments.iter().map(|body| body.segments as f64 * OF_PARTICLE);
+        let filaments = forecast.filaments.iter().map(|body| body.count as f64 * OF_PARTICLE);
         let lattices = forecast.lattices.iter().map(|body| body.particles as f64 * OF_PARTICLE);
         let strands = large_strains.chain(filaments).chain(lattices);
         let of_body: Vec<f64> =

@@ -366,7 +366,7 @@ fn yes() -> bool {
 const ONE_ARRIVAL: [Arrival; 1] = [Arrival { time: 0.0, x: 0.0, y: 0.0 }];
 
 /// Default speed of sound over the governing speed: it keeps the density within 1 %.
-const SOUND_OVER_FLOW: f64 = 10.0;
+pub(super) const SOUND_OVER_FLOW: f64 = 10.0;
 
 /// Smallest speed of sound over that of the flow or its surface. Below it the fluid would be compressed by 4 % and
 /// more, or its surface would detach.

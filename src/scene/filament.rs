@@ -32,12 +32,12 @@ pub struct Filament {
     pub path: NozzlePath,
     /// Largest volume that may come in a run [m³].
     #[schemars(transform = within(1e-24, 1e6, "m³", "the largest volume")
-        .condition("at most a million segments"))]
+        .condition("at most a million segments, or two million particles"))]
     pub most: f64,
-    /// Length of a segment where the strand is as thick as the nozzle [m].
+    /// Length of a segment where the strand is as thick as the nozzle; with `method = "particles"` their distance [m].
     #[schemars(transform = length("the length of a segment")
-        .condition("up to ten times the diameter of the nozzle")
-        .otherwise("half the diameter of the nozzle"))]
+        .condition("up to ten times the diameter of the nozzle; of particles up to a quarter of it")
+        .otherwise("half the diameter of the nozzle; of particles an eighth"))]
     pub spacing: Option<f64>,
     /// Body force per mass towards −z [m/s²].
     #[serde(default = "free_fall")]
@@ -45,7 +45,7 @@ pub struct Filament {
         .plausible(&plausible::GRAVITY))]
     pub gravity: f64,
     /// Heat that passes to the air.
-    #[schemars(extend("otherwise" = "none"))]
+    #[schemars(extend("otherwise" = "none", "condition" = "with `method = \"line\"`"))]
     pub convection: Option<Convection>,
 }
 
@@ -56,6 +56,8 @@ pub enum FilamentMethod {
     /// Segments of one width and one temperature along the centre line.
     #[default]
     Line,
+    /// Smoothed particles.
+    Particles,
 }
 
 /// A round nozzle that points downwards.
@@ -195,6 +197,16 @@ impl Filament {
     /// Length of a segment where the strand is as thick as the nozzle [m].
     pub fn segment_length(&self) -> f64 {
         self.spacing.unwrap_or(0.5 * self.nozzle.diameter)
+    }
+
+    /// Distance of particles [m].
+    pub fn particle_distance(&self) -> f64 {
+        self.spacing.unwrap_or(0.125 * self.nozzle.diameter)
+    }
+
+    /// Number of particles of the largest volume.
+    pub fn particles(&self) -> f64 {
+        self.most / self.particle_distance().powi(3)
     }
 
     /// Returns true if inputs move the nozzle.

@@ -1,11 +1,11 @@
 //! Look-ups in a checked scene.
 
-use super::droplet::{Coupling, Droplet};
+use super::droplet::{Coupling, Droplet, SOUND_OVER_FLOW};
 use super::filament::{Filament, Target};
 use super::large_strain::LargeStrain;
 use super::lattice::Lattice;
 use super::reservoir::Reservoir;
-use super::route::Route;
+use super::route::{Leg, Route};
 use super::types::*;
 use crate::limits::Bounds;
 use crate::quantity::Quantity;
@@ -84,6 +84,36 @@ impl Scene {
     pub fn lies_below_strand(&self, name: &str) -> bool {
         let is_on_it = |place: &str| place.rsplit_once('.').is_some_and(|(body, _)| body == name);
         self.coupling.iter().any(|own| is_on_it(&own.to) && self.filament(&own.from).is_some())
+    }
+
+    /// Largest speed of fluid and nozzle that a filament of particles expects [m/s]: that of the flow, of the path, of a fall
+    /// from the outlet and of surface tension. A flow that only inputs set is expected to bring `most` by the stop time.
+    pub fn fastest_strand(&self, filament: &Filament) -> f64 {
+        let route = self.route(filament);
+        let legs = || route.iter().flat_map(|route| &route.legs);
+        let of_legs = legs().map(Leg::largest_flow).fold(0.0, f64::max);
+        let flow = match of_legs.max(filament.nozzle.flow) {
+            0.0 => filament.most / self.stop_time,
+            flow => flow,
+        };
+        let speed = legs().map(Leg::fastest).fold(0.0, f64::max);
+        let heights = legs().map(|leg| leg.place[0][2].max(leg.at(leg.duration)[2]));
+        let height = heights.fold(filament.nozzle.height, f64::max);
+        let fall = (2.0 * filament.gravity * height).sqrt();
+        let radius = 0.5 * filament.nozzle.diameter;
+        let capillary = filament.fluid.capillary_speed_squared(radius).sqrt();
+        [flow / filament.outlet(), speed, fall, capillary].into_iter().fold(0.0, f64::max)
+    }
+
+    /// Speed of sound of a filament of particles [m/s]: that of its fluid, or ten times the fastest of its flow, of the
+    /// pressure of its surface and of that of its viscosity.
+    pub fn sound_of_strand(&self, filament: &Filament) -> f64 {
+        let (fluid, diameter) = (&filament.fluid, filament.nozzle.diameter);
+        let fastest = self.fastest_strand(filament);
+        let viscosity = fluid.reference_viscosity(filament.nozzle.temperature, fastest / diameter);
+        let viscous = fluid.viscous_speed(viscosity, fastest, diameter);
+        let surface = fluid.laplace_speed(filament.particle_distance());
+        fluid.sound_speed.unwrap_or(SOUND_OVER_FLOW * fastest.max(viscous).max(surface))
     }
 
     /// The filaments, in the order of their names.

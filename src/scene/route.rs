@@ -31,6 +31,21 @@ impl Leg {
         self.start + self.duration
     }
 
+    /// Larger one of the speeds at both ends [m/s].
+    pub fn fastest(&self) -> f64 {
+        let [_, velocity, bend] = self.place;
+        let speed = |s: f64| {
+            let along = |axis: usize| velocity[axis] + s * bend[axis];
+            (0..3).map(|axis| along(axis).powi(2)).sum::<f64>().sqrt()
+        };
+        speed(0.0).max(speed(self.duration))
+    }
+
+    /// Larger one of the flows at both ends [m³/s]; 0 where an input sets the flow.
+    pub fn largest_flow(&self) -> f64 {
+        self.flow.map_or(0.0, |[value, slope]| value.max(value + slope * self.duration))
+    }
+
     /// Volume that the route lets come in a part of the leg [m³]; 0 where an input sets the flow.
     fn volume(&self, duration: f64) -> f64 {
         self.flow.map_or(0.0, |[value, slope]| duration * (value + 0.5 * slope * duration))

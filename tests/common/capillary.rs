@@ -48,6 +48,7 @@ pub fn plan(dimension: usize, across: f64, viscosity: f64) -> DropletPlan {
         mirrors: [dimension == 3; 2],
         extents: [Extent::Open; 3],
         demand: None,
+        feed: None,
         releases: vec![Release {
             time: 0.0,
             centre: [0.0; 3],

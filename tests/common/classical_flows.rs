@@ -157,6 +157,7 @@ impl Setup {
             mirrors: [false; 2],
             extents: self.extents,
             demand: None,
+            feed: None,
             releases: Vec::new(),
             wall: self.cells.map(|cells| Wall {
                 cells,

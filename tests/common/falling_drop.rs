@@ -45,6 +45,7 @@ pub fn open_space(spacing: f64, fluid: Fluid) -> DropletPlan {
         mirrors: [false; 2],
         extents: [Extent::Open; 3],
         demand: None,
+        feed: None,
         releases: Vec::new(),
         wall: None,
     }

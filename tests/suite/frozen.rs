@@ -54,6 +54,7 @@ fn plan() -> DropletPlan {
         extents: [Extent::Open; 3],
         releases: vec![release],
         demand: None,
+        feed: None,
         wall: None,
     }
 }

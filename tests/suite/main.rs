@@ -30,6 +30,7 @@ mod droplet;
 mod failure;
 mod field_means;
 mod filament;
+mod filament_particles;
 mod lattice;
 mod fine_meshes;
 mod flaws;

@@ -123,6 +123,7 @@ fn ball(viscosity: f64, viscous: Viscous) -> (DropletSph, ParticleFields) {
         extents: [Extent::Open; 3],
         releases: Vec::new(),
         demand: None,
+        feed: None,
         wall: None,
     };
     let axis = || -4..=4;

@@ -51,6 +51,7 @@ fn film_plan(cells: WallCells, effusivity: Option<f64>, mirrors: [bool; 2]) -> D
         extents: [Extent::Open; 3],
         // That of the reference temperature alone.
         demand: None,
+        feed: None,
         releases: vec![Release {
             time: 0.0,
             centre: [0.0, 0.0, 1e-3],

@@ -1,6 +1,6 @@
 //! Tables of a scene's bodies.
 
-use impinge::scene::{Droplet, Layer, MaterialChoice, Scene, Shape, SolidShape};
+use impinge::scene::{Droplet, FilamentMethod, Layer, MaterialChoice, Scene, Shape, SolidShape};
 
 use super::words::{key, metres};
 use crate::table::table;
@@ -91,11 +91,14 @@ pub fn filaments(scene: &Scene) -> String {
                 metres(filament.nozzle.height),
                 kelvin(filament.nozzle.temperature),
                 if by_inputs { "by inputs" } else { "by its table" }.to_owned(),
-                metres(filament.segment_length()),
+                metres(match filament.method {
+                    FilamentMethod::Line => filament.segment_length(),
+                    FilamentMethod::Particles => filament.particle_distance(),
+                }),
             ]
         })
         .collect();
-    table(["filament", "nozzle", "height", "comes at", "moves", "segments"], &rows)
+    table(["filament", "nozzle", "height", "comes at", "moves", "segments, particles"], &rows)
 }
 
 pub fn lattices(scene: &Scene) -> String {

@@ -89,7 +89,7 @@ fn models(scene: &Scene, forecast: &Forecast) -> String {
         .iter()
         .map(|body| format!("{}: {} nodes of large strain", body.name, body.nodes));
     let filaments =
-        forecast.filaments.iter().map(|body| format!("{}: {} segments", body.name, body.segments));
+        forecast.filaments.iter().map(|body| format!("{}: {} {}", body.name, body.count, body.of));
     let lattices = forecast
         .lattices
         .iter()

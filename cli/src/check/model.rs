@@ -99,7 +99,7 @@ pub fn notes(forecast: &Forecast) -> String {
         cost(&mut text, (body.memory, body.run_time), "steps", &body.notes);
     }
     for body in &forecast.filaments {
-        let _ = writeln!(text, "  {}: room for {} segments", body.name, body.segments);
+        let _ = writeln!(text, "  {}: room for {} {}", body.name, body.count, body.of);
         cost(&mut text, (body.memory, body.run_time), "steps", &body.notes);
     }
     text

@@ -12,7 +12,7 @@ mod wall;
 mod warnings;
 mod watch;
 
-pub use forecast::{DropletForecast, exchange_time};
+pub use forecast::{DropletForecast, PARTICLE_MEMORY, exchange_time};
 pub use notes::{notes, notes_on_walls};
 pub use plan::{fine_radius, plan_of, refinements};
 pub use replay::{Kept, ReplayBody, forget_unused_records, keep_record, records, to_be_recorded};

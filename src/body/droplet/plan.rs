@@ -45,6 +45,7 @@ pub fn plan_of(
         extents: [Extent::Open; 3],
         releases: droplet.arrivals().iter().map(release).collect(),
         demand: droplet.is_on_demand().then_some(Demand { most: droplet.drops(), expected }),
+        feed: None,
         wall: cells.map(|cells| sph::Wall {
             cells,
             contact_angle: fluid.contact_angle,

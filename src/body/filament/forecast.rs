@@ -2,17 +2,20 @@
 
 use super::warnings::heat_error;
 use super::{interval, plan};
-use crate::body::droplet::exchange_time;
+use crate::body::droplet::{PARTICLE_MEMORY, exchange_time, is_large};
 use crate::body::link;
 use crate::body::solid::plan as solid_plan;
+use crate::body::threads_for;
 use crate::method::fem::Plan;
-use crate::scene::{Filament, Scene};
+use crate::method::sph::{DropletSph, Viscous};
+use crate::scene::{Filament, FilamentMethod, Scene};
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct FilamentForecast {
     pub name: String,
-    /// Number of segments of the largest volume.
-    pub segments: usize,
+    /// Number of segments or particles of the largest volume, and the word for them.
+    pub count: usize,
+    pub of: &'static str,
     /// Memory [B].
     pub memory: f64,
     /// Time of all steps of the default experiment [s].
@@ -27,15 +30,17 @@ pub struct FilamentForecast {
 const SEGMENT: f64 = 1000.0;
 /// Time of a segment in a step [s], measured on wax above a plate of 2500 nodes.
 const STEP: f64 = 4e-6;
+/// Time of a particle in a time step with solved pressure [s], measured on strands of 10 Pa s with 280 to 1800 particles.
+const PARTICLE_STEP: f64 = 40e-6;
 
 impl FilamentForecast {
     pub fn of(scene: &Scene, name: &str, filament: &Filament) -> Self {
+        if filament.method == FilamentMethod::Particles {
+            return Self::of_particles(scene, (name, filament));
+        }
         let plan = plan::plan_of(filament, None, None);
         let segments = plan.capacity();
-        let route = scene.route(filament).filter(|_| filament.path_sets_flow());
-        let of_flow = || filament.nozzle.flow * scene.stop_time;
-        let volume = route.map_or_else(of_flow, |route| route.volume_until(scene.stop_time));
-        let volume = if volume > 0.0 { volume.min(filament.most) } else { filament.most };
+        let volume = expected_volume(scene, filament);
         // Half of them in the mean.
         let laid = 0.5 * volume / plan.segment_volume();
         let steps = (scene.stop_time / scene.step).ceil();
@@ -52,7 +57,8 @@ impl FilamentForecast {
         let of_solid = below.map_or(0.0, |(_, plan)| exchanges * exchange_time(&plan, exchange));
         Self {
             name: name.to_owned(),
-            segments,
+            count: segments,
+            of: "segments",
             memory: SEGMENT * segments as f64,
             run_time: STEP * exchanges * laid + of_solid,
             heat_error,
@@ -61,12 +67,46 @@ impl FilamentForecast {
     }
 }
 
+impl FilamentForecast {
+    fn of_particles(scene: &Scene, (name, filament): (&str, &Filament)) -> Self {
+        let outlet = [0.0, 0.0, filament.nozzle.height];
+        let sph = plan::particles_of(scene, (name, filament), (None, outlet));
+        let (count, time_step) = DropletSph::forecast(&sph);
+        let threads = threads_for(scene.solver.threads, is_large(count)) as f64;
+        let below = contact(scene, name, filament);
+        let parts = below.as_ref().map_or(1, |(interval, _)| link::parts(*interval, scene.step));
+        let exchanges = (scene.stop_time / scene.step).ceil() * parts as f64;
+        let exchange = scene.step / parts as f64;
+        let of_solid = below.map_or(0.0, |(_, plan)| exchanges * exchange_time(&plan, exchange));
+        // Half of the particles in the mean.
+        let mean = 0.5 * expected_volume(scene, filament) / sph.spacing.powi(3);
+        let of_fluid = PARTICLE_STEP * mean * scene.stop_time / time_step / threads;
+        Self {
+            name: name.to_owned(),
+            count,
+            of: "particles",
+            memory: PARTICLE_MEMORY * count as f64,
+            run_time: of_fluid + of_solid,
+            heat_error: None,
+            notes: notes(scene, (name, filament)),
+        }
+    }
+}
+
+/// Volume that comes in the default experiment [m³].
+fn expected_volume(scene: &Scene, filament: &Filament) -> f64 {
+    let route = scene.route(filament).filter(|_| filament.path_sets_flow());
+    let of_flow = || filament.nozzle.flow * scene.stop_time;
+    let volume = route.map_or_else(of_flow, |route| route.volume_until(scene.stop_time));
+    if volume > 0.0 { volume.min(filament.most) } else { filament.most }
+}
+
 /// Longest time between two exchanges with the solid below [s] and the plan of that, if there is one.
 fn contact(scene: &Scene, name: &str, filament: &Filament) -> Option<(f64, Plan)> {
     let coupling = &scene.coupling[scene.coupling_from(name)?];
     let solid = coupling.solid()?;
     let plan = solid_plan(scene, solid, scene.solid(solid)?);
-    Some((interval(coupling, filament, &plan), plan))
+    Some((interval(scene, coupling, (filament, &plan)), plan))
 }
 
 /// Viscosity [Pa s] and kinetic pressure over that of viscosity or surface tension above which inertia throws strands.
@@ -74,6 +114,9 @@ const INERTIAL: f64 = 1.0;
 
 /// Returns notes on choices and simplifications, with reasons: one sentence each.
 pub fn notes(scene: &Scene, (name, filament): (&str, &Filament)) -> Vec<String> {
+    if filament.method == FilamentMethod::Particles {
+        return notes_on_particles(scene, (name, filament));
+    }
     let spacing = filament.segment_length();
     let mut notes = vec![
         format!(
@@ -95,6 +138,33 @@ pub fn notes(scene: &Scene, (name, filament): (&str, &Filament)) -> Vec<String> 
     }
     notes.extend(inertia(scene, filament));
     notes
+}
+
+/// Returns the notes on a filament of particles.
+fn notes_on_particles(scene: &Scene, (name, filament): (&str, &Filament)) -> Vec<String> {
+    let plan = plan::particles_of(scene, (name, filament), (None, [0.0; 3]));
+    let across = filament.nozzle.diameter / plan.spacing;
+    let advance = match plan.viscous {
+        Viscous::WithPressure { .. } => "pressure and viscosity are solved at the end of each step",
+        _ => "pressure and viscosity are explicit, as that is cheaper",
+    };
+    let fluid = &filament.fluid;
+    let cost = match fluid.viscosity.yield_stress() > 0.0 && fluid.conductivity == 0.0 {
+        true => "fluid that has come to rest takes no part in steps",
+        false => {
+            "all of them take part in every step, so the cost grows with the square of the length: only fluid that yields and \
+             conducts no heat comes to rest"
+        }
+    };
+    vec![
+        format!(
+            "{across:.1} particles across the nozzle, {:.2e} m apart, leave it in layers, with the mean speed of the flow; \
+             {advance}, and sound passes at {:.2e} m/s",
+            plan.spacing, plan.fluid.sound_speed
+        ),
+        cost.to_owned(),
+        "the nozzle has no rim: fluid that it presses into a gap below its diameter may rise beside it".to_owned(),
+    ]
 }
 
 /// Notes a fluid that leaves the nozzle so fast that its inertia matters, which the model leaves out.

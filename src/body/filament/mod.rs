@@ -2,11 +2,13 @@
 
 mod forecast;
 mod motions;
+mod particles;
 mod plan;
 mod totals;
 mod warnings;
 
 pub use forecast::FilamentForecast;
+pub use particles::ParticleFilament;
 pub use plan::refinement;
 pub use totals::offered_totals;
 pub use warnings::warnings_on_strands;
@@ -19,13 +21,11 @@ use crate::body::{
 use crate::inputs::{InputLayout, InputPath};
 use crate::laws::Constants;
 use crate::method::fem::Plan;
-use crate::method::filament::{
-    Around, Deviation, Failure, Line, LineTotals, Segment, Strand, Target,
-};
+use crate::method::filament::{Around, Deviation, Failure, Line, Segment, Strand, Target};
 use crate::method::sph::{ParticleFields, WarmPlace};
 use crate::port::{Surface, WallCells};
 use crate::runtime::allowance::{Allowance, cost};
-use crate::scene::{Coupling, Filament, Scene};
+use crate::scene::{Coupling, Filament, FilamentMethod, Scene};
 use crate::state::store_all;
 use crate::warning::{self, Warning};
 
@@ -92,7 +92,7 @@ impl FilamentBody {
 
 impl Structured for FilamentBody {
     type State = Strand;
-    type View = (Strand, LineTotals, Deviation);
+    type View = Seen;
 
     fn name(&self) -> &str {
         &self.name
@@ -111,18 +111,7 @@ impl Structured for FilamentBody {
     }
 
     fn check_inputs(&self, inputs: &[f64]) -> Result<(), BodyError> {
-        let cold = self.nozzle.temperatures(inputs).find(|(_, value)| *value <= 0.0);
-        if let Some((index, value)) = cold {
-            let message = format!("{value} K is not above absolute zero");
-            return Err(BodyError::Input { index, message });
-        }
-        match self.nozzle.flow_back(inputs) {
-            Some((index, flow)) => {
-                let message = format!("a flow of {flow} m³/s goes back into the nozzle");
-                Err(BodyError::Input { index, message })
-            }
-            None => Ok(()),
-        }
+        self.nozzle.check(inputs)
     }
 
     fn advance(
@@ -144,20 +133,34 @@ impl Structured for FilamentBody {
         Ok(self.given_of(state))
     }
 
-    fn view(&self, strand: Strand, _: &[f64]) -> Result<Self::View, BodyError> {
-        let totals = self.line.totals(&strand);
-        let deviation = self.target.as_ref().map(|target| target.deviation(&strand));
-        Ok((strand, totals, deviation.unwrap_or_default()))
+    fn view(&self, strand: Strand, _: &[f64]) -> Result<Seen, BodyError> {
+        let segments: Vec<Segment> = strand.segments().collect();
+        let density = self.line.plan().fluid.density;
+        Ok(Seen {
+            volume: strand.volume,
+            mass: density * strand.volume,
+            totals: self.line.totals(&strand),
+            deviation: (self.target.as_ref())
+                .map_or_else(Deviation::default, |target| target.deviation(&segments)),
+            segments: segments.len(),
+            touch: strand.touch,
+            impulse: strand.impulse,
+            supplied: strand.supplied,
+            given: strand.given,
+            lost: strand.lost,
+            exchanged: [
+                strand.cell_heat.iter().sum(),
+                strand.cell_impulse.iter().map(|impulse| impulse[2]).sum(),
+            ],
+            duration: strand.duration,
+            density,
+            ..Seen::default()
+        })
     }
 
-    fn read(
-        &self,
-        (strand, totals, deviation): &Self::View,
-        reading: &Reading,
-    ) -> Result<f64, BodyError> {
+    fn read(&self, seen: &Seen, reading: &Reading) -> Result<f64, BodyError> {
         let Reading::Total(place) = *reading else { return Err(BodyError::NoSuchReading) };
-        let density = self.line.plan().fluid.density;
-        Ok(totals::read(place, &Seen { strand, totals, deviation, density }))
+        Ok(totals::read(place, seen))
     }
 
     /// Segments are drawn as particles in their middle.
@@ -219,13 +222,11 @@ impl Advice for FilamentBody {
             return Vec::new();
         }
         let strand = self.structure(state);
-        let spacing = self.line.plan().spacing;
-        let jumped = (strand.jump > spacing).then(|| {
-            warning::nozzle_jumps(format!("{:.2e}", strand.jump), format!("{spacing:.2e}"))
-        });
-        let late = (strand.late == 1.0).then(warning::nozzle_is_late);
         let beyond = self.line.reaches_beyond(&strand).then(warning::strand_beyond_edge);
-        jumped.into_iter().chain(late).chain(beyond).map(|finding| finding.at(&self.name)).collect()
+        plan::nozzle_warnings([strand.jump, self.line.plan().spacing], strand.late == 1.0)
+            .chain(beyond)
+            .map(|finding| finding.at(&self.name))
+            .collect()
     }
 
     fn watch(&self) -> Option<&Watch> {
@@ -265,7 +266,9 @@ const ALONG: f64 = 3e-3;
 /// stays small there, the more so the smaller the rise `e_f/(e + e_f)` of its temperature is. D is the diameter of the
 /// nozzle, e and e_f are the effusivities of solid and fluid; of layers, the largest a and the smallest e. With
 /// c = 0.003 the heat of wax and solder on glass, copper and FR4 is accurate to 3 % in steps of any length.
-pub fn interval(coupling: &Coupling, filament: &Filament, plan: &Plan) -> f64 {
+///
+/// Particles exchange as often as the nozzle passes one of them, too.
+pub fn interval(scene: &Scene, coupling: &Coupling, (filament, plan): (&Filament, &Plan)) -> f64 {
     let of_layer = |share: f64, constants: Constants| {
         let along = filament.nozzle.diameter.powi(2) * constants.heat_capacity();
         ALONG * share * along / constants.conductivity
@@ -274,5 +277,9 @@ pub fn interval(coupling: &Coupling, filament: &Filament, plan: &Plan) -> f64 {
     let solid = layers().map(|c| c.effusivity()).fold(f64::INFINITY, f64::min);
     let share = (1.0 + solid / filament.fluid.effusivity()).powi(2);
     let along = layers().map(|c| of_layer(share, c)).fold(f64::INFINITY, f64::min);
-    coupling.interval.unwrap_or(along)
+    let passing = match filament.method {
+        FilamentMethod::Line => f64::INFINITY,
+        FilamentMethod::Particles => filament.particle_distance() / scene.fastest_strand(filament),
+    };
+    coupling.interval.unwrap_or(along.min(passing))
 }

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use crate::inputs::InputPath;
-use crate::method::filament::Motion;
+use crate::body::BodyError;
+use crate::inputs::{InputPath, Motion};
 use crate::scene::{Filament, Route};
 
 /// Part of a segment that is no distance between two places of the nozzle.
@@ -61,15 +61,31 @@ impl NozzleInputs {
     }
 
     /// Places and values of inputs that are temperatures.
-    pub fn temperatures<'a>(&self, inputs: &'a [f64]) -> impl Iterator<Item = (usize, f64)> + 'a {
+    fn temperatures<'a>(&self, inputs: &'a [f64]) -> impl Iterator<Item = (usize, f64)> + 'a {
         let places = [Some(self.temperature), self.air].into_iter().flatten();
         places.map(|place| (place, inputs[place]))
     }
 
     /// The flow of an input vector [m³/s] that goes back into the nozzle, with its place.
-    pub fn flow_back(&self, inputs: &[f64]) -> Option<(usize, f64)> {
+    fn flow_back(&self, inputs: &[f64]) -> Option<(usize, f64)> {
         let flow = inputs[self.flow?];
         (flow < -self.rounding).then_some((self.flow?, flow))
+    }
+
+    /// Refuses temperatures that are not above absolute zero, and a flow that goes back.
+    pub fn check(&self, inputs: &[f64]) -> Result<(), BodyError> {
+        let cold = self.temperatures(inputs).find(|(_, value)| *value <= 0.0);
+        if let Some((index, value)) = cold {
+            let message = format!("{value} K is not above absolute zero");
+            return Err(BodyError::Input { index, message });
+        }
+        match self.flow_back(inputs) {
+            Some((index, flow)) => {
+                let message = format!("a flow of {flow} m³/s goes back into the nozzle");
+                Err(BodyError::Input { index, message })
+            }
+            None => Ok(()),
+        }
     }
 
     /// The places of the nozzle that were set without derivatives and apart from its place [m]: it moves evenly to them

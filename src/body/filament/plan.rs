@@ -1,9 +1,12 @@
 //! Converts a filament of a scene to the plan of its method.
 
+use crate::kernel::Kernel;
 use crate::method::fem::Refinement;
 use crate::method::filament::{LinePlan, Target};
+use crate::method::sph::{self, DropletPlan, Extent, Feed, Placement, Precision, Viscous};
 use crate::port::WallCells;
-use crate::scene::{Coupling, Filament, Scene, Solid, lateral_extents};
+use crate::scene::{Coupling, Droplet, Filament, Scene, Solid, lateral_extents};
+use crate::warning::{self, Finding};
 
 /// Returns the plan of a filament, above the cells of a solid or above an insulated plane.
 pub fn plan_of(
@@ -22,6 +25,70 @@ pub fn plan_of(
         conductance,
         cells,
     }
+}
+
+/// Side of the plate of a filament without a solid below [m].
+const PLATE: f64 = 1e3;
+
+/// Returns the plan of a filament of particles, above the cells of a solid or on a plate that takes no heat, with the place
+/// of the outlet at time zero.
+pub fn particles_of(
+    scene: &Scene,
+    (name, filament): (&str, &Filament),
+    (cells, outlet): (Option<WallCells>, [f64; 3]),
+) -> DropletPlan {
+    let fluid = &filament.fluid;
+    let fastest = scene.fastest_strand(filament);
+    let tension = fluid.surface_tension;
+    let inertia = fluid.density * fastest.powi(2) * filament.nozzle.diameter;
+    let plan = DropletPlan {
+        dimension: 3,
+        axisymmetric: false,
+        spacing: filament.particle_distance(),
+        support: Droplet::DEFAULT_SUPPORT,
+        kernel: Kernel::WendlandC2,
+        fluid: sph::Fluid {
+            density: fluid.density,
+            viscosity: fluid.viscosity.clone(),
+            specific_heat: fluid.specific_heat,
+            conductivity: fluid.conductivity,
+            surface_tension: tension,
+            sound_speed: scene.sound_of_strand(filament),
+            freezing: None,
+        },
+        placement: Placement::Lattice,
+        precision: Precision::Single,
+        viscous: Viscous::WithPressure { rate: fastest / filament.nozzle.diameter },
+        density_diffusion: Droplet::DEFAULT_DENSITY_DIFFUSION,
+        corrected_diffusion: true,
+        shifting: tension == 0.0 || inertia > tension,
+        gravity: [0.0, 0.0, -filament.gravity],
+        mirrors: [false; 2],
+        extents: [Extent::Open; 3],
+        releases: Vec::new(),
+        demand: None,
+        feed: Some(Feed {
+            diameter: filament.nozzle.diameter,
+            outlet,
+            most: filament.most,
+            fastest,
+            temperature: filament.nozzle.temperature,
+        }),
+        wall: Some(sph::Wall {
+            cells: cells.unwrap_or(WallCells::Tiles { count: [1, 1], size: [PLATE, PLATE] }),
+            contact_angle: fluid.contact_angle,
+            effusivity: None,
+            conductance: scene.conductance_below(name),
+        }),
+    };
+    plan.with_cheaper_viscosity(fastest)
+}
+
+/// Warnings about a nozzle that has jumped further than a limit [m], or that is late.
+pub fn nozzle_warnings([jump, limit]: [f64; 2], is_late: bool) -> impl Iterator<Item = Finding> {
+    let jumped = (jump > limit)
+        .then(|| warning::nozzle_jumps(format!("{jump:.2e}"), format!("{limit:.2e}")));
+    jumped.into_iter().chain(is_late.then(warning::nozzle_is_late))
 }
 
 /// The line that a filament is meant to follow.

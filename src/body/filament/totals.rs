@@ -1,9 +1,10 @@
 //! Readings of filaments.
 
 use crate::body::{Descriptor, Direct};
-use crate::method::filament::{Deviation, LineTotals, Strand};
+use crate::method::filament::{Deviation, LineTotals};
+use crate::method::sph::DropletTotals;
 use crate::quantity::Quantity;
-use crate::scene::{Filament, Scene};
+use crate::scene::{Filament, FilamentMethod, Scene};
 
 /// A scalar and its reader.
 struct Total {
@@ -22,34 +23,55 @@ enum Offered {
     InAir,
     OnASolid,
     WithATarget,
+    OfParticles,
+    OfYieldingParticles,
 }
 
-/// A strand with its sums, as readings see it.
-pub struct Seen<'a> {
-    pub strand: &'a Strand,
-    pub totals: &'a LineTotals,
-    pub deviation: &'a Deviation,
+/// A strand, as readings see it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Seen {
+    /// Volume that has come [m³], and mass [kg].
+    pub volume: f64,
+    pub mass: f64,
+    /// Sums over the segments, and over the strand of a line its heat.
+    pub totals: LineTotals,
+    pub deviation: Deviation,
+    pub segments: usize,
+    /// Place of touchdown [m].
+    pub touch: [f64; 2],
+    /// Impulse given to what lies below [N s].
+    pub impulse: [f64; 3],
+    /// Heat as the fluid came, given to what lies below and to the air [J].
+    pub supplied: f64,
+    pub given: f64,
+    pub lost: f64,
+    /// Heat [J] and impulse along z [N s] of the last exchange, and its duration [s].
+    pub exchanged: [f64; 2],
+    pub duration: f64,
+    /// Sums over particles; zero for a line.
+    pub particles: DropletTotals,
+    /// Number of particles that rest.
+    pub resting: usize,
+    /// Density at rest [kg/m³].
     pub density: f64,
 }
 
-impl Seen<'_> {
+impl Seen {
     /// A mean rate in the last step.
     fn rate(&self, amount: f64) -> f64 {
-        if self.strand.duration > 0.0 { amount / self.strand.duration } else { 0.0 }
+        if self.duration > 0.0 { amount / self.duration } else { 0.0 }
     }
 }
 
-const TOTALS: [Total; 29] = [
-    total("volume", "volume that has come so far", Quantity::Volume, |seen| seen.strand.volume),
+const TOTALS: [Total; 36] = [
+    total("volume", "volume that has come so far", Quantity::Volume, |seen| seen.volume),
     total(
         "volume_drift",
         "error of the volume balance: volume of the segments minus volume that has come",
         Quantity::Volume,
-        |seen| seen.totals.volume - seen.strand.volume,
+        |seen| seen.totals.volume - seen.volume,
     ),
-    total("mass", "mass that has come so far", Quantity::Mass, |seen| {
-        seen.density * seen.strand.volume
-    }),
+    total("mass", "mass that has come so far", Quantity::Mass, |seen| seen.mass),
     total("length", "length of the centre line laid so far", Quantity::Length, |seen| {
         seen.totals.length
     }),
@@ -75,10 +97,10 @@ const TOTALS: [Total; 29] = [
         |seen| seen.totals.lag,
     ),
     total("touchdown_x", "x at which the strand touches down", Quantity::Length, |seen| {
-        seen.strand.touch[0]
+        seen.touch[0]
     }),
     total("touchdown_y", "y at which the strand touches down", Quantity::Length, |seen| {
-        seen.strand.touch[1]
+        seen.touch[1]
     }),
     of(
         Offered::Yielding,
@@ -89,24 +111,24 @@ const TOTALS: [Total; 29] = [
             |seen| seen.totals.bearing,
         ),
     ),
-    total("segments", "number of segments", Quantity::Count, |seen| seen.strand.len() as f64),
+    total("segments", "number of segments", Quantity::Count, |seen| seen.segments as f64),
     total(
         "impulse_x",
         "impulse along x given to what lies below since time zero",
         Quantity::Momentum,
-        |seen| seen.strand.impulse[0],
+        |seen| seen.impulse[0],
     ),
     total(
         "impulse_y",
         "impulse along y given to what lies below since time zero",
         Quantity::Momentum,
-        |seen| seen.strand.impulse[1],
+        |seen| seen.impulse[1],
     ),
     total(
         "impulse_z",
         "impulse along z given to what lies below since time zero",
         Quantity::Momentum,
-        |seen| seen.strand.impulse[2],
+        |seen| seen.impulse[2],
     ),
     of(
         Offered::OfHeat,
@@ -132,7 +154,7 @@ const TOTALS: [Total; 29] = [
             "heat_supplied",
             "heat of the fluid as it came, above that at the start temperature of the nozzle",
             Quantity::Energy,
-            |seen| seen.strand.supplied,
+            |seen| seen.supplied,
         ),
     ),
     of(
@@ -162,13 +184,13 @@ const TOTALS: [Total; 29] = [
     of(
         Offered::InAir,
         total("heat_lost", "heat given to the air since time zero", Quantity::Energy, |seen| {
-            seen.strand.lost
+            seen.lost
         }),
     ),
     of(
         Offered::OnASolid,
         total("heat", "heat given to the solid below since time zero", Quantity::Energy, |seen| {
-            seen.strand.given
+            seen.given
         }),
     ),
     of(
@@ -177,7 +199,7 @@ const TOTALS: [Total; 29] = [
             "heat_flow",
             "heat flow into the solid below, mean over the last exchange",
             Quantity::HeatFlow,
-            |seen| seen.rate(seen.strand.cell_heat.iter().sum()),
+            |seen| seen.rate(seen.exchanged[0]),
         ),
     ),
     of(
@@ -186,7 +208,7 @@ const TOTALS: [Total; 29] = [
             "force",
             "force into the solid below, mean over the last exchange",
             Quantity::Force,
-            |seen| seen.rate(seen.strand.cell_impulse.iter().map(|impulse| -impulse[2]).sum()),
+            |seen| seen.rate(-seen.exchanged[1]),
         ),
     ),
     of(
@@ -216,6 +238,34 @@ const TOTALS: [Total; 29] = [
             |seen| seen.deviation.gap,
         ),
     ),
+    particles("particles", "number of particles", Quantity::Ratio, |seen| seen.particles.particles),
+    particles("steps", "time steps made inside the unit", Quantity::Ratio, |seen| {
+        seen.particles.steps
+    }),
+    particles("max_speed", "highest speed of a particle", Quantity::Velocity, |seen| {
+        seen.particles.max_speed
+    }),
+    particles("min_density", "lowest density of a particle", Quantity::Density, |seen| {
+        seen.density * seen.particles.density_range[0]
+    }),
+    particles("max_density", "highest density of a particle", Quantity::Density, |seen| {
+        seen.density * seen.particles.density_range[1]
+    }),
+    of(
+        Offered::OfYieldingParticles,
+        total("yielded_fraction", "fraction of the mass that yields", Quantity::Ratio, |seen| {
+            seen.particles.yielded_mass / seen.particles.mass
+        }),
+    ),
+    of(
+        Offered::OfYieldingParticles,
+        total(
+            "resting",
+            "number of particles at rest, which take no part in steps",
+            Quantity::Count,
+            |seen| seen.resting as f64,
+        ),
+    ),
 ];
 
 const fn total(
@@ -228,6 +278,15 @@ const fn total(
     Total { descriptor, of: Offered::All, read }
 }
 
+const fn particles(
+    key: &'static str,
+    words: &'static str,
+    quantity: Quantity,
+    read: fn(&Seen) -> f64,
+) -> Total {
+    of(Offered::OfParticles, total(key, words, quantity, read))
+}
+
 const fn of(of: Offered, total: Total) -> Total {
     Total { of, ..total }
 }
@@ -237,11 +296,15 @@ pub fn offered_totals(
     scene: &Scene,
     (name, filament): (&str, &Filament),
 ) -> Vec<(usize, Descriptor)> {
+    let yields = filament.fluid.viscosity.yield_stress() > 0.0;
+    let by_particles = filament.method == FilamentMethod::Particles;
     let is_offered = |total: &Total| match total.of {
         Offered::All => true,
         Offered::OfHeat => filament.fluid.conductivity > 0.0,
-        Offered::Freezing => filament.fluid.melting.is_some(),
-        Offered::Yielding => filament.fluid.viscosity.yield_stress() > 0.0,
+        Offered::Freezing => filament.fluid.melting.is_some() && !by_particles,
+        Offered::Yielding => yields && !by_particles,
+        Offered::OfParticles => by_particles,
+        Offered::OfYieldingParticles => yields && by_particles,
         Offered::InAir => filament.convection.is_some(),
         Offered::OnASolid => scene.coupling_from(name).is_some(),
         Offered::WithATarget => scene.target_of(name).is_some(),

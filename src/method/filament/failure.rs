@@ -7,8 +7,7 @@ use crate::quantity::kelvin;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Failure {
     #[error(
-        "the outlet of the nozzle is at z = {} m while fluid comes (allowed: above the plate by a hundredth of its \
-         diameter, {} m, and more)",
+        "the outlet of the nozzle is at z = {} m while fluid comes (allowed: {} m above the plate, and more)",
         number(*height),
         number(*least)
     )]

@@ -10,19 +10,7 @@ use super::beneath::Beneath;
 use super::cooling::{LAYERS, SHARES};
 use super::line::Line;
 use super::{Failure, Segment, Strand};
-
-/// Polynomials in time of the nozzle over a duration: value, first and second derivative at its beginning.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Motion {
-    /// [s]
-    pub duration: f64,
-    /// Place of the outlet [m].
-    pub place: [[f64; 3]; 3],
-    /// Volume flow [m³/s].
-    pub flow: [f64; 3],
-    /// Temperature of the fluid [K].
-    pub temperature: [f64; 3],
-}
+use crate::inputs::Motion;
 
 /// Number of pieces of a segment, each of which touches down at a place of its own.
 const PIECES: f64 = 4.0;
@@ -33,52 +21,10 @@ const SLOW: f64 = 0.25;
 const LEAST_HEIGHT: f64 = 0.01;
 /// Least gap above an older segment, over the diameter of the nozzle, with which a strand lies on that.
 const CLEARANCE: f64 = 0.1;
-/// Bisections in the search for the time of a volume.
-const HALVINGS: usize = 60;
 /// Part of a segment's volume below which fluid belongs to the segment before: the rounding of a path's end.
 const SLIVER: f64 = 1e-6;
 /// Rounding that a comparison of volumes leaves room for.
 const SLACK: f64 = 1e-9;
-
-fn at([value, slope, bend]: [f64; 3], s: f64) -> f64 {
-    value + s * (slope + 0.5 * s * bend)
-}
-
-impl Motion {
-    /// Volume that has come after a time [m³].
-    fn volume(&self, s: f64) -> f64 {
-        let [value, slope, bend] = self.flow;
-        s * (value + s * (0.5 * slope + s * bend / 6.0))
-    }
-
-    fn outlet(&self, s: f64) -> [f64; 3] {
-        [0, 1, 2].map(|axis| at(self.place.map(|derivative| derivative[axis]), s))
-    }
-
-    /// Least flow within the duration [m³/s].
-    fn least_flow(&self) -> f64 {
-        let [_, slope, bend] = self.flow;
-        let turn = if bend > 0.0 { (-slope / bend).clamp(0.0, self.duration) } else { 0.0 };
-        let flows = [0.0, turn, self.duration].map(|s| at(self.flow, s));
-        flows.into_iter().fold(f64::INFINITY, f64::min)
-    }
-
-    /// Flow that is rounding of an input that falls to zero within the duration [m³/s].
-    fn rounding(&self) -> f64 {
-        let [value, slope, bend] = self.flow.map(f64::abs);
-        SLACK * (value + self.duration * (slope + self.duration * bend))
-    }
-
-    /// The time from `from` on at which a volume has come [s].
-    fn time_of(&self, volume: f64, from: f64) -> f64 {
-        let [mut low, mut high] = [from, self.duration];
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            *(if self.volume(middle) < volume { &mut low } else { &mut high }) = middle;
-        }
-        high
-    }
-}
 
 /// An amount of fluid that reached a segment.
 pub struct Arrival {
@@ -100,6 +46,20 @@ struct Piece {
     is_full: bool,
 }
 
+/// Refuses a flow that goes back, and a volume above the largest, after some volume has come [m³].
+pub fn guard(motion: &Motion, came: f64, most: f64) -> Result<(), Failure> {
+    let flow = motion.least_flow();
+    let unseen = SLACK * most / motion.duration;
+    if flow < -motion.rounding() - unseen {
+        return Err(Failure::NegativeFlow { flow });
+    }
+    let volume = came + motion.volume(motion.duration);
+    match volume > most * (1.0 + SLACK) {
+        true => Err(Failure::BeyondMost { volume, most }),
+        false => Ok(()),
+    }
+}
+
 impl Line {
     /// Lays the fluid of a motion; the strand's time is that of its beginning.
     pub(super) fn lay(
@@ -107,16 +67,8 @@ impl Line {
         strand: &mut Strand,
         motion: &Motion,
     ) -> Result<Vec<Arrival>, Failure> {
-        let flow = motion.least_flow();
-        let unseen = SLACK * self.plan.most / motion.duration;
-        if flow < -motion.rounding() - unseen {
-            return Err(Failure::NegativeFlow { flow });
-        }
+        guard(motion, strand.volume, self.plan.most)?;
         let begin = motion.outlet(0.0);
-        let (volume, most) = (strand.volume + motion.volume(motion.duration), self.plan.most);
-        if volume > most * (1.0 + SLACK) {
-            return Err(Failure::BeyondMost { volume, most });
-        }
         let comes = motion.volume(motion.duration) > 0.0;
         if !comes || strand.flowing == 0.0 {
             strand.open = 0.0;
@@ -169,7 +121,7 @@ impl Line {
         piece: &Piece,
     ) -> Result<Arrival, Failure> {
         let [begin, end] = [piece.from, piece.to].map(|s| motion.outlet(s));
-        let temperature = at(motion.temperature, 0.5 * (piece.from + piece.to));
+        let temperature = motion.temperature_at(0.5 * (piece.from + piece.to));
         self.check_piece(strand, begin[2].min(end[2]), temperature)?;
         let duration = piece.to - piece.from;
         let speed = piece.volume / (duration * self.plan.outlet());

@@ -6,7 +6,8 @@ use super::cooling::{Column, Heat, LAYERS, SHARES, Surroundings};
 use super::footprint::{Footprint, Footprints};
 use super::laying::Arrival;
 use super::spreading::{PACKED, Spreading};
-use super::{Failure, LinePlan, Motion, Segment, Strand};
+use super::{Failure, LinePlan, Segment, Strand};
+use crate::inputs::Motion;
 use crate::port::{Domain, Surface};
 
 /// A filament that is laid as a line of segments.

@@ -1,7 +1,7 @@
 //! Distance of a strand's centre line from a line that is wanted.
 
+use super::Segment;
 use super::segment::distance_from_line;
-use super::{Segment, Strand};
 
 /// A line of straight parts.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,10 +36,10 @@ impl Target {
         self.parts().map(|part| distance_from_line(place, part)).fold(f64::INFINITY, f64::min)
     }
 
-    /// Compares a strand with the line.
-    pub fn deviation(&self, strand: &Strand) -> Deviation {
+    /// Compares the segments of a strand with the line.
+    pub fn deviation(&self, segments: &[Segment]) -> Deviation {
         let (mut sum, mut all, mut largest) = (0.0, 0.0, 0.0_f64);
-        for segment in strand.segments() {
+        for segment in segments {
             for (part, weight) in SIMPSON {
                 let place = [0, 1].map(|axis| {
                     segment.start[axis] + part * (segment.end[axis] - segment.start[axis])
@@ -52,11 +52,10 @@ impl Target {
             all += segment.length();
         }
         let mean = if all > 0.0 { sum / all } else { 0.0 };
-        Deviation { mean, largest, gap: self.gap(strand) }
+        Deviation { mean, largest, gap: self.gap(segments) }
     }
 
-    fn gap(&self, strand: &Strand) -> f64 {
-        let segments: Vec<Segment> = strand.segments().collect();
+    fn gap(&self, segments: &[Segment]) -> f64 {
         let of_part = |part: [[f64; 2]; 2]| {
             let covered = segments.iter().filter_map(|segment| covered_by(segment, part));
             let mut covered: Vec<_> = covered.collect();

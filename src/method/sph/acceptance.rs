@@ -1,6 +1,7 @@
 //! Checks whether a vector from outside is a state that a run of these droplets can reach.
 
 use super::cloud::{Cloud, HeadNumbers, cloud_of, head_len, ledger_of, particles_in};
+use super::feed::{ASLEEP, BY_NOZZLE, Column, FREE, Fed};
 use super::images::Source;
 use super::kick::{DENSITIES, FARTHEST, FASTEST};
 use super::method::Method;
@@ -26,13 +27,14 @@ const LARGEST_STRESS: f64 = 1e3;
 pub fn check(
     state: &[f64],
     (plan, method, head): (&DropletPlan, &Method, HeadNumbers),
+    column: Option<&Column>,
     coldest: impl Fn(&Cloud) -> f64,
     released: impl Fn(usize) -> Released,
 ) -> Result<(), String> {
     let Some(count) = particles_in(state, head) else {
         return Err(format!("{} unknowns, which fit no number of particles", state.len()));
     };
-    let drops = check_head(&state[..head_len(head)], plan, method, head)?;
+    let drops = check_head(&state[..head_len(head)], (plan, method, head), column)?;
     let expected = released(drops);
     if count != expected.particles || count > Source::MOST {
         let expected = expected.particles;
@@ -61,6 +63,9 @@ pub fn check(
         }
     }
     check_contents(&cloud, method)?;
+    if let Some(column) = column {
+        check_origins(&cloud, column, drops)?;
+    }
     let sizes =
         cloud.stress.iter().flatten().map(|stress| stress.iter().map(|s| s * s).sum::<f64>());
     match sizes.enumerate().find(|(_, size)| *size >= LARGEST_STRESS * LARGEST_STRESS) {
@@ -74,13 +79,16 @@ pub fn check(
 /// Refuses a ledger that contradicts itself or the plan; returns the number of released drops.
 fn check_head(
     numbers: &[f64],
-    plan: &DropletPlan,
-    method: &Method,
-    head: HeadNumbers,
+    (plan, method, head): (&DropletPlan, &Method, HeadNumbers),
+    column: Option<&Column>,
 ) -> Result<usize, String> {
     let [time, drops] = [numbers[0], numbers[1]];
     let ledger = ledger_of(numbers, head);
+    if let (Some(column), Some(fed)) = (column, &ledger.fed) {
+        check_nozzle((column, fed), drops, (plan, method))?;
+    }
     let due = match (&plan.demand, &ledger.requests) {
+        _ if column.is_some() => drops as usize,
         (Some(demand), Some(requests)) => {
             check_requests(requests, drops, demand, method)?;
             drops as usize
@@ -103,6 +111,53 @@ fn check_head(
     match numbers.into_iter().find(|&(_, number)| number < 0.0) {
         Some((what, number)) => Err(format!("{what} of {number}, which is below zero")),
         None => Ok(due),
+    }
+}
+
+/// Refuses a nozzle that no run has, with a number of layers.
+fn check_nozzle(
+    (column, fed): (&Column, &Fed),
+    layers: f64,
+    (plan, method): (&DropletPlan, &Method),
+) -> Result<(), String> {
+    let most = plan.feed.map_or(0.0, |feed| feed.most);
+    if !(0.0..=most * (1.0 + ROUNDING)).contains(&fed.volume) {
+        return Err(format!("{} m³ have come, of at most {most}", fed.volume));
+    }
+    let due = column.passed(fed.volume) + column.layers;
+    if layers != due as f64 {
+        return Err(format!("{layers} layers of fluid, where {due} have come"));
+    }
+    let is_flag = |value: f64| value == 0.0 || value == 1.0;
+    if !(is_flag(fed.flowing) && is_flag(fed.late) && fed.jump >= 0.0) {
+        return Err("a flag or a jump of the nozzle that no run has".to_owned());
+    }
+    match fed.nozzle.iter().any(|x| x.abs() >= FARTHEST * method.units.length) {
+        true => Err(format!("a nozzle at {:?} m, which no run reaches", fed.nozzle)),
+        false => Ok(()),
+    }
+}
+
+/// Refuses particles in layers that have not come, and holds that do not follow from these.
+fn check_origins(cloud: &Cloud, column: &Column, layers: usize) -> Result<(), String> {
+    let Some(origin) = &cloud.origin else { return Ok(()) };
+    let passed = layers - column.layers.min(layers);
+    let mut counts = vec![0; layers];
+    for (i, (&layer, &hold)) in origin.layer.iter().zip(&origin.hold).enumerate() {
+        if layer.fract() != 0.0 || !(0.0..layers as f64).contains(&layer) {
+            return Err(format!("particle {i} of layer {layer}, of {layers}"));
+        }
+        let is_free = (layer as usize) < passed;
+        let rests = hold == ASLEEP && cloud.velocity[i] == [0.0; 3];
+        let is_known = if is_free { hold == FREE || rests } else { hold == BY_NOZZLE };
+        if !is_known {
+            return Err(format!("particle {i} with the hold {hold} in layer {layer}"));
+        }
+        counts[layer as usize] += 1;
+    }
+    match counts.iter().position(|count| *count != column.places.len()) {
+        Some(layer) => Err(format!("{} particles in layer {layer}", counts[layer])),
+        None => Ok(()),
     }
 }
 

@@ -3,6 +3,7 @@
 
 use std::slice::from_mut;
 
+use super::feed::{FREE, Fed};
 use super::phases::Phases;
 use super::requests::Requests;
 use crate::port::SurfaceMemory;
@@ -42,6 +43,17 @@ pub struct Cloud {
     /// Heat contents, see [`Phases`](super::phases::Phases); `None` for fluids that stay liquid, whose contents are
     /// their temperatures.
     pub content: Option<Vec<f64>>,
+    /// Origin of each particle of a fluid that comes from a nozzle.
+    pub origin: Option<Origin>,
+}
+
+/// Origin of the particles that come from a nozzle.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Origin {
+    /// Number of the layer in the order of their coming.
+    pub layer: Vec<f64>,
+    /// What holds the particle, see [`feed`](super::feed).
+    pub hold: Vec<f64>,
 }
 
 /// Consecutive particles from number `first` on, which one thread may change; the fields are those
@@ -67,7 +79,7 @@ pub struct Part<'a> {
 pub struct Ledger {
     /// Time [s].
     pub time: f64,
-    /// Number of drops released so far.
+    /// Number of drops, or of layers in a nozzle, released so far.
     pub released: f64,
     /// Number of time steps.
     pub steps: f64,
@@ -98,6 +110,8 @@ pub struct Ledger {
     pub arrest: Option<f64>,
     /// Iterations of pressure and viscosity so far; `None` where pressure is not solved.
     pub iterations: Option<f64>,
+    /// State of a nozzle.
+    pub fed: Option<Fed>,
 }
 
 /// Dimensions of the part of a state that precedes its particles.
@@ -115,6 +129,8 @@ pub struct HeadNumbers {
     pub freezes: bool,
     /// True if pressure is solved at the end of each step.
     pub solves_pressure: bool,
+    /// True if fluid comes from a nozzle.
+    pub fed: bool,
 }
 
 /// Numbers that a thread copies as one piece of work.
@@ -197,6 +213,7 @@ impl Fields for Ledger {
         fields.extend(self.arrest.iter_mut().map(|time| (arrest, from_mut(time))));
         let iterations = body("iterations", "iterations of pressure and viscosity so far", 1);
         fields.extend(self.iterations.iter_mut().map(|count| (iterations, from_mut(count))));
+        fields.extend(self.fed.iter_mut().flat_map(Fed::fields));
         fields
     }
 }
@@ -228,6 +245,14 @@ impl Fields for Cloud {
         let content =
             of("content", "heat content over the specific heat of the molten fluid [K]", 1);
         fields.extend(self.content.iter_mut().map(|list| (content, &mut list[..])));
+        let layer = of("layer", "number of its layer in the nozzle", 1);
+        let hold =
+            of("hold", "0 for free particles, 1 for those in the nozzle, 2 for those that rest", 1);
+        fields.extend(
+            self.origin
+                .iter_mut()
+                .flat_map(|origin| [(layer, &mut origin.layer[..]), (hold, &mut origin.hold[..])]),
+        );
         fields
     }
 }
@@ -243,6 +268,7 @@ impl Ledger {
             creep: head.stressed.then_some(0.0),
             arrest: head.freezes.then_some(0.0),
             iterations: head.solves_pressure.then_some(0.0),
+            fed: head.fed.then(Fed::default),
             ..Self::default()
         }
     }
@@ -334,6 +360,39 @@ impl Cloud {
         self.moment.push([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]);
         self.stress.iter_mut().for_each(|list| list.push([0.0; 6]));
         self.content.iter_mut().for_each(|list| list.push(temperature));
+        self.origin.iter_mut().for_each(|origin| {
+            origin.layer.push(0.0);
+            origin.hold.push(FREE);
+        });
+    }
+
+    /// Appends the particles of another cloud.
+    pub fn append(&mut self, other: Self) {
+        self.position.extend(other.position);
+        self.velocity.extend(other.velocity);
+        self.mass.extend(other.mass);
+        self.density.extend(other.density);
+        self.temperature.extend(other.temperature);
+        self.initial.extend(other.initial);
+        self.acceleration.extend(other.acceleration);
+        self.tension.extend(other.tension);
+        self.potential.extend(other.potential);
+        self.gradient.extend(other.gradient);
+        self.moment.extend(other.moment);
+        self.stress.iter_mut().for_each(|list| list.extend(other.stress.iter().flatten()));
+        self.content.iter_mut().for_each(|list| list.extend(other.content.iter().flatten()));
+        for (own, other) in self.origin.iter_mut().zip(other.origin) {
+            own.layer.extend(other.layer);
+            own.hold.extend(other.hold);
+        }
+    }
+
+    /// Takes out all particles but those of some numbers, and returns the others in their order.
+    pub fn keep(&mut self, kept: &[u32], others: &[u32], team: &Team) -> Self {
+        let mut rest = self.clone();
+        rest.permute(others, team);
+        self.permute(kept, team);
+        rest
     }
 
     /// Reorders the particles.
@@ -352,6 +411,10 @@ impl Cloud {
         permute.apply(&mut self.moment);
         self.stress.iter_mut().for_each(|list| permute.apply(list));
         self.content.iter_mut().for_each(|list| permute.apply(list));
+        self.origin.iter_mut().for_each(|origin| {
+            permute.apply(&mut origin.layer);
+            permute.apply(&mut origin.hold);
+        });
     }
 
     /// Allocates particles whose values are not yet set.
@@ -370,6 +433,7 @@ impl Cloud {
             moment: vec![[0.0; 6]; count],
             stress: head.stressed.then(|| vec![[0.0; 6]; count]),
             content: head.freezes.then(|| vec![0.0; count]),
+            origin: head.fed.then(|| Origin { layer: vec![0.0; count], hold: vec![FREE; count] }),
         }
     }
 }
@@ -436,6 +500,7 @@ pub fn cloud_of(state: &[f64], head: HeadNumbers, team: &Team) -> Cloud {
 
 #[cfg(test)]
 mod tests {
+    use super::super::feed::BY_NOZZLE;
     use super::*;
 
     #[test]
@@ -447,6 +512,7 @@ mod tests {
             stressed: true,
             freezes: true,
             solves_pressure: true,
+            fed: true,
         };
         let mut cloud = Cloud::none(head);
         for i in 0..5 {
@@ -459,6 +525,8 @@ mod tests {
             cloud.potential[last] = 0.125 * x;
             cloud.stress.as_mut().unwrap()[last] = [x; 6];
             cloud.content.as_mut().unwrap()[last] = 290.0 + x;
+            cloud.origin.as_mut().unwrap().layer[last] = x;
+            cloud.origin.as_mut().unwrap().hold[last] = BY_NOZZLE;
             cloud.gradient[last] = [0.5, x, 0.25];
             cloud.moment[last] = [x, 1.0, 2.0, 0.1, 0.2, 0.3];
         }
@@ -486,6 +554,7 @@ mod tests {
             creep: Some(0.5),
             arrest: Some(0.25),
             iterations: Some(12.0),
+            fed: Some(Fed { volume: 0.75, nozzle: [1.0, 2.0, 3.0], ..Fed::default() }),
             ..Ledger::default()
         };
         let team = Team::new(2);

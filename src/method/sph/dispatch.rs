@@ -119,6 +119,7 @@ mod tests {
             mirrors: [true, false],
             extents: [Extent::Open; 3],
             demand: None,
+            feed: None,
             releases: vec![release],
             wall: Some(Wall { cells, contact_angle: 1.0, effusivity: None, conductance: None }),
         };

@@ -2,8 +2,10 @@
 
 mod demand;
 mod extremes;
+mod fed;
 mod frozen;
 mod half_space;
+mod sleep;
 mod totals;
 
 use super::acceptance::{self, Released};
@@ -11,6 +13,7 @@ use super::cloud::{
     Cloud, HeadNumbers, Ledger, cloud_of, flatten, layout, ledger_of, particles_in,
 };
 use super::failure::Failure;
+use super::feed::Column;
 use super::images::copies;
 use super::loops::PART;
 use super::method::{Method, StepShares};
@@ -27,14 +30,17 @@ use crate::runtime::parallel::Team;
 use crate::state::{Layout, store};
 
 pub use extremes::WarmPlace;
+pub use fed::Laid;
 pub use totals::DropletTotals;
-use totals::totals;
+use totals::{sums, totals};
 
 /// Droplets above a wall: everything known before time starts. The variables of state form a flat
 /// vector, which grows when a droplet is released.
 pub struct DropletSph {
     plan: DropletPlan,
     method: Method,
+    /// The column of a nozzle.
+    column: Option<Column>,
     threads: usize,
     /// Response of a solid below that somebody else computes; `None` for a wall of prescribed
     /// temperature.
@@ -42,6 +48,24 @@ pub struct DropletSph {
     /// Particles after each release, computed when a state from outside is first checked. Drops on
     /// demand are all alike, so two entries suffice: after none and after one.
     released: MadeOnce<Vec<Released>>,
+}
+
+/// A step of the model in progress.
+struct Run<'a> {
+    method: &'a Method,
+    team: Team,
+    cloud: Cloud,
+    ledger: Ledger,
+    points: Option<WallPoints<'a>>,
+    allowance: &'a Allowance,
+}
+
+impl Run<'_> {
+    /// Advances the particles that there are [s].
+    fn advance(&mut self, duration: f64) -> Result<(), Failure> {
+        let Self { method, team, cloud, ledger, points, allowance } = self;
+        Stepper::new(method, team, cloud, ledger, points.as_mut()).advance(duration, allowance)
+    }
 }
 
 /// The particles of a state, images at mirrors excluded.
@@ -80,7 +104,8 @@ impl DropletSph {
     pub fn with_shares(plan: DropletPlan, threads: usize, shares: StepShares) -> Self {
         let method = Method::with_shares(&plan, shares);
         let below = response_below(&plan, &method);
-        Self { plan, method, threads, below, released: MadeOnce::new() }
+        let column = plan.feed.map(|feed| Column::of(&plan, &feed, &method.units));
+        Self { plan, method, column, threads, below, released: MadeOnce::new() }
     }
 
     pub fn plan(&self) -> &DropletPlan {
@@ -91,7 +116,10 @@ impl DropletSph {
     pub fn initial_state(&self) -> Vec<f64> {
         let (mut ledger, mut cloud) = (self.empty_ledger(), self.no_particles());
         // Particles too close to be listed are refused again by the first step.
-        let _ = self.release(&mut ledger, &mut cloud);
+        let _ = match self.plan.feed {
+            Some(feed) => self.begin_feed(&feed, &mut ledger, &mut cloud),
+            None => self.release(&mut ledger, &mut cloud).map(|_| ()),
+        };
         flat(&mut ledger, &mut cloud)
     }
 
@@ -128,10 +156,17 @@ impl DropletSph {
     pub fn check_state(&self, state: &[f64]) -> Result<(), String> {
         let released = |drops: usize| self.released_after(drops);
         let coldest = |cloud: &Cloud| self.coldest(cloud);
-        acceptance::check(state, (&self.plan, &self.method, self.head()), coldest, released)
+        let model = (&self.plan, &self.method, self.head());
+        acceptance::check(state, model, self.column.as_ref(), coldest, released)
     }
 
     fn released_after(&self, drops: usize) -> Released {
+        if let Some(column) = &self.column {
+            return Released {
+                particles: drops.saturating_mul(column.places.len()),
+                mass: drops as f64 * column.layer_mass(),
+            };
+        }
         let all = self.released();
         match (&self.plan.demand, all) {
             (Some(_), [_, one]) => Released {
@@ -194,8 +229,35 @@ impl DropletSph {
         duration: f64,
         allowance: &Allowance,
     ) -> Result<Vec<f64>, Failure> {
-        let mut team = self.team(self.particles_in(state));
-        let (mut ledger, mut cloud) =
+        self.advance_by(state, surface, duration, allowance, |run| {
+            let end = run.ledger.time + duration;
+            while run.ledger.time < end {
+                let due = self.plan.releases.get(run.ledger.released as usize);
+                let next = due.map_or(end, |release| release.time.min(end));
+                let rest = next - run.ledger.time;
+                if rest > 0.0 {
+                    run.advance(rest)?;
+                }
+                run.ledger.time = next;
+                if self.release(&mut run.ledger, &mut run.cloud)? {
+                    run.team = self.team(run.cloud.len());
+                }
+            }
+            Ok(())
+        })
+    }
+
+    /// Advances by `duration` [s] as `steps` does with the particles of a state above a surface.
+    fn advance_by(
+        &self,
+        state: &mut Vec<f64>,
+        surface: &Surface,
+        duration: f64,
+        allowance: &Allowance,
+        steps: impl FnOnce(&mut Run) -> Result<(), Failure>,
+    ) -> Result<Vec<f64>, Failure> {
+        let team = self.team(self.particles_in(state));
+        let (mut ledger, cloud) =
             (ledger_of(state, self.head()), cloud_of(state, self.head(), &team));
         ledger.exchange = WallExchange::none(self.head().cells);
         ledger.exchange.duration = duration;
@@ -207,21 +269,9 @@ impl DropletSph {
         if let (Some(points), Some(heat)) = (&mut points, &method.wall_heat) {
             points.resistance = heat.resistance_above(&surface);
         }
-        let end = ledger.time + duration;
-        while ledger.time < end {
-            let next =
-                self.plan.releases.get(ledger.released as usize).map_or(end, |r| r.time.min(end));
-            let rest = next - ledger.time;
-            if rest > 0.0 {
-                let points = points.as_mut();
-                Stepper::new(method, &team, &mut cloud, &mut ledger, points)
-                    .advance(rest, allowance)?;
-            }
-            ledger.time = next;
-            if self.release(&mut ledger, &mut cloud)? {
-                team = self.team(cloud.len());
-            }
-        }
+        let mut run = Run { method, team, cloud, ledger, points, allowance };
+        steps(&mut run)?;
+        let Run { team, mut cloud, mut ledger, points, .. } = run;
         let (temperature, time) = (self.coldest(&cloud), ledger.time);
         if temperature <= 0.0 {
             return Err(Failure::BelowAbsoluteZero { temperature, time });
@@ -272,6 +322,12 @@ impl DropletSph {
         totals(&self.plan, &self.method, &ledger, &cloud)
     }
 
+    /// Sums over the fluid but for those of the shape of drops, which are zero.
+    pub fn sums(&self, state: &[f64]) -> DropletTotals {
+        let (ledger, cloud) = (ledger_of(state, self.head()), self.cloud(state));
+        sums(&self.plan, &self.method, &ledger, &cloud)
+    }
+
     pub fn particles(&self, state: &[f64]) -> ParticleFields {
         let cloud = self.cloud(state);
         let units = &self.method.units;
@@ -306,7 +362,8 @@ impl DropletSph {
 
     fn expected_of(plan: &DropletPlan, method: &Method) -> (usize, f64) {
         let speed = |r: Release| r.velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
-        let fastest = plan.drops().map(speed).fold(0.0, f64::max);
+        let of_feed = plan.feed.map_or(0.0, |feed| feed.fastest);
+        let fastest = plan.drops().map(speed).fold(of_feed, f64::max);
         let gravity = plan.gravity.iter().map(|g| g * g).sum::<f64>().sqrt();
         let units = &method.units;
         let gravity = gravity * units.length / units.speed.powi(2);
@@ -328,6 +385,7 @@ impl DropletSph {
             stressed: !self.method.flow.is_newtonian(),
             freezes: self.method.phases.is_some(),
             solves_pressure: self.method.solves_pressure,
+            fed: self.plan.feed.is_some(),
         }
     }
 

@@ -31,6 +31,11 @@ pub enum Failure {
         kelvin(*temperature)
     )]
     BelowAbsoluteZero { temperature: f64, time: f64 },
+    #[error(
+        "nozzle and fluid move at {speed:.3e} m/s at t = {time:.6e} s (allowed: up to {most:.3e} m/s, a fifth of the speed of \
+         sound; a higher `sound_speed` of the fluid allows more)"
+    )]
+    NozzleTooFast { speed: f64, most: f64, time: f64 },
     #[error("viscosity at t = {time:.6e} s: {reason}")]
     Viscosity { reason: NotConverged, time: f64 },
     #[error("the recorded drop is invalid: {reason}")]

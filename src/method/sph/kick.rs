@@ -31,6 +31,8 @@ pub struct Motion {
     pub pushed: Vec<usize>,
     /// Particles held by the wall, in ascending order, and the velocities that they lose.
     pub stopped: Vec<(usize, [f64; 3])>,
+    /// Σ m v that the nozzle gives to the particles in it.
+    pub by_nozzle: [f64; 3],
     /// The box of the velocities of each block.
     pub velocities: Vec<Bounds>,
 }
@@ -46,6 +48,7 @@ impl Motion {
             sound: true,
             pushed: Vec::new(),
             stopped: Vec::new(),
+            by_nozzle: [0.0; 3],
             velocities: Vec::new(),
         }
     }
@@ -55,6 +58,7 @@ impl Motion {
         let mut all = Self::none();
         for part in parts {
             (0..3).for_each(|a| all.sums[a] += part.sums[a]);
+            (0..3).for_each(|a| all.by_nozzle[a] += part.by_nozzle[a]);
             all.squares += part.squares;
             all.fastest = all.fastest.max(part.fastest);
             all.most_accelerated = all.most_accelerated.max(part.most_accelerated);
@@ -124,8 +128,12 @@ pub fn kick(part: &mut Part, times: Times, gravity: [f64; 3], bonds: &[Bond]) ->
             acceleration += rate * rate;
         }
         let bond = bonds.get(part.first + i).copied().unwrap_or_default();
-        if bond.is_held() {
-            if bond == Bond::Wall && velocity != [0.0; 3] {
+        if bond == Bond::Nozzle {
+            let held = part.velocity[i];
+            (0..3).for_each(|a| motion.by_nozzle[a] += part.mass[i] * (held[a] - velocity[a]));
+            (velocity, speed) = (held, held.iter().map(|v| v * v).sum());
+        } else if bond.is_held() {
+            if matches!(bond, Bond::Wall | Bond::Asleep) && velocity != [0.0; 3] {
                 motion.stopped.push((part.first + i, velocity));
             }
             (velocity, speed) = ([0.0; 3], if speed.is_finite() { 0.0 } else { speed });

@@ -16,6 +16,7 @@ mod dispatch;
 mod droplet;
 mod effort;
 mod failure;
+mod feed;
 mod field;
 mod fractions;
 mod free_surface;
@@ -54,9 +55,11 @@ mod wall_points;
 
 pub use crate::scene::Precision;
 pub use cloud::UNKNOWNS;
-pub use droplet::{DropletSph, DropletTotals, ParticleFields, WarmPlace};
+pub use droplet::{DropletSph, DropletTotals, Laid, ParticleFields, WarmPlace};
 pub use effort::{Effort, RunSettings};
 pub use failure::Failure;
 pub use method::StepShares;
 pub use phases::Phases;
-pub use plan::{Demand, DropletPlan, Extent, Fluid, Freezing, Placement, Release, Viscous, Wall};
+pub use plan::{
+    Demand, DropletPlan, Extent, Feed, Fluid, Freezing, Placement, Release, Viscous, Wall,
+};

@@ -50,6 +50,8 @@ pub struct DropletPlan {
     pub releases: Vec<Release>,
     /// Drops released by a caller, see [`DropletSph::ask`](super::DropletSph::ask).
     pub demand: Option<Demand>,
+    /// The nozzle from which fluid comes; `None` for drops.
+    pub feed: Option<Feed>,
     /// The wall; `None` for a droplet in free space.
     pub wall: Option<Wall>,
 }
@@ -123,9 +125,24 @@ pub struct Demand {
     pub expected: Release,
 }
 
+/// A round nozzle that points downwards, from which fluid comes, see [`feed`](super::feed).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Feed {
+    /// Inner diameter of the outlet [m].
+    pub diameter: f64,
+    /// Place of the outlet at time zero [m].
+    pub outlet: [f64; 3],
+    /// Largest volume that may come [m³].
+    pub most: f64,
+    /// Expected largest speed of fluid and nozzle [m/s].
+    pub fastest: f64,
+    /// Temperature of the fluid at time zero, the reference of the model [K].
+    pub temperature: f64,
+}
+
 impl DropletPlan {
-    /// The plan with the cheaper advance of viscosity at a speed of the flow [m/s], which stays implicit where the
-    /// viscosity is not constant.
+    /// The plan with the cheaper of explicit steps and of its own at a speed of the flow [m/s]; its own where the viscosity is
+    /// not constant.
     pub fn with_cheaper_viscosity(self, fastest: f64) -> Self {
         if self.fluid.viscosity.constant().is_none() {
             return self;
@@ -169,9 +186,11 @@ impl DropletPlan {
         self.volume(diameter) / self.spacing.powi(self.dimension as i32) / copies(self.mirrors)
     }
 
-    /// Number of particles once all drops are released, images excluded.
+    /// Number of particles once all drops are released, or all fluid has come, images excluded.
     pub fn particles(&self) -> usize {
-        self.drops().map(|drop| self.particles_of(drop.diameter)).sum::<f64>().round() as usize
+        let drops = self.drops().map(|drop| self.particles_of(drop.diameter)).sum::<f64>();
+        let fed = self.feed.map_or(0.0, |feed| feed.most / self.spacing.powi(3));
+        (drops + fed).round() as usize
     }
 
     /// All possible drops; those on demand as if all were requested at once.
@@ -182,7 +201,8 @@ impl DropletPlan {
 
     /// Zero of the model's temperatures [K].
     pub fn reference_temperature(&self) -> f64 {
-        self.drops().next().map_or(0.0, |drop| drop.temperature)
+        let of_drops = || self.drops().next().map_or(0.0, |drop| drop.temperature);
+        self.feed.map_or_else(of_drops, |feed| feed.temperature)
     }
 }
 

@@ -278,6 +278,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
             *stress = step.stresses;
             self.ledger.creep = Some(step.creep);
         }
+        self.push_by_nozzle(step.by_nozzle.map(|force| dt * force));
         let Some(points) = &mut self.points else { return Ok(()) };
         let momentum = method.units.mass() * method.units.speed;
         for (i, pull) in step.by_wall.iter().enumerate().filter(|(_, pull)| **pull != [0.0; 3]) {
@@ -326,6 +327,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
         let gravity = self.method.gravity;
         let mut motion = self.kick_particles(times);
         self.note_stopped(&motion);
+        self.push_by_nozzle(motion.by_nozzle);
         if self.frozen.any_is_free() {
             motion = self.make_rigid(times, motion);
         }

@@ -2,7 +2,7 @@
 
 use super::{Checker, fits, material, number};
 use crate::laws::Viscosity;
-use crate::scene::filament::{Filament, PathFile, PathTable};
+use crate::scene::filament::{Filament, FilamentMethod, PathFile, PathTable};
 use crate::scene::gcode::BadLine;
 use crate::scene::locate::Path;
 
@@ -10,6 +10,10 @@ use crate::scene::locate::Path;
 const MOST_SEGMENTS: f64 = 1e6;
 /// Longest segment over the diameter of the nozzle.
 const LONGEST: f64 = 10.0;
+/// Largest number of particles.
+const MOST_PARTICLES: f64 = 2e6;
+/// Least number of particles across the nozzle.
+const LEAST_ACROSS: f64 = 4.0;
 
 pub fn check(checker: &mut Checker) {
     for (name, filament) in checker.scene.filaments() {
@@ -29,8 +33,14 @@ pub fn check(checker: &mut Checker) {
             message,
             "no `nozzle.flow`, or a `path` without flow",
         );
+        if filament.method == FilamentMethod::Particles {
+            of_particles(checker, &path, (name, filament));
+        }
         if checker.is_fine(&path) {
-            segments(checker, &path, filament);
+            match filament.method {
+                FilamentMethod::Line => segments(checker, &path, filament),
+                FilamentMethod::Particles => particles(checker, &path, filament),
+            }
             volume(checker, &path, filament);
         }
     }
@@ -102,6 +112,42 @@ fn code(checker: &mut Checker, path: &Path, (filament, own): (&Filament, &PathFi
             checker.require(has_legs, path, message, "moves G1 with words E");
         }
     }
+}
+
+/// Refuses what particles do not compute.
+fn of_particles(checker: &mut Checker, path: &Path, (name, filament): (&str, &Filament)) {
+    let fluid = &filament.fluid;
+    let allowed = "no `melting`, or `method = \"line\"`";
+    let message = "particles that come from a nozzle do not freeze";
+    checker.require(fluid.melting.is_none(), &path.at("fluid.melting"), message, allowed);
+    let message = "particles give no heat to the air";
+    let allowed = "no `convection`, or `method = \"line\"`";
+    checker.require(filament.convection.is_none(), &path.at("convection"), message, allowed);
+    let stands = checker.scene.coupling_from(name).is_some();
+    let message = "particles that conduct heat need a solid below";
+    let allowed = "0, or a `[[coupling]]` with a solid";
+    let fine = fluid.conductivity == 0.0 || stands;
+    checker.require(fine, &path.at("fluid.conductivity"), message, allowed);
+}
+
+fn particles(checker: &mut Checker, path: &Path, filament: &Filament) {
+    let distance = filament.particle_distance();
+    let largest = filament.nozzle.diameter / LEAST_ACROSS;
+    let message = "fewer than four particles across the nozzle resolve no flow";
+    let allowed = format!("up to {}", number(largest));
+    checker.require(fits(distance, largest), &path.key("spacing"), message, allowed);
+    let count = filament.particles();
+    if count > MOST_PARTICLES {
+        let message = format!("{} particles would hold this volume", number(count.ceil()));
+        let least = number((filament.most / MOST_PARTICLES).cbrt());
+        let most = number(MOST_PARTICLES * distance.powi(3));
+        let allowed = format!("at most {most}, or a `spacing` of {least} or more");
+        checker.refuse(&path.key("most"), message, allowed);
+    }
+    let height = filament.nozzle.height;
+    let message = "the outlet is nearer to the plate than particles are to each other";
+    let allowed = format!("{} and more", number(distance));
+    checker.require(height >= distance, &path.at("nozzle.height"), message, allowed);
 }
 
 fn segments(checker: &mut Checker, path: &Path, filament: &Filament) {

@@ -67,13 +67,34 @@ pub struct DropletTotals {
     pub waiting: f64,
 }
 
-/// Computes the sums over the fluid.
+/// Computes the sums over the fluid, with the shape of drops.
 pub fn totals(
     plan: &DropletPlan,
     method: &Method,
     ledger: &Ledger,
     cloud: &Cloud,
 ) -> DropletTotals {
+    let mut totals = sums(plan, method, ledger, cloud);
+    let (units, images) = (&method.units, copies(plan.mirrors));
+    let body = body(plan, ledger, cloud);
+    for (i, &in_body) in body.iter().enumerate() {
+        if in_body {
+            totals.height = totals.height.max(cloud.position[i][2] * units.length);
+        } else {
+            totals.stray_mass += images * cloud.mass[i] * units.mass();
+            totals.stray_particles += 1.0;
+        }
+    }
+    // Without a wall there is nothing to spread on, even if particles fall low.
+    if plan.wall.is_some() {
+        let places = wetting_places(plan, cloud, &body);
+        totals.spread_diameter = plan.spacing * spread_diameter(&places, Film::of(plan));
+    }
+    totals
+}
+
+/// Computes the sums over the fluid but for those of its shape.
+pub fn sums(plan: &DropletPlan, method: &Method, ledger: &Ledger, cloud: &Cloud) -> DropletTotals {
     let units = &method.units;
     let images = copies(plan.mirrors);
     let heat_unit = units.energy() / method.heat_unit;
@@ -134,20 +155,6 @@ pub fn totals(
             Some(_) => mean_by_mass(cloud, &cloud.temperature),
             None => totals.heat / (totals.mass * plan.fluid.specific_heat),
         };
-    let body = body(plan, ledger, cloud);
-    for (i, &in_body) in body.iter().enumerate() {
-        if in_body {
-            totals.height = totals.height.max(cloud.position[i][2] * units.length);
-        } else {
-            totals.stray_mass += images * cloud.mass[i] * units.mass();
-            totals.stray_particles += 1.0;
-        }
-    }
-    // Without a wall there is nothing to spread on, even if particles fall low.
-    if plan.wall.is_some() {
-        let places = wetting_places(plan, cloud, &body);
-        totals.spread_diameter = plan.spacing * spread_diameter(&places, Film::of(plan));
-    }
     totals
 }
 

@@ -16,6 +16,7 @@ mod body;
 mod links;
 
 use super::cloud::Cloud;
+use super::feed::{ASLEEP, FREE};
 use super::images::Ends;
 use super::method::Method;
 use crate::runtime::parallel::Team;
@@ -54,6 +55,10 @@ pub enum Bond {
     Plane,
     /// Part of the free piece of this number.
     Piece(u32),
+    /// Fluid in a nozzle, which has its velocity.
+    Nozzle,
+    /// Fluid at rest beside fluid that moves.
+    Asleep,
 }
 
 impl Bond {
@@ -61,18 +66,22 @@ impl Bond {
         self != Self::None
     }
 
+    fn is_frozen(self) -> bool {
+        !matches!(self, Self::None | Self::Nozzle | Self::Asleep)
+    }
+
     /// Factor of viscosity of a particle in sums over pairs of explicit viscosity.
     pub fn sticking(self) -> f64 {
-        if self.is_rigid() { STICKING } else { 1.0 }
+        if self.is_frozen() { STICKING } else { 1.0 }
     }
 
     /// Weight of a particle in the dissipation of implicit viscosity.
     pub fn dissipation(self) -> f64 {
-        if self.is_rigid() { DISSIPATION } else { 1.0 }
+        if self.is_frozen() { DISSIPATION } else { 1.0 }
     }
 
     pub fn is_held(self) -> bool {
-        matches!(self, Self::Wall | Self::Plane)
+        matches!(self, Self::Wall | Self::Plane | Self::Nozzle | Self::Asleep)
     }
 }
 
@@ -107,8 +116,20 @@ impl Pieces {
     /// Pieces of particles.
     pub fn of(method: &Method, cloud: &Cloud) -> Self {
         let mut pieces = Self::NONE;
+        pieces.hold(cloud);
         pieces.update(method, cloud);
         pieces
+    }
+
+    /// Bonds the particles in a nozzle to it.
+    fn hold(&mut self, cloud: &Cloud) {
+        let Some(origin) = &cloud.origin else { return };
+        self.bonds.resize(cloud.len(), Bond::None);
+        for (bond, hold) in
+            self.bonds.iter_mut().zip(&origin.hold).filter(|(_, hold)| **hold != FREE)
+        {
+            *bond = if *hold == ASLEEP { Bond::Asleep } else { Bond::Nozzle };
+        }
     }
 
     /// Finds the pieces of particles that have moved, or whose heat contents have changed, since the last time. Held
@@ -124,6 +145,7 @@ impl Pieces {
         }
         let rigid = (0..).zip(contents).filter(|(_, content)| is_rigid(content)).map(|(i, _)| i);
         *self = Self::among(method, cloud, &rigid.collect::<Vec<u32>>());
+        self.hold(cloud);
     }
 
     /// Pieces that some rigid particles form.

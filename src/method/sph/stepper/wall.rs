@@ -1,4 +1,4 @@
-//! Impulses that a step transfers to the wall.
+//! Impulses that a step transfers to the wall, and that a nozzle gives.
 
 use super::Stepper;
 
@@ -12,6 +12,13 @@ impl Stepper<'_, '_> {
             let impulse = velocity.map(|v| momentum * self.cloud.mass[i] * v);
             points.push(self.method.place(self.cloud.position[i]), impulse);
         }
+    }
+
+    /// Notes momentum over its unit that the nozzle gives to the fluid.
+    pub(super) fn push_by_nozzle(&mut self, given: [f64; 3]) {
+        let unit = self.method.units.mass() * self.method.units.speed;
+        let Some(fed) = &mut self.ledger.fed else { return };
+        fed.impulse.iter_mut().zip(given).for_each(|(sum, given)| *sum += unit * given);
     }
 
     /// Transfers to the wall the reaction to all pending kicks of the particles that it pushes;

@@ -26,7 +26,7 @@ use super::super::method::Method;
 use super::super::neighbours::Block;
 use super::rate::length;
 use super::strain::Elongation;
-use super::system::{Moduli, System};
+use super::system::{Moduli, Reactions, System};
 use super::tensor::Products;
 use super::{ViscousStep, norm, residual};
 use crate::math::conjugate_gradients::{NotConverged, solve};
@@ -213,10 +213,12 @@ impl Turn {
             })
             .collect();
         let forms = system.forms_under(&self.pairs, &stresses);
-        let by_wall = system.by_wall(&system.forces(&self.pairs, &forms), &changes);
+        let Reactions { by_wall, by_nozzle } =
+            system.reactions(&system.forces(&self.pairs, &forms), &changes);
         ViscousStep {
             changes: changes.as_chunks().0.to_vec(),
             by_wall,
+            by_nozzle,
             stresses: self.stresses,
             creep: self.creep,
             iterations,

@@ -49,7 +49,7 @@ use crate::math::conjugate_gradients::{NotConverged, solve};
 use crate::runtime::parallel::Team;
 pub use curves::FlowCurves;
 pub use flow::AT_YIELD;
-use system::{Moduli, System};
+use system::{Moduli, Reactions, System};
 use tensor::Products;
 
 /// Residual of a linear step over the change of velocities by viscosity.
@@ -65,6 +65,8 @@ pub struct ViscousStep {
     pub changes: Vec<[f64; 3]>,
     /// Accelerations by the wall.
     pub by_wall: Vec<[f64; 3]>,
+    /// Force of a nozzle on the particles in it, over ρ₀c₀²H².
+    pub by_nozzle: [f64; 3],
     /// Stresses beyond the linear law, see [`flow`]; empty for Newtonian fluids.
     pub stresses: Vec<Products>,
     /// Largest shear rate of fluid that does not yield, over c₀/H.
@@ -103,9 +105,10 @@ pub fn advance(
     let (changes, iterations) = solve(&system, &load, TOLERANCE, team)?;
     let after: Vec<f64> = velocity.iter().zip(&changes).map(|(v, change)| v + change).collect();
     let pairs = system.elongations(&after);
-    let by_wall = system.by_wall(&system.forces(&pairs, &system.forms(&pairs)), &changes);
+    let Reactions { by_wall, by_nozzle } =
+        system.reactions(&system.forces(&pairs, &system.forms(&pairs)), &changes);
     let changes = changes.as_chunks().0.to_vec();
-    Ok(ViscousStep { changes, by_wall, stresses: Vec::new(), creep: 0.0, iterations })
+    Ok(ViscousStep { changes, by_wall, by_nozzle, stresses: Vec::new(), creep: 0.0, iterations })
 }
 
 /// Computes the changes of velocity by viscosity and pressure from a guess of the velocities at the end, which at rest
@@ -129,9 +132,10 @@ fn with_pressure(system: &System, guess: &[f64], team: &Team) -> Result<ViscousS
     }
     let pairs = system.elongations(&after);
     let changes: Vec<f64> = after.iter().zip(driven).map(|(v, driven)| v - driven).collect();
-    let by_wall = system.by_wall(&system.forces(&pairs, &system.forms(&pairs)), &changes);
+    let Reactions { by_wall, by_nozzle } =
+        system.reactions(&system.forces(&pairs, &system.forms(&pairs)), &changes);
     let changes = changes.as_chunks().0.to_vec();
-    Ok(ViscousStep { changes, by_wall, stresses: Vec::new(), creep: 0.0, iterations })
+    Ok(ViscousStep { changes, by_wall, by_nozzle, stresses: Vec::new(), creep: 0.0, iterations })
 }
 
 /// Residual of the step's equation of motion: `m (u* − u)` plus the impulses of forces, of those on frozen pieces what

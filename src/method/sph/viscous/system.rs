@@ -39,6 +39,14 @@ impl Moduli {
 /// Forces on a particle per volume, by fluid and by the wall.
 pub type Forces = [[f64; 3]; 2];
 
+/// What bounds the fluid in a step.
+pub struct Reactions {
+    /// Accelerations by the wall; empty without one.
+    pub by_wall: Vec<[f64; 3]>,
+    /// Force of a nozzle on the particles in it, over ρ₀c₀²H².
+    pub by_nozzle: [f64; 3],
+}
+
 /// The system `(m + dt A) x = b` of velocities, with `A u = ∂E/∂u` for a viscosity of each particle.
 pub struct System<'a> {
     pub method: &'a Method,
@@ -230,40 +238,53 @@ impl<'a> System<'a> {
         self.bodies.project(velocities, self.team);
     }
 
-    /// Accelerations by the wall, under which velocities have changed by this much; empty without a wall. The wall
-    /// balances the forces of fluid on pieces that it holds.
-    pub fn by_wall(&self, forces: &[Forces], changes: &[f64]) -> Vec<[f64; 3]> {
-        if self.method.wall.is_none() {
-            return Vec::new();
+    /// What wall and nozzle did, under which velocities have changed by this much. The wall balances the forces of fluid
+    /// on pieces that it holds, the nozzle all forces on the particles in it.
+    pub fn reactions(&self, forces: &[Forces], changes: &[f64]) -> Reactions {
+        let mut reactions = Reactions { by_wall: Vec::new(), by_nozzle: [0.0; 3] };
+        let in_nozzle = |i: &usize| self.frozen.bond(*i) == Bond::Nozzle;
+        for i in (0..forces.len()).filter(in_nozzle) {
+            let [fluid, wall] = self.with_pressure(i, forces[i]);
+            let given = &mut reactions.by_nozzle;
+            (0..3).for_each(|a| given[a] -= self.volume(i) * (fluid[a] + wall[a]));
         }
-        let mut by_wall = self.team.map(forces.len(), |i| {
+        if self.method.wall.is_none() {
+            return reactions;
+        }
+        reactions.by_wall = self.team.map(forces.len(), |i| {
             let [fluid, wall] = self.with_pressure(i, forces[i]);
             let force = match self.frozen.bond(i) {
-                Bond::Wall => fluid.map(|force| -force),
+                Bond::Wall | Bond::Asleep => fluid.map(|force| -force),
                 Bond::Plane => [0.0; 3],
-                Bond::None | Bond::Piece(_) => wall,
+                Bond::None | Bond::Piece(_) | Bond::Nozzle => wall,
             };
             force.map(|force| force * self.volume(i) / self.cloud.mass[i])
         });
         if self.method.images.are_open() {
-            self.balance(&mut by_wall, changes);
+            self.balance(&mut reactions, changes);
         }
-        by_wall
+        reactions
     }
 
     /// Adds to the wall's accelerations what the solver's residual lacks, so that the wall receives the momentum that
-    /// the fluid loses.
-    fn balance(&self, by_wall: &mut [[f64; 3]], changes: &[f64]) {
+    /// the fluid loses. Before any fluid is at the wall, the nozzle gives it.
+    fn balance(&self, reactions: &mut Reactions, changes: &[f64]) {
         let mass = &self.cloud.mass;
+        let Reactions { by_wall, by_nozzle } = reactions;
         let at_wall = |pull: &[f64; 3]| *pull != [0.0; 3];
         let pulled: f64 =
             by_wall.iter().zip(mass).filter(|(pull, _)| at_wall(pull)).map(|(_, m)| m).sum();
         let is_even = [self.method.even[0], self.method.even[1], false];
-        for a in (0..3).filter(|&a| !is_even[a] && pulled > 0.0) {
+        for a in (0..3).filter(|&a| !is_even[a]) {
             let gained: f64 = mass.iter().enumerate().map(|(i, m)| m * changes[3 * i + a]).sum();
             let found: f64 = mass.iter().zip(&*by_wall).map(|(m, pull)| m * pull[a]).sum();
-            let rest = (gained / self.dt - found) / pulled;
-            by_wall.iter_mut().filter(|pull| at_wall(pull)).for_each(|pull| pull[a] += rest);
+            let rest = gained / self.dt - found - by_nozzle[a];
+            if pulled > 0.0 {
+                let rest = rest / pulled;
+                by_wall.iter_mut().filter(|pull| at_wall(pull)).for_each(|pull| pull[a] += rest);
+            } else {
+                by_nozzle[a] += rest;
+            }
         }
     }
 

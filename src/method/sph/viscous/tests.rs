@@ -42,6 +42,7 @@ fn plan() -> DropletPlan {
         extents: [Extent::Open; 3],
         releases: Vec::new(),
         demand: None,
+        feed: None,
         wall: None,
     }
 }
