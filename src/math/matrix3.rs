@@ -71,9 +71,8 @@ fn rotate(m: &mut Matrix3, vectors: &mut Matrix3, i: usize, j: usize) {
     for row in m.iter_mut().chain(vectors.iter_mut()) {
         [row[i], row[j]] = turned([row[i], row[j]]);
     }
-    for k in 0..3 {
-        [m[i][k], m[j][k]] = turned([m[i][k], m[j][k]]);
-    }
+    let pairs = [0, 1, 2].map(|k| turned([m[i][k], m[j][k]]));
+    (m[i], m[j]) = (pairs.map(|[a, _]| a), pairs.map(|[_, b]| b));
     (m[i][j], m[j][i]) = (0.0, 0.0);
 }
 

@@ -71,7 +71,7 @@ fn dissipated(body: &Deformable) -> f64 {
     let dt = 1.4 / body.highest_frequency();
     let team = body.team();
     let places: Vec<f64> = body.space.nodes.iter().map(|at| at[0]).collect();
-    let is_end = |x: f64| x < 1e-9 || x > LENGTH - 1e-9;
+    let is_end = |x: f64| !(1e-9..=LENGTH - 1e-9).contains(&x);
     let mut u = vec![[0.0; 3]; body.nodes()];
     let mut velocity: Vec<[f64; 3]> =
         places.iter().map(|x| [speed * x / LENGTH, 0.0, 0.0]).collect();
