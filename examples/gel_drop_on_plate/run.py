@@ -94,7 +94,13 @@ def draw_curves(run: dict, out: Path) -> Path:
     axes[4].plot(moments, run["surface"] - run["surface"][0], label="surface / K")
     axes[4].plot(moments, run["heat"] * 1e3, label="heat / mJ")
     axes[4].legend()
-    titles = ["size / mm", "force / N", "energy / mJ", "stress of the glass / MPa", "the glass warms"]
+    titles = [
+        "size / mm",
+        "force / N",
+        "energy / mJ",
+        "stress of the glass / MPa",
+        "the glass warms",
+    ]
     for panel, title in zip(axes, titles, strict=True):
         panel.set(title=title, xlabel="t / ms")
     return shared.save(figure, out, f"{NAME}_over_time")
