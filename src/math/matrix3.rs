@@ -71,9 +71,9 @@ fn rotate(m: &mut Matrix3, vectors: &mut Matrix3, i: usize, j: usize) {
     for row in m.iter_mut().chain(vectors.iter_mut()) {
         [row[i], row[j]] = turned([row[i], row[j]]);
     }
-    for k in 0..3 {
-        [m[i][k], m[j][k]] = turned([m[i][k], m[j][k]]);
-    }
+    let (a, b) = (m[i], m[j]);
+    m[i] = std::array::from_fn(|k| turned([a[k], b[k]])[0]);
+    m[j] = std::array::from_fn(|k| turned([a[k], b[k]])[1]);
     (m[i][j], m[j][i]) = (0.0, 0.0);
 }
 
