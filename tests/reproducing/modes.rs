@@ -57,32 +57,6 @@ fn no_modes_without_energy_but_rigid_ones() {
     }
 }
 
-/// Once more smoothed gradients of one point a node hardly resist short waves, down to none at all in rounding; what they
-/// vary within cells does.
-#[test]
-fn second_smoothing_needs_what_gradients_vary_within_cells() {
-    for (mesh, rigid, spacing, weak) in [
-        (Mesh::of_box(Form::Plane, [0.0; 3], [1.0, 0.0, 1.0], [8, 0, 8]), 3, 0.125, 40),
-        (Mesh::of_box(Form::Solid, [0.0; 3], [1.0; 3], [4, 4, 4]), 6, 0.25, 100),
-    ] {
-        let of = |integration: Integration, smoothing: Option<f64>| {
-            let settings = Reproducing { integration, smoothing, ..Reproducing::default() };
-            reproducing(&mesh, settings).unwrap()
-        };
-        let mass = of(Integration::Gauss(5), None);
-        let first = frequencies(&mass, &mass)[rigid];
-        for radius in [2.0, 3.0, 4.0] {
-            let twice = |integration| frequencies(&of(integration, Some(radius * spacing)), &mass);
-            let found = twice(Integration::Nsni);
-            let zero = found.iter().filter(|&&x| x.abs() < 1e-8 * first).count();
-            assert_eq!(zero, rigid, "{radius} {:?}", &found[..8]);
-            assert!(found[rigid] > 0.4 * first, "{radius} {} {first}", found[rigid]);
-            let below = twice(Integration::Scni).iter().filter(|&&x| x < 0.4 * first).count();
-            assert!(radius < 3.0 || below > rigid + weak, "{radius} {below}");
-        }
-    }
-}
-
 /// One gradient a particle would leave dozens of modes without energy.
 #[test]
 fn particles_have_no_modes_without_energy_but_rigid_ones() {
