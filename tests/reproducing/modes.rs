@@ -57,7 +57,6 @@ fn no_modes_without_energy_but_rigid_ones() {
     }
 }
 
-<<<<<<< HEAD
 /// Once more smoothed gradients of one point a node hardly resist short waves, down to none at all in rounding; what they
 /// vary within cells does.
 #[test]
@@ -84,8 +83,6 @@ fn second_smoothing_needs_what_gradients_vary_within_cells() {
     }
 }
 
-=======
->>>>>>> twolevel
 /// One gradient a particle would leave dozens of modes without energy.
 #[test]
 fn particles_have_no_modes_without_energy_but_rigid_ones() {
