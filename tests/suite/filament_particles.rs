@@ -37,8 +37,8 @@ interval = 5e-3
     )
 }
 
-/// Volume balances to half a layer, heat to rounding, and the plate receives what the strand gives. A strand as fast as
-/// its fluid has the section of the outlet.
+/// Volume balances to half a layer, heat to rounding, and the plate receives what the strand gives, which is wider and
+/// lower than the outlet.
 #[test]
 fn balances_close() {
     let text = strand("") + "[[target]]\nof = \"ink\"\nline = [[-3e-3, 0.0], [3e-3, 0.0]]\n";
@@ -55,8 +55,8 @@ fn balances_close() {
     let [low, high] = ["min_density", "max_density"].map(&mut get);
     assert!(low > 970.0 && high < 1040.0, "{low} {high}");
     assert!(get("deviation") < 0.02e-3 && get("largest_deviation") < 0.05e-3);
-    let section = get("width") * get("height");
-    assert!((section / 0.785e-6 - 1.0).abs() < 0.1, "{section}");
+    let [width, height] = ["width", "height"].map(&mut get);
+    assert!(width > 1.2e-3 && width < 1.7e-3 && height < 1.1e-3, "{width} {height}");
     assert!(get("lag") < 1e-3);
     let received = trial.get("plate.heat_in");
     assert!((received / heat - 1.0).abs() < 1e-9, "{received} of {heat}");
@@ -118,8 +118,11 @@ fn paste_comes_to_rest() {
                  conductivity = 0.0";
     let text = strand("").replace(warm, paste).replace("height = 1e-3", "height = 0.9e-3");
     let text = text.replace("spacing = 0.2e-3", "spacing = 0.25e-3");
+    // Long enough that what is laid first lies out of reach of what moves.
+    let text = text
+        .replace("time = [0.0, 0.1], x = [-1e-3, 1e-3]", "time = [0.0, 0.3], x = [-3e-3, 3e-3]");
     let mut trial = Trial::new(&text[..text.find("[body.plate]").unwrap()]);
-    (0..5).for_each(|_| trial.step(0.02));
+    (0..10).for_each(|_| trial.step(0.03));
     let [resting, particles] = ["resting", "particles"].map(|key| trial.get(&format!("ink.{key}")));
     assert!(resting > 0.0 && resting < particles, "{resting} of {particles}");
     let before = trial.get("ink.impulse_z");

@@ -76,9 +76,9 @@ pub fn advance(
         creep: 0.0,
         mismatch: 0.0,
     };
-    let moving: Vec<f64> =
-        velocity.iter().enumerate().map(|(n, v)| v * cloud.mass[n / 3]).collect();
-    let momentum = norm(&moving, &cloud.mass);
+    // At rest it is what gravity gives in the step.
+    let driven = cloud.velocity.as_flattened();
+    let momentum = momentum(cloud, &velocity).max(momentum(cloud, driven));
     let mut forces_left =
         Residual { floor: rounding_of_rates(&system) * momentum, ..Residual::default() };
     let mut iterations = 0;
@@ -96,6 +96,12 @@ pub fn advance(
         turn.pairs = system.elongations(&velocity);
     }
     Err(NotConverged { residual: turn.mismatch, iterations, tolerance: TOLERANCE })
+}
+
+/// Size of the momenta at velocities.
+fn momentum(cloud: &Cloud, velocity: &[f64]) -> f64 {
+    let moving = velocity.iter().enumerate().map(|(n, v)| v * cloud.mass[n / 3]);
+    norm(&moving.collect::<Vec<f64>>(), &cloud.mass)
 }
 
 /// Residual of forces over the turns of a step.
