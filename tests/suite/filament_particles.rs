@@ -128,8 +128,9 @@ fn paste_comes_to_rest() {
     let before = trial.get("ink.impulse_z");
     trial.step(0.5);
     let pushes = (before - trial.get("ink.impulse_z")) / 0.5;
-    // The nozzle bears a part of the weight.
-    assert!((0.3..1.3).contains(&(pushes / (9.81 * trial.get("ink.mass")))), "{pushes}");
+    // The nozzle bears a part of the weight, or presses on what yields below its outlet.
+    let [weight, pressed] = [9.81 * trial.get("ink.mass"), 2.0 * 100.0 * 0.785e-6];
+    assert!(pushes > 0.3 * weight && pushes < weight + pressed, "{pushes} N of {weight} N");
     assert!(trial.get("ink.max_speed") < 1e-3);
     trial.model.check_state(&trial.state).unwrap();
 }
