@@ -1,9 +1,10 @@
 //! A layer of fluid at rest or sheared on a thick plate, both half spaces while heat has not gone through: how far are
 //! heat and temperature of contact from the closed form (H. S. Carslaw, J. C. Jaeger 1959, § 2.8)?
 //!
-//! `cargo bench --bench contact -- SPACING RATIO PRANDTL EXCHANGES SHEAR`: distance of particles over the thickness √(πκt) of
-//! the layer of heat in the fluid, effusivity of the fluid over that of the plate, Prandtl number of the fluid, exchanges over
-//! which the time is cut, and by how much the fluid is sheared in the time. Prints one line of JSON.
+//! `cargo bench --bench contact -- SPACING RATIO PRANDTL EXCHANGES SHEAR`: distance of particles over the thickness
+//! √(πκt) of the layer of heat in the fluid, effusivity of the fluid over that of the plate, Prandtl number of the
+//! fluid, exchanges over which the time is cut, and by how much the fluid is sheared in the time. Prints one line of
+//! JSON.
 
 use std::env;
 use std::f64::consts::PI;

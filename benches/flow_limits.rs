@@ -455,8 +455,8 @@ mod dam {
     }
 }
 
-/// That of a square of an incompressible fluid that turns at 1 rad/s (Le Touzé, Colagrossi, Colicchio & Greco 2013, Int.
-/// J. Numer. Methods Fluids 73, 660–691, doi 10.1002/fld.3819).
+/// That of a square of an incompressible fluid that turns at 1 rad/s (Le Touzé, Colagrossi, Colicchio & Greco 2013,
+/// Int. J. Numer. Methods Fluids 73, 660–691, doi 10.1002/fld.3819).
 fn pressure_in_square([x, z]: [f64; 2]) -> f64 {
     let odd = || (1..40).step_by(2).map(|n| PI * f64::from(n));
     let term = |m: f64, n: f64| {

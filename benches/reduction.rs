@@ -1,7 +1,8 @@
 //! Reduction of a modal system that a file holds: orders, errors of step responses, bounds and times.
 //!
-//! `cargo bench --bench reduction -- FILE ORDER …`: two whole numbers of 8 bytes, of modes and of outputs, then as numbers
-//! of 8 bytes the rates, what the one input drives, and a row for each output. `benches/reduced_peer.py` writes it.
+//! `cargo bench --bench reduction -- FILE ORDER …`: two whole numbers of 8 bytes, of modes and of outputs, then as
+//! numbers of 8 bytes the rates, what the one input drives, and a row for each output. `benches/reduced_peer.py` writes
+//! it.
 
 use std::time::Instant;
 use std::{env, fs};

@@ -368,19 +368,7 @@ fmi3Status fmi3DoStep(fmi3Instance instance,
                       fmi3Boolean *earlyReturn,
                       fmi3Float64 *lastSuccessfulTime);
 
-fmi3Status fmi3EnterEventMode(fmi3Instance instance);
-
-fmi3Status fmi3EnterStepMode(fmi3Instance instance);
-
 fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance instance);
-
-fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance,
-                                    fmi3Boolean *discreteStatesNeedUpdate,
-                                    fmi3Boolean *terminateSimulation,
-                                    fmi3Boolean *nominalsOfContinuousStatesChanged,
-                                    fmi3Boolean *valuesOfContinuousStatesChanged,
-                                    fmi3Boolean *nextEventTimeDefined,
-                                    fmi3Float64 *nextEventTime);
 
 fmi3Status fmi3EnterConfigurationMode(fmi3Instance instance);
 

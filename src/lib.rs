@@ -13,7 +13,8 @@
 //!
 //! Data flows in one direction. [`Model`](model::Model) holds everything known before time starts: meshes, modes,
 //! factorisations. [`State`](model::State) holds everything that changes, so a clone of it is a saved run.
-//! [`Cache`](model::Cache) memoises what follows from a state. Results are the same to the bit on any number of threads.
+//! [`Cache`](model::Cache) memoises what follows from a state. Results are the same to the bit on any number of
+//! threads.
 //!
 //! # Example
 //!

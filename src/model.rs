@@ -183,7 +183,7 @@ impl Model {
         cache: &mut Cache,
         dt: f64,
     ) -> Result<(), ModelError> {
-        self.step_within(&Allowance::of_step(interrupt), state, cache, dt)
+        self.step_within(&Allowance::of_step(interrupt), state, cache, (dt, dt))
     }
 
     /// Advances within an allowance of work.
@@ -192,7 +192,7 @@ impl Model {
         allowance: &Allowance,
         state: &mut State,
         cache: &mut Cache,
-        dt: f64,
+        (dt, ahead): (f64, f64),
     ) -> Result<(), ModelError> {
         check_step_length(dt)?;
         self.expect_room_to_step(state)?;
@@ -201,7 +201,7 @@ impl Model {
         for s in path.turns(dt).into_iter().chain((!path.is_held()).then_some(dt)) {
             self.check_underway(&path.at(0, s), s)?;
         }
-        self.with_stack(|| self.step_here(allowance, state, cache, (&path, dt)))
+        self.with_stack(|| self.step_here(allowance, state, cache, (&path, dt, ahead)))
     }
 
     fn step_here(
@@ -209,7 +209,7 @@ impl Model {
         allowance: &Allowance,
         state: &mut State,
         cache: &mut Cache,
-        (path, dt): (&InputPath, f64),
+        (path, dt, ahead): (&InputPath, f64, f64),
     ) -> Result<(), ModelError> {
         let mut next = state.clone();
         // Jumps of inputs act before any heat has moved.
@@ -217,7 +217,7 @@ impl Model {
         cache.update(self, state);
         let bodies = self.bodies.iter().zip(&mut next.bodies);
         let approached: Vec<_> =
-            bodies.flat_map(|(body, unknowns)| body.approached(unknowns, path, dt)).collect();
+            bodies.flat_map(|(body, unknowns)| body.approached(unknowns, path, ahead)).collect();
         let changed = (!approached.is_empty()).then(|| path.with(&approached));
         let taken = changed.as_ref().unwrap_or(path);
         self.advance(&mut next.bodies, cache, (taken, dt), allowance)?;

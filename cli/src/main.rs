@@ -1,6 +1,6 @@
 //! The command line: `impinge check SCENE`, `impinge run SCENE`, `impinge schema`, `impinge substances`; `impinge
-//! completions SHELL` and `impinge man FOLDER` describe it to shells and to `man`. Reports go to standard output; errors,
-//! warnings and progress to standard error. Exit status: 0 done, 1 refused or failed, 2 wrong usage.
+//! completions SHELL` and `impinge man FOLDER` describe it to shells and to `man`. Reports go to standard output;
+//! errors, warnings and progress to standard error. Exit status: 0 done, 1 refused or failed, 2 wrong usage.
 
 mod check;
 mod completions;

@@ -497,7 +497,8 @@ impl Running<'_> {
         Ok(())
     }
 
-    /// Returns what probes and fields read over time, peaks, heat balances and totals; warns on standard error if heat is missing.
+    /// Returns what probes and fields read over time, peaks, heat balances and totals; warns on standard error if heat
+    /// is missing.
     fn report(&mut self) -> Result<String, CliError> {
         let named = |error| CliError::from_model(error, self.model.scene());
         self.update_balances().map_err(named)?;

@@ -81,6 +81,8 @@ pub struct BalanceOutputs {
     body: String,
     /// Heat supplied, stored and lost.
     outputs: [Output; 3],
+    /// Heat given to the body below, which is lost, too; `None` for bodies that have no such output.
+    given: Option<Output>,
     expected: f64,
 }
 
@@ -96,7 +98,7 @@ impl BalanceOutputs {
             };
             let outputs = [output("heat_in")?, output("heat_stored")?, output("heat_lost")?];
             let expected = expected_residual(scene, body);
-            Some(Self { body: body.clone(), outputs, expected })
+            Some(Self { body: body.clone(), outputs, given: output("heat"), expected })
         };
         scene.body.keys().filter_map(of_body).collect()
     }
@@ -110,7 +112,9 @@ impl BalanceOutputs {
     ) -> Result<Balance, ModelError> {
         let [heat_in, stored, lost] =
             self.outputs.each_ref().map(|output| model.output(state, cache, output));
-        let (heat_in, stored, lost) = (heat_in?, stored?, lost?);
+        let given = self.given.as_ref().map(|given| model.output(state, cache, given));
+        let (heat_in, stored, lost) =
+            (heat_in?, stored?, lost? + given.transpose()?.unwrap_or(0.0));
         let largest = [heat_in, stored, lost].into_iter().map(f64::abs).fold(0.0, f64::max);
         let (body, expected) = (self.body.clone(), self.expected);
         Ok(Balance { body, heat_in, stored, lost, largest, expected })

@@ -1,11 +1,11 @@
-//! Strip of bonded neo-Hookean layers that expand differently and bend by any angle, in plane strain, away from its ends
-//! (numerical).
+//! Strip of bonded neo-Hookean layers that expand differently and bend by any angle, in plane strain, away from its
+//! ends (numerical).
 //!
-//! Lines across the strip stay straight and turn about one centre at the distance ρ(z): stretches are κρ along the strip,
-//! −dρ/dz across it and 1 along the third direction. With the nominal stresses P of the energy of [`Rubber`], taken of
-//! stretches over the free stretch ϑ of the layer, equilibrium is `dP_z/dz = −κ P_x` from a face without force, and neither
-//! force `∫ P_x dz` nor moment acts across the strip: a boundary value problem, solved by shooting. Small strains are those of
-//! [`BondedPlate`](super::BondedPlate).
+//! Lines across the strip stay straight and turn about one centre at the distance ρ(z): stretches are κρ along the
+//! strip, −dρ/dz across it and 1 along the third direction. With the nominal stresses P of the energy of [`Rubber`],
+//! taken of stretches over the free stretch ϑ of the layer, equilibrium is `dP_z/dz = −κ P_x` from a face without
+//! force, and neither force `∫ P_x dz` nor moment acts across the strip: a boundary value problem, solved by shooting.
+//! Small strains are those of [`BondedPlate`](super::BondedPlate).
 
 use super::Rubber;
 

@@ -1,7 +1,7 @@
 //! Compressible neo-Hookean solids that are drawn: uniform deformation, from the roots of two equations.
 //!
-//! The energy per reference volume is `½ µ (J^(−2/3) tr C − 3) + ½ κ (½ (J² − 1) − ln J)`, source: J. C. Simo and T. J. R.
-//! Hughes, *Computational Inelasticity*, Springer 1998, eq. 9.2.3.
+//! The energy per reference volume is `½ µ (J^(−2/3) tr C − 3) + ½ κ (½ (J² − 1) − ln J)`, source: J. C. Simo and T. J.
+//! R. Hughes, *Computational Inelasticity*, Springer 1998, eq. 9.2.3.
 
 /// A neo-Hookean solid.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -8,16 +8,16 @@
 //!   AIChE J. 41, 1357, doi 10.1002/aic.690410602), and `β = 0.87 Re^{1/5} − 0.40 Re^{2/5} We^{−1/2}`
 //!   (I. V. Roisman 2009, Phys. Fluids 21, 052104, doi 10.1063/1.3129283);
 //! - base of the cap of the drop at rest, over D: `2 (tan(θ/2) (3 + tan²(θ/2)))^{−1/3}`, from its volume;
-//! - width of the footprint just after the impact, `2.8 √τ`, τ = Ut/D, over D (R. Rioboo, M. Marengo and C. Tropea 2002,
-//!   Exp. Fluids 33, 112, doi 10.1007/s00348-002-0431-x);
+//! - width of the footprint just after the impact, `2.8 √τ`, τ = Ut/D, over D (R. Rioboo, M. Marengo and C. Tropea
+//!   2002, Exp. Fluids 33, 112, doi 10.1007/s00348-002-0431-x);
 //! - tension accelerates a drop slower than `√(2σ/(ρD))` to that speed, which replaces U in all times;
 //! - force, with its maximum at 0.167 D/U (L. Gordillo, T.-P. Sun and X. Cheng 2018, J. Fluid Mech. 840, 190,
 //!   doi 10.1017/jfm.2017.901): `F = A √t e^{−t/(0.334 D/U)}` with A such that `∫F dt = mU`.
 //!
 //! The energies were compared with water and tin (Re 200 to 35 000, We 26 to 640), Scheller and Bousfield's fit with
 //! liquids of up to 0.3 Pa s (Re 19 to 16 400, Oh 0.002 to 0.58). Roisman's law and the force are those of large Re and
-//! We. Together they were compared with drops of particles over [`FITTED`]. Below Re 1 the drop comes to rest on a small
-//! flat, which none of them describes: the footprint is then several times too large.
+//! We. Together they were compared with drops of particles over [`FITTED`]. Below Re 1 the drop comes to rest on a
+//! small flat, which none of them describes: the footprint is then several times too large.
 
 use std::f64::consts::PI;
 

@@ -1,9 +1,9 @@
 //! Standard linear solid: a shear modulus that relaxes by one Maxwell branch, and an elastic bulk modulus, in a bar, a
 //! film and under shear.
 //!
-//! By the correspondence principle a modulus of elasticity holds in Laplace space with `s Ḡ(s) = (G_∞ + G₀ sτ)/(1 + sτ)`.
-//! That of a bar, `9KG/(3K + G)`, and that of a film, `18KG/(3K + 4G) = E/(1 − ν)`, are then of the same form as Ḡ, with
-//! relaxation times of their own.
+//! By the correspondence principle a modulus of elasticity holds in Laplace space with `s Ḡ(s) = (G_∞ + G₀ sτ)/(1 +
+//! sτ)`. That of a bar, `9KG/(3K + G)`, and that of a film, `18KG/(3K + 4G) = E/(1 − ν)`, are then of the same form as
+//! Ḡ, with relaxation times of their own.
 //!
 //! Source: R. M. Christensen, *Theory of Viscoelasticity*, 2nd ed., Academic Press 1982, §§1.2, 1.7 and 2.2.
 
@@ -30,8 +30,8 @@ impl Relaxing {
         lasting * time - (instantaneous - lasting) * own * (-time / own).exp_m1()
     }
 
-    /// Strain over stress at a time [s] after a sudden stress [1/Pa]: the retardation time is `τ M₀/M_∞`, longer than the
-    /// relaxation time. Without a lasting modulus strain grows without bound.
+    /// Strain over stress at a time [s] after a sudden stress [1/Pa]: the retardation time is `τ M₀/M_∞`, longer than
+    /// the relaxation time. Without a lasting modulus strain grows without bound.
     pub fn compliance(&self, time: f64) -> f64 {
         let Self { instantaneous, lasting, time: own } = *self;
         if lasting == 0.0 {

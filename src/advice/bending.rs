@@ -7,8 +7,8 @@ use crate::warning;
 
 /// Largest extent over the smallest from which on a body is slender.
 const SLENDER: f64 = 3.0;
-/// Error of the deflection under its own weight of cantilevers ten times as long as thick, square and plane, at ratios of
-/// Poisson of 0.3 and 0.45, with one and with two elements across.
+/// Error of the deflection under its own weight of cantilevers ten times as long as thick, square and plane, at ratios
+/// of Poisson of 0.3 and 0.45, with one and with two elements across.
 const ERRORS: [&str; 2] = ["20 to 60 %", "1 to 8 %"];
 /// Number of elements across with which that error is below 2 %.
 const ENOUGH: f64 = 4.0;

@@ -25,8 +25,8 @@ pub fn review(reviewer: &mut Reviewer) {
 /// glass under water by 5 % at a tenth, by 60 % at a third.
 const SHORT: f64 = 0.15;
 
-/// Warns of steps that are long beside the spreading of films, where a probability of failure is read from the stress at
-/// their ends.
+/// Warns of steps that are long beside the spreading of films, where a probability of failure is read from the stress
+/// at their ends.
 fn risky(reviewer: &mut Reviewer, (name, droplet): (&str, &Droplet)) {
     let scene = reviewer.scene;
     let Some(coupling) = scene.coupling_from(name) else { return };

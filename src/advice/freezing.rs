@@ -24,8 +24,8 @@ pub fn review(reviewer: &mut Reviewer) {
     }
 }
 
-/// Thickness of what is frozen by the time at which a drop has spread [m], of half spaces in perfect contact; `None` where
-/// nothing freezes on contact.
+/// Thickness of what is frozen by the time at which a drop has spread [m], of half spaces in perfect contact; `None`
+/// where nothing freezes on contact.
 fn skin_after_spreading(scene: &Scene, (name, droplet): (&str, &Droplet)) -> Option<f64> {
     let Freezing { melting, specific_heat, conductivity } = scene.freezing_of(name)?;
     let FirstContact { below_temperature, .. } = scene.first_contact(name)?;

@@ -21,6 +21,7 @@ mod strands;
 mod substances;
 mod values;
 mod viscosity;
+mod warm_bodies;
 
 use crate::limits::number;
 use crate::limits::plausible::{self, BESIDE_WARM, CRYOGENIC, Cold, MELTS_BESIDE_WARM, Range};
@@ -70,6 +71,7 @@ fn found(scene: &Scene, (source, names_lines): (&Source, bool), schema: &Schema)
     freezing::review(&mut reviewer);
     strands::review(&mut reviewer);
     bending::review(&mut reviewer);
+    warm_bodies::review(&mut reviewer);
     reviewer.found.sort_by_key(|(line, _)| *line);
     reviewer.found.into_iter().map(|(_, warning)| warning).collect()
 }

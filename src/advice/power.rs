@@ -6,7 +6,8 @@ use crate::limits::plausible;
 use crate::scene::Load;
 use crate::warning::{self, Finding};
 
-/// The finding of an implausible heat flux that an amount of the whole footprint makes on it, with its outer radius [m].
+/// The finding of an implausible heat flux that an amount of the whole footprint makes on it, with its outer radius
+/// [m].
 pub fn implausible_power(
     load: &Load,
     channel: Channel,

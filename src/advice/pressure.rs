@@ -16,7 +16,8 @@ pub fn reynolds(droplet: &Droplet) -> f64 {
         / droplet.reference_viscosity()
 }
 
-/// Returns true if a drop's particles may have their pressure solved at the end of steps, and their fluid is thick enough.
+/// Returns true if a drop's particles may have their pressure solved at the end of steps, and their fluid is thick
+/// enough.
 pub fn may_be_solved(droplet: &Droplet) -> bool {
     let takes = droplet.fluid.melting.is_none()
         && droplet.fluid.sound_speed.is_none()

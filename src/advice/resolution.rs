@@ -23,10 +23,10 @@
 //! to 40 m/s and 1 mm at 3 m/s, compared with 56 particles) the error of heat is −30 % to 21 %, of either sign, with
 //! 0.36 to 0.75 particles across it, and 5 % at most with 0.9 and more.
 //!
-//! Below the middle of a drop whose thermal layer `√(aD/U)` is thinner than half a particle the temperature rises 11 % to
-//! 35 % too high at n = 20, and some per cent at 50, on solids that conduct at least as well (water, wax and glycerol at
-//! 15 m/s, `docs/maps/coupling.md`); with 0.54, 0.62 and 0.73 particles across it 9 % to 19 %, 11 % to 16 % and 6 % to
-//! 15 % (0.1 mm of water at 2, 1.5 and 1.1 m/s on glass, compared with n = 50).
+//! Below the middle of a drop whose thermal layer `√(aD/U)` is thinner than half a particle the temperature rises 11 %
+//! to 35 % too high at n = 20, and some per cent at 50, on solids that conduct at least as well (water, wax and
+//! glycerol at 15 m/s, `docs/maps/coupling.md`); with 0.54, 0.62 and 0.73 particles across it 9 % to 19 %, 11 % to 16 %
+//! and 6 % to 15 % (0.1 mm of water at 2, 1.5 and 1.1 m/s on glass, compared with n = 50).
 //!
 //! The coefficients are those for which `(1 + e(n))/(1 + e(56)) − 1` fits the measurements best. The residual is 6 %
 //! (root mean square): 8 % at n = 10, 5 % at 20, 3 % at 40. At Re 17 000, compared with 226 particles, it predicts 8 %

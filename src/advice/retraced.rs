@@ -28,7 +28,8 @@ struct Sample {
     direction: [f64; 2],
 }
 
-/// Times of the first line that a nozzle of this diameter lays along an earlier one without rising, and of that one [s].
+/// Times of the first line that a nozzle of this diameter lays along an earlier one without rising, and of that one
+/// [s].
 pub fn retraced(route: &Route, diameter: f64) -> Option<[f64; 2]> {
     let samples = samples(route, APART * diameter);
     let side = |value: f64| (value / diameter).floor() as i64;

@@ -1,5 +1,5 @@
-//! Nozzles at unusual heights, targets beyond the plate, routes that run along themselves or beyond the run, and strands
-//! of which nothing comes.
+//! Nozzles at unusual heights, targets beyond the plate, routes that run along themselves or beyond the run, and
+//! strands of which nothing comes.
 
 use super::retraced::retraced;
 use super::{Reviewer, number};

@@ -12,8 +12,8 @@ use crate::warning;
 const CLOSE: f64 = 1.0;
 const ALIKE: f64 = 0.02;
 
-/// Warns of each substance whose constants are taken beyond their range, or that a body is colder or hotter than, on the
-/// first such temperature; and of drops that are of another temperature than their constants.
+/// Warns of each substance whose constants are taken beyond their range, or that a body is colder or hotter than, on
+/// the first such temperature; and of drops that are of another temperature than their constants.
 pub fn review(reviewer: &mut Reviewer, schema: &Schema) {
     let scene = reviewer.scene;
     for named in &scene.substances {

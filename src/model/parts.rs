@@ -17,16 +17,17 @@ impl Model {
         Ok(bodies.try_for_each(|(body, unknowns)| body.foresee(unknowns, dt, allowance))?)
     }
 
-    /// Advances by `dt` [s] as a further part of the last step: means over the last step then cover all its parts.
+    /// Advances by `dt` [s] as a further part of the last step, whose rest is `ahead` [s]: means over the last step
+    /// then cover all its parts.
     pub fn step_on(
         &self,
         allowance: &Allowance,
         state: &mut State,
         cache: &mut Cache,
-        dt: f64,
+        (dt, ahead): (f64, f64),
     ) -> Result<(), ModelError> {
         let before = state.bodies.clone();
-        self.step_within(allowance, state, cache, dt)?;
+        self.step_within(allowance, state, cache, (dt, ahead))?;
         for ((body, before), state) in self.bodies.iter().zip(&before).zip(&mut state.bodies) {
             body.join_steps(before, state);
         }

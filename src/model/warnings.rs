@@ -42,8 +42,8 @@ impl Model {
         self.warnings_on(state, Occasion::Step).into_iter().chain(set).collect()
     }
 
-    /// Warns of inputs that were set in response to the last step and contradict how it was computed; `before` are those
-    /// at its beginning.
+    /// Warns of inputs that were set in response to the last step and contradict how it was computed; `before` are
+    /// those at its beginning.
     pub fn warning_on_response(&self, state: &State, before: &[f64]) -> Option<Warning> {
         let occasion = Occasion::Response { before, now: &state.inputs };
         self.warnings_on(state, occasion).into_iter().next()

@@ -8,8 +8,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::OutputError;
 
-/// Writes a temporary file next to `path` and renames it once it is complete; leaves no temporary file. A link is replaced,
-/// not written through.
+/// Writes a temporary file next to `path` and renames it once it is complete; leaves no temporary file. A link is
+/// replaced, not written through.
 ///
 /// # Errors
 /// If the file cannot be written; the one that was there is then unchanged.

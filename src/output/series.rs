@@ -11,11 +11,11 @@ use crate::model::{Cache, Model, State};
 use crate::scene::{Body, Drawn, Scene};
 
 /// The fields of all bodies as ParaView time series. For each time `BODY.pvd` lists one `BODY_NNNNNN.vtr` (the nodes of
-/// a box, or of a disc's meridian section), `.vts` (those of a disc, revolved about its axis) or `.vtp` (the particles of
-/// a droplet). `all-bodies.pvd` lists those of several bodies, so that a viewer opens them at once.
+/// a box, or of a disc's meridian section), `.vts` (those of a disc, revolved about its axis) or `.vtp` (the particles
+/// of a droplet). `all-bodies.pvd` lists those of several bodies, so that a viewer opens them at once.
 ///
-/// Bodies without nodes or particles have no files: reduced solids, recorded drops and films. A droplet has none at times
-/// at which no drop has been released yet.
+/// Bodies without nodes or particles have no files: reduced solids, recorded drops and films. A droplet has none at
+/// times at which no drop has been released yet.
 ///
 /// Files appear whole or not at all, and the list is updated after each time, so an interrupted run leaves a readable
 /// series. A time with a file that cannot be written is not listed. A state whose time is not later than the last one

@@ -22,10 +22,10 @@ impl Scene {
         self.effusivity_below(droplet).map_or(0.0, |below| own / (own + below))
     }
 
-    /// First contact between a droplet and the surface below it. For two half spaces of effusivities e its temperature is
-    /// `(e₁T₁ + e₂T₂)/(e₁ + e₂)` (Carslaw & Jaeger 1959, §2.15); for a wall without effusivity it is the wall's. Through a
-    /// conductance h the fluid's surface has yet to change by `exp(b²t) erfc(b√t)` of its whole change, `b = h (1/e₁ +
-    /// 1/e₂)` (§2.7).
+    /// First contact between a droplet and the surface below it. For two half spaces of effusivities e its temperature
+    /// is `(e₁T₁ + e₂T₂)/(e₁ + e₂)` (Carslaw & Jaeger 1959, §2.15); for a wall without effusivity it is the wall's.
+    /// Through a conductance h the fluid's surface has yet to change by `exp(b²t) erfc(b√t)` of its whole change, `b =
+    /// h (1/e₁ + 1/e₂)` (§2.7).
     pub fn first_contact(&self, name: &str) -> Option<FirstContact<'_>> {
         let droplet = self.droplet(name)?;
         let (below, below_temperature) = match self.coupling_from(name) {

@@ -180,8 +180,8 @@ pub enum PressureAdvance {
     /// In steps that resolve the sound of the model.
     #[default]
     Explicit,
-    /// Solved with viscosity at the end of each step, whose length sound does not limit: for fluid that is thick, slow or
-    /// at rest.
+    /// Solved with viscosity at the end of each step, whose length sound does not limit: for fluid that is thick, slow
+    /// or at rest.
     Implicit,
 }
 
@@ -423,8 +423,9 @@ impl Droplet {
         (self.impact_velocity.powi(2) + fall).max(capillary).sqrt()
     }
 
-    /// The viscosity that stands for the fluid in dimensionless numbers and estimates [Pa s]: at the initial temperature
-    /// and, of a law of the shear rate, at the rate U/D of the [fastest flow](Self::fastest_flow) over the diameter.
+    /// The viscosity that stands for the fluid in dimensionless numbers and estimates [Pa s]: at the initial
+    /// temperature and, of a law of the shear rate, at the rate U/D of the [fastest flow](Self::fastest_flow) over the
+    /// diameter.
     pub fn reference_viscosity(&self) -> f64 {
         let rate = self.fastest_flow() / self.diameter;
         self.fluid.reference_viscosity(self.initial_temperature, rate)

@@ -98,8 +98,8 @@ pub enum ByInput {
     Input,
 }
 
-/// Places of a nozzle's outlet over the time; it moves evenly between them. Before the first and after the last it rests,
-/// and no fluid comes.
+/// Places of a nozzle's outlet over the time; it moves evenly between them. Before the first and after the last it
+/// rests, and no fluid comes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PathTable {
@@ -255,8 +255,8 @@ impl Filament {
         }
     }
 
-    /// Inputs: the place of the outlet if inputs move it, the flow if the path does not set it, the temperature of the fluid
-    /// and that of the air.
+    /// Inputs: the place of the outlet if inputs move it, the flow if the path does not set it, the temperature of the
+    /// fluid and that of the air.
     pub fn inputs(&self) -> Vec<BodyInput> {
         let Nozzle { height: z, temperature: hot, flow: start, .. } = self.nozzle;
         let at = |key, words, start, limits: Limits| BodyInput {

@@ -51,8 +51,8 @@ pub struct LargeStrain {
     #[serde(default)]
     #[schemars(extend("condition" = "a box is not `axisymmetric`, a disc is"))]
     pub symmetry: LargeStrainSymmetry,
-    /// Discretisation: finite elements, reproducing kernels, the element-free Galerkin method, or total-Lagrangian smoothed
-    /// particles.
+    /// Discretisation: finite elements, reproducing kernels, the element-free Galerkin method, or total-Lagrangian
+    /// smoothed particles.
     #[serde(default)]
     pub mechanics: Mechanics,
     /// Settings of `rkpm` and `efg`.
@@ -205,8 +205,8 @@ pub enum KernelIntegration {
     Gauss,
 }
 
-/// The shape of a solid of large strain. The origin of a box and of a disc is the centre of their top, that of a ball its
-/// centre.
+/// The shape of a solid of large strain. The origin of a box and of a disc is the centre of their top, that of a ball
+/// its centre.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum SolidShape {
@@ -236,8 +236,8 @@ pub struct Ball {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum LargeStrainSymmetry {
-    /// Axisymmetric if ball or disc move along the axis, else a quarter (half of a plane model) where that is exact; the
-    /// whole body with a second smoothing.
+    /// Axisymmetric if ball or disc move along the axis, else a quarter (half of a plane model) where that is exact;
+    /// the whole body with a second smoothing.
     #[default]
     Auto,
     /// The whole body.
@@ -402,8 +402,8 @@ impl LargeStrain {
         }
     }
 
-    /// Axes along which the displacement of a face is an input: its normal on rollers, else those that the model neither
-    /// lacks nor mirrors. A face without rollers is held along the others.
+    /// Axes along which the displacement of a face is an input: its normal on rollers, else those that the model
+    /// neither lacks nor mirrors. A face without rollers is held along the others.
     pub fn moved_axes(&self, face: FaceName) -> Vec<usize> {
         let Some(held) = self.faces.get(&face).filter(|held| held.displacement.is_some()) else {
             return Vec::new();
@@ -415,8 +415,8 @@ impl LargeStrain {
         }
     }
 
-    /// Components of the load on a face that are inputs: the pressure, and the traction along axes that the model neither
-    /// lacks nor mirrors.
+    /// Components of the load on a face that are inputs: the pressure, and the traction along axes that the model
+    /// neither lacks nor mirrors.
     pub fn load_components(&self, face: FaceName) -> Vec<LoadComponent> {
         let Some(own) = self.faces.get(&face) else { return Vec::new() };
         let pressure = own.pressure.map(|_| LoadComponent::Pressure);
@@ -516,8 +516,8 @@ impl LargeStrain {
         self.conductance_below.is_some() || self.faces.values().any(is_heated)
     }
 
-    /// Returns true if the temperature is an input: the body rests, has no heat flow, and expands or relaxes with it, and its other constants
-    /// are the same at every temperature.
+    /// Returns true if the temperature is an input: the body rests, has no heat flow, and expands or relaxes with it,
+    /// and its other constants are the same at every temperature.
     pub fn has_temperature(&self) -> bool {
         let is_steady = |own: &Material| {
             let properties = own.law.deformation().properties();
@@ -618,8 +618,8 @@ fn load_key(face: FaceName, component: LoadComponent) -> &'static str {
     }
 }
 
-/// Names the kind of solids of large strain in the schema as scenes do, `kind = "solid"` with `strain = "finite"`, and has
-/// the measure of strain tell solids apart.
+/// Names the kind of solids of large strain in the schema as scenes do, `kind = "solid"` with `strain = "finite"`, and
+/// has the measure of strain tell solids apart.
 pub fn name_kind(schema: &mut Schema) {
     let kinds = schema.get_mut("oneOf").and_then(serde_json::Value::as_array_mut);
     for kind in kinds.into_iter().flatten() {

@@ -1,4 +1,5 @@
-//! Solids of large strain are `kind = "solid"` with `strain = "finite"`; inside the program they are a kind of their own.
+//! Solids of large strain are `kind = "solid"` with `strain = "finite"`; inside the program they are a kind of their
+//! own.
 
 use std::borrow::Cow;
 

@@ -37,13 +37,14 @@ pub struct Lattice {
     /// Supports and load: `ends`, pulled between rigid platens, or three-point bending.
     #[schemars(extend("condition" = "or `{ three_point = { span = L } }`"))]
     pub support: LatticeSupport,
-    /// Quantity that the input prescribes: the displacement of the load, or the opening of the notch at the lower face. The
-    /// opening passes points at which the displacement would go back.
+    /// Quantity that the input prescribes: the displacement of the load, or the opening of the notch at the lower face.
+    /// The opening passes points at which the displacement would go back.
     #[serde(default)]
     #[schemars(extend("condition" = "`opening` with `notch`"))]
     pub control: LatticeControl,
-    /// True if the strip has inertia: it moves by explicit time steps, and the load at constant speed from its displacement
-    /// at the beginning of a communication step to that at the end. Otherwise it is in equilibrium at every time.
+    /// True if the strip has inertia: it moves by explicit time steps, and the load at constant speed from its
+    /// displacement at the beginning of a communication step to that at the end. Otherwise it is in equilibrium at
+    /// every time.
     #[serde(default)]
     #[schemars(extend("condition" = "not with `control = \"opening\"`"))]
     pub inertia: bool,

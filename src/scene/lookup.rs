@@ -86,8 +86,9 @@ impl Scene {
         self.coupling.iter().any(|own| is_on_it(&own.to) && self.filament(&own.from).is_some())
     }
 
-    /// Largest speed of fluid and nozzle that a filament of particles expects [m/s]: that of the flow, of the path, of a fall
-    /// from the outlet and of surface tension. A flow that only inputs set is expected to bring `most` by the stop time.
+    /// Largest speed of fluid and nozzle that a filament of particles expects [m/s]: that of the flow, of the path, of
+    /// a fall from the outlet and of surface tension. A flow that only inputs set is expected to bring `most` by the
+    /// stop time.
     pub fn fastest_strand(&self, filament: &Filament) -> f64 {
         let route = self.route(filament);
         let legs = || route.iter().flat_map(|route| &route.legs);
@@ -207,8 +208,8 @@ impl Scene {
         below.and_then(|name| self.body.get(name)).is_some_and(Body::is_round)
     }
 
-    /// Stores in each droplet the properties of the surface below it, and in each solid of large strain the conductance of
-    /// its contact.
+    /// Stores in each droplet the properties of the surface below it, and in each solid of large strain the conductance
+    /// of its contact.
     pub(super) fn store_surfaces_below(&mut self) {
         let names: Vec<String> = self.droplets().map(|(name, _)| name.to_owned()).collect();
         for name in names {

@@ -1,6 +1,7 @@
 //! The scene: plain, checked data that describes what to model. Nothing here depends on the method.
 //!
-//! Text → `locate` (TOML with positions) → `shorthand` (units, substances) → `decode` (types) → `check` (consistency) → [`Scene`].
+//! Text → `locate` (TOML with positions) → `shorthand` (units, substances) → `decode` (types) → `check` (consistency) →
+//! [`Scene`].
 
 mod cells;
 pub(crate) mod check;

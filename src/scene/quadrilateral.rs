@@ -46,13 +46,21 @@ impl Quadrilateral {
         })
     }
 
-    /// Returns true if the corners go round once, against the clock seen with x to the right and z up, and every angle is
-    /// below 180°.
+    /// Returns true if the corners go round once, against the clock seen with x to the right and z up, and every angle
+    /// is below 180°.
     pub fn is_convex(&self) -> bool {
         (0..4).all(|n| {
             let ([a, b], [c, d]) = (self.edge(n), self.edge((n + 1) % 4));
             a * d - b * c > 1e-9 * a.hypot(b) * c.hypot(d)
         })
+    }
+
+    /// Returns true if the first corner is the lower left one: the bottom is below the top, and the left side left of
+    /// the right one.
+    pub fn begins_below(&self) -> bool {
+        let middle =
+            |axis: usize, n: usize| self.corners[n][axis] + self.corners[(n + 1) % 4][axis];
+        middle(1, 0) < middle(1, 2) && middle(0, 3) < middle(0, 1)
     }
 
     /// Returns true if a point in x and z is inside or on the boundary.
@@ -97,7 +105,8 @@ mod tests {
     fn corners_in_order_make_a_body_and_others_do_not() {
         let of = |corners| Quadrilateral { corners, depth: None };
         let [a, b, c, d] = COOK;
-        assert!(of(COOK).is_convex());
+        assert!(of(COOK).is_convex() && of(COOK).begins_below());
+        assert!(of([b, c, d, a]).is_convex() && !of([b, c, d, a]).begins_below());
         for wrong in [[d, c, b, a], [a, c, b, d], [a, b, b, d], [a, b, [10.0, 30.0], d]] {
             assert!(!of(wrong).is_convex(), "{wrong:?}");
         }

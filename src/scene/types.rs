@@ -102,8 +102,8 @@ pub struct Scene {
         "otherwise" = "`reduced` where possible"
     ))]
     pub resolved: BTreeMap<String, ResolvedLevel>,
-    /// Texts of the files that the scene names, by their names. They are added when the scene is read, so that it is whole
-    /// wherever it goes.
+    /// Texts of the files that the scene names, by their names. They are added when the scene is read, so that it is
+    /// whole wherever it goes.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     #[schemars(extend("condition" = "names of files in the scene", "otherwise" = "read from the files"))]
     pub files: BTreeMap<String, String>,

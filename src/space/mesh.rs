@@ -24,8 +24,8 @@ pub struct Mesh {
     pub nodes: Vec<[f64; 3]>,
     /// 4 corners each in a plane, 8 in space.
     pub cells: Vec<Vec<u32>>,
-    /// Edges (2 nodes) or faces (4 nodes, the first coordinate changing fastest) of the boundary with their sides; those
-    /// on planes of symmetry and on an axis are none.
+    /// Edges (2 nodes) or faces (4 nodes, the first coordinate changing fastest) of the boundary with their sides;
+    /// those on planes of symmetry and on an axis are none.
     pub faces: Vec<(Side, Vec<u32>)>,
 }
 
@@ -106,8 +106,9 @@ impl Mesh {
         self
     }
 
-    /// A cylinder of a radius and a thickness about z below the origin: `counts` are those of the inner block (half of it)
-    /// along x and y, from it to the surface, and along z. Only the part with positive x (or y) is meshed where `halved`.
+    /// A cylinder of a radius and a thickness about z below the origin: `counts` are those of the inner block (half of
+    /// it) along x and y, from it to the surface, and along z. Only the part with positive x (or y) is meshed where
+    /// `halved`.
     pub fn of_cylinder(
         [radius, thickness]: [f64; 2],
         counts: [usize; 3],

@@ -1,14 +1,15 @@
 //! Total-Lagrangian smoothed particles: gradients are corrected sums over the neighbours of the reference state.
 //!
-//! The deformation gradient of a particle a with neighbours b of volumes V is `F_a = Σ V_b (x_b − x_a) ⊗ B_a ∇₀W_ab`, with
-//! `B_a = [Σ V_b (X_b − X_a) ⊗ ∇₀W_ab]⁻¹` (J. Bonet & T.-S. L. Lok 1999, doi 10.1016/S0045-7825(99)00051-1): exact for
-//! affine motion. The forces that do the work of the stresses at the particles are the antisymmetric pair forces of
+//! The deformation gradient of a particle a with neighbours b of volumes V is `F_a = Σ V_b (x_b − x_a) ⊗ B_a ∇₀W_ab`,
+//! with `B_a = [Σ V_b (X_b − X_a) ⊗ ∇₀W_ab]⁻¹` (J. Bonet & T.-S. L. Lok 1999, doi 10.1016/S0045-7825(99)00051-1): exact
+//! for affine motion. The forces that do the work of the stresses at the particles are the antisymmetric pair forces of
 //! total-Lagrangian SPH.
 //!
 //! One gradient for each particle does not see motion that alternates between neighbours. So second derivatives are
-//! fitted, with the same weights, to what F_a leaves over of the neighbours' displacements. They give the gradient in each
-//! quarter (eighth) of a particle's cell, where the stress is taken: no mode but rigid ones is without energy, and there is
-//! no constant to be chosen. The points of a particle share one dilatation. Gradients are then made [`consistent`].
+//! fitted, with the same weights, to what F_a leaves over of the neighbours' displacements. They give the gradient in
+//! each quarter (eighth) of a particle's cell, where the stress is taken: no mode but rigid ones is without energy, and
+//! there is no constant to be chosen. The points of a particle share one dilatation. Gradients are then made
+//! [`consistent`].
 
 mod consistent;
 

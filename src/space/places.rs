@@ -81,7 +81,8 @@ fn local(mesh: &Mesh, cell: &[u32], at: [f64; 3]) -> Option<[f64; 3]> {
 const GROWTH: f64 = 1.25;
 
 /// Returns points with weights whose mean at a place is that of the linear field that fits their values best; points
-/// near the place weigh most. Only points that `accept` returns true for count; the search begins within a distance [m].
+/// near the place weigh most. Only points that `accept` returns true for count; the search begins within a distance
+/// [m].
 pub fn fit(
     samples: &Samples,
     form: Form,

@@ -77,6 +77,14 @@ rules! {
     "{elements} across the {extent} m of a slender body: its bending is wrong by {error}";
     "did you mean a `mesh.spacing` of {fine} m or less?"
 
+    Check warm_layer_unresolved(depth, spacing, fine)
+    "by the stop time heat penetrates √(at) = {depth} m, and nodes are {spacing} m apart: heat that passes at first is \
+     tens of per cent too large"; "set a `mesh.spacing` of {fine} m or less"
+
+    Check no_heat_passes(one, other, difference)
+    "`{one}` and `{other}` differ by {difference} K, and no heat passes where they touch";
+    "give the coupling a `conductance`, [W/(m² K)]"
+
     Check droplet_meets_no_wall(solid, drop)
     "the droplet falls through `{solid}`: nothing joins them";
     "did you mean `[[coupling]]` with from = \"{drop}\", to = \"{solid}.top\"?"

@@ -1,5 +1,5 @@
-//! An edge crack in a half plane whose surface is suddenly cooled, as a problem of gradient damage. Energy of cracks and
-//! length of damage are the units.
+//! An edge crack in a half plane whose surface is suddenly cooled, as a problem of gradient damage. Energy of cracks
+//! and length of damage are the units.
 
 use closed_form::edge_crack::shocked;
 use closed_form::gradient_damage::beside_at1;

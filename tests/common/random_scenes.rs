@@ -181,8 +181,8 @@ pub struct Outcome {
 /// Nodes of references, at most.
 const MOST_NODES: f64 = 1.5e5;
 
-/// Chooses a mesh for a tolerance and compares with meshes finer along the surface and through the thickness: by two levels
-/// of √2, of discs along the surface by four. Nothing where the reference would be too large.
+/// Chooses a mesh for a tolerance and compares with meshes finer along the surface and through the thickness: by two
+/// levels of √2, of discs along the surface by four. Nothing where the reference would be too large.
 pub fn outcome(drawn: &Drawn, tolerance: f64) -> Option<Outcome> {
     let scene =
         scene::parse(&drawn.text, "scene").unwrap_or_else(|e| panic!("{e}\n{}", drawn.text));

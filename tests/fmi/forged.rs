@@ -322,7 +322,7 @@ fn a_unit_can_be_reset_and_freed_in_every_phase_that_is_taken() {
         assert_eq!(unit.reset(), OK, "phase {phase}: {:?}", unit.messages.take());
         assert_eq!(unit.free_state(&mut place), OK);
     }
-    assert_eq!(taken, 7, "all phases but those in a step and after a fatal error");
+    assert_eq!(taken, 8, "all phases but those in a step and after a fatal error");
     let reused = unit.handle;
     drop(unit);
     // The place of a unit that was freed serves for the next one, and answers nothing before.

@@ -57,8 +57,8 @@ fn no_modes_without_energy_but_rigid_ones() {
     }
 }
 
-/// Once more smoothed gradients of one point a node hardly resist short waves, down to none at all in rounding; what they
-/// vary within cells does.
+/// Once more smoothed gradients of one point a node hardly resist short waves, down to none at all in rounding; what
+/// they vary within cells does.
 #[test]
 fn second_smoothing_needs_what_gradients_vary_within_cells() {
     for (mesh, rigid, spacing, weak) in [
@@ -105,7 +105,8 @@ fn particles_have_no_modes_without_energy_but_rigid_ones() {
     }
 }
 
-/// Modes of regular particles are within 2 % of the exact ones from six of them across on, and finite elements 6 % above.
+/// Modes of regular particles are within 2 % of the exact ones from six of them across on, and finite elements 6 %
+/// above.
 #[test]
 fn modes_of_particles_are_those_of_fine_elements() {
     let squares = [6, 12].map(|count| {

@@ -32,7 +32,8 @@ fn heated([density, specific_heat, conductivity]: [f64; 3], thickness: f64) -> H
     HeatedSlab { body, flux: 1.0, thickness }
 }
 
-/// Fluxes that change their sign with every step, by superposition of the closed form; steps are of `scene_step` or longer.
+/// Fluxes that change their sign with every step, by superposition of the closed form; steps are of `scene_step` or
+/// longer.
 fn follow_flips(name: &str, solid: [f64; 3], thickness: f64, (scene_step, step): (f64, f64)) {
     let exact = heated(solid, thickness);
     // 10 K in the first step.

@@ -353,7 +353,12 @@ fn steps_in_which_much_creeps_end_as_soon_as_they_are_not_wanted() {
     let before = trial.state.clone();
     let Trial { model, state, .. } = &mut trial;
     let little = Allowance::of_updates(&Interrupt::default(), 2e6);
-    let halted = model.step_within(&little, state, &mut Cache::default(), material.time());
+    let halted = model.step_within(
+        &little,
+        state,
+        &mut Cache::default(),
+        (material.time(), material.time()),
+    );
     let message = halted.unwrap_err().to_string();
     assert!(message.contains("iterations of equilibrium"), "{message}");
     assert_eq!(state.bodies, before.bodies);
@@ -361,7 +366,12 @@ fn steps_in_which_much_creeps_end_as_soon_as_they_are_not_wanted() {
     let under_way = interrupt.begin();
     assert!(interrupt.interrupt());
     let allowance = Allowance::of_step(&interrupt);
-    let cancelled = model.step_within(&allowance, state, &mut Cache::default(), material.time());
+    let cancelled = model.step_within(
+        &allowance,
+        state,
+        &mut Cache::default(),
+        (material.time(), material.time()),
+    );
     assert!(cancelled.unwrap_err().to_string().contains("cancelled"));
     assert_eq!(state.bodies, before.bodies);
     drop(under_way);

@@ -1,4 +1,5 @@
-//! Drops that inputs release: they are those of arrivals, wait for their place, and all that they bring is accounted for.
+//! Drops that inputs release: they are those of arrivals, wait for their place, and all that they bring is accounted
+//! for.
 
 use std::f64::consts::PI;
 

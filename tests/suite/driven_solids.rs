@@ -103,7 +103,8 @@ fn a_pressure_from_all_sides_shrinks_evenly() {
 
 #[test]
 fn a_strip_under_a_dead_load_bends_as_the_elastica() {
-    // Plane strain with ν = 0: P L²/EI and the place of the end over L (K. Mattiasson 1981, doi 10.1002/nme.1620170113).
+    // Plane strain with ν = 0: P L²/EI and the place of the end over L (K. Mattiasson 1981, doi
+    // 10.1002/nme.1620170113).
     let table = [(1.0, 0.056_43, 0.301_72), (2.0, 0.160_64, 0.493_46), (5.0, 0.387_63, 0.713_79)];
     let keys = "shape = { box = [20e-3, 1e-3, 1e-3] }\ndimension = 2\nmechanics = \"rkpm\"\nmesh = { spacing = 0.5e-3 }\n\
                 faces = { left = { clamped = true }, right = { traction = [0.0, 0.0, 0.0] } }";
@@ -302,8 +303,8 @@ fn cook(keys: &str) -> String {
     text.replace("young = 1e6, poisson = 0.4", "young = 7e7, poisson = 0.3333333333") + &corner
 }
 
-/// The corner of Cook's membrane rises as in other codes: 32.20 mm (Code_Aster), 32.27 mm (CalculiX) at a thousand times
-/// the load, linear.
+/// The corner of Cook's membrane rises as in other codes: 32.20 mm (Code_Aster), 32.27 mm (CalculiX) at a thousand
+/// times the load, linear.
 #[test]
 fn bodies_of_four_corners_deform_as_in_other_codes() {
     for (method, spacing, tolerance) in
@@ -339,8 +340,8 @@ fn bodies_of_four_corners_have_a_depth() {
     assert!((trial.get("pad.mass") / (1000.0 * 8e-3 * 6e-3 * 5e-3) - 1.0).abs() < 1e-9);
 }
 
-/// Slender bodies with one or two elements across are warned of: their deflection is wrong by a fifth or more, or by some
-/// per cent. Stout ones, planes of finer meshes and other methods are not.
+/// Slender bodies with one or two elements across are warned of: their deflection is wrong by a fifth or more, or by
+/// some per cent. Stout ones, planes of finer meshes and other methods are not.
 #[test]
 fn meshes_too_coarse_to_bend_are_warned_of() {
     let told = |shape: &str, spacing: f64, keys: &str| {

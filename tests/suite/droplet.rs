@@ -225,8 +225,9 @@ fn fluid_below_absolute_zero_is_refused_and_changes_nothing() {
     drop.advance(&mut state, &[COLD; RINGS], 0.5e-6).unwrap();
 }
 
-/// Heat that a resting block of water between insulated sides gives to a wall of constant temperature, over the closed form
-/// `2 k ΔT √(t/(π a))` of a half space. It is the same all over the wall, so a block of twelve particles' width does.
+/// Heat that a resting block of water between insulated sides gives to a wall of constant temperature, over the closed
+/// form `2 k ΔT √(t/(π a))` of a half space. It is the same all over the wall, so a block of twelve particles' width
+/// does.
 fn contact_heat(spacing: f64) -> f64 {
     let (width, height, time) = (12.0 * spacing, 2.4e-5, 40e-6);
     let mut plan = impact(DIAMETER / spacing);
@@ -265,7 +266,8 @@ fn contact_heat_is_that_of_a_half_space_at_any_spacing() {
     assert!(errors.iter().all(|error| error.abs() < 0.01), "{errors:?}");
 }
 
-/// Waves of density grow where Euler's method diffuses them in steps beyond its limit, which those of sound are at δ = 1.
+/// Waves of density grow where Euler's method diffuses them in steps beyond its limit, which those of sound are at δ =
+/// 1.
 #[test]
 fn steps_are_short_enough_for_density_diffusion() {
     let plan = DropletPlan { density_diffusion: 1.0, ..impact(12.0) };

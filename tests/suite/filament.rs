@@ -167,8 +167,8 @@ fn outputs_describe_the_strand_and_its_target() {
     assert!((trial.get("ink.volume") / 8e-9 - 1.0).abs() < 1e-12);
 }
 
-/// Places that are set without derivatives are reached evenly by the end of the step: the same strand as of the table, a
-/// step late, and a warning says so once.
+/// Places that are set without derivatives are reached evenly by the end of the step: the same strand as of the table,
+/// a step late, and a warning says so once.
 #[test]
 fn places_without_derivatives_are_approached_evenly() {
     let path = "{ time = [0.0, 0.5, 1.0], x = [-5e-3, 5e-3, 5e-3], y = [-2e-3, -2e-3, 3e-3] }";
@@ -259,8 +259,8 @@ fn scenes_bring_the_files_that_they_name() {
     }
 }
 
-/// `check` warns of unusual heights, targets beyond the plate, strands without fluid, along themselves or beyond the run;
-/// large and coarse meshes, and contacts near the freezing point.
+/// `check` warns of unusual heights, targets beyond the plate, strands without fluid, along themselves or beyond the
+/// run; large and coarse meshes, and contacts near the freezing point.
 #[test]
 fn doubtful_strands_are_warned_of() {
     let target = "[[target]]\nof = \"ink\"\nline = [[0.0, 0.0], [5e-3, 0.0]]\n";

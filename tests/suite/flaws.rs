@@ -228,8 +228,8 @@ fn the_depth_is_a_parameter_unless_it_is_searched() {
 const COARSE: &str = "mesh = { spacing = 5e-4, depth_spacing = 5e-4, growth = 1.0 }";
 const GROWTH: &str = "growth = { exponent = 10.0, speed = 2.0 }";
 
-/// Depth after slow growth from 40 µm, in `K = Y σ √a`: `a^(1 − n/2)` falls by `(n/2 − 1) v₀ (Yσ/K_Ic)^n t` (A. G. Evans & S.
-/// M. Wiederhorn 1974, doi 10.1007/BF00035405).
+/// Depth after slow growth from 40 µm, in `K = Y σ √a`: `a^(1 − n/2)` falls by `(n/2 − 1) v₀ (Yσ/K_Ic)^n t` (A. G.
+/// Evans & S. M. Wiederhorn 1974, doi 10.1007/BF00035405).
 fn grown(stress: f64, time: f64) -> f64 {
     let rate = 4.0 * 2.0 * (edge(1.0, |_| 1.0) * stress / 3.8e6).powi(10);
     (4e-5_f64.powi(-4) - rate * time).powf(-0.25)

@@ -157,8 +157,8 @@ fn stiffness_is_factored_only_for_those_who_read_it() {
     assert!(trial.model.factor_entries() > 0);
 }
 
-/// A film coefficient of 1e30 lets rounding make heat: such a step is refused before anyone reads what came of it, while
-/// 1e12 is as good as a prescribed temperature.
+/// A film coefficient of 1e30 lets rounding make heat: such a step is refused before anyone reads what came of it,
+/// while 1e12 is as good as a prescribed temperature.
 #[test]
 fn a_step_whose_heat_does_not_balance_is_refused_and_changes_nothing() {
     let slab = |coefficient: &str| {

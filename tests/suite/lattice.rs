@@ -275,8 +275,9 @@ fn impossible_motion_is_refused() {
     assert!(refusal.contains("faster than waves"), "{refusal}");
 }
 
-/// A strip between platens breaks suddenly, and what that releases is counted; afterwards the crack is bridged by the same
-/// load in every sample, `share · strength · (w₃ − w)/(w₃ − w₂)` of the section but for its facets, which are inclined.
+/// A strip between platens breaks suddenly, and what that releases is counted; afterwards the crack is bridged by the
+/// same load in every sample, `share · strength · (w₃ − w)/(w₃ − w₂)` of the section but for its facets, which are
+/// inclined.
 #[test]
 fn torn_strips_of_all_samples_are_bridged() {
     for (seed, arrangement) in [(0, "random"), (0, "across")] {

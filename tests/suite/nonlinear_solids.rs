@@ -238,7 +238,8 @@ fn plastic_strain_is_that_of_the_layer_that_yields() {
             trial.set(&format!("plate.{face}.temperature"), 355.0);
         }
         (0..3).for_each(|_| trial.step(10.0));
-        // Beyond yield, 2Δe of plastic strain change stress by E/(1 − ν) and kinematic hardening by 2H of the part along.
+        // Beyond yield, 2Δe of plastic strain change stress by E/(1 − ν) and kinematic hardening by 2H of the part
+        // along.
         let (modulus, strain) = (16e9 / 0.56, 2.9e-5 * 60.0);
         let part = (modulus * strain - 12e6) / (modulus + 2.0 * 5e7);
         let found = trial.get("below.plastic_strain");
@@ -444,8 +445,8 @@ fn no_part_of_a_body_bears_more_than_its_yield_stress() {
     assert!((11.9e6..most).contains(&highest), "{highest} {strained}");
 }
 
-/// A plate that is held flat, heated by a pulse and left alone: a quarter deep it is warmest after the pulse, within the
-/// second of two steps.
+/// A plate that is held flat, heated by a pulse and left alone: a quarter deep it is warmest after the pulse, within
+/// the second of two steps.
 #[test]
 fn a_moment_within_a_step_leaves_the_plastic_strain_that_it_makes() {
     let (flux, stop, thickness, depth) = (1.5e7, 40e-3, 1e-3, 0.25e-3);

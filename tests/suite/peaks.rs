@@ -163,8 +163,8 @@ fn a_running_maximum_is_the_highest_of_what_the_body_tells_at_communication_poin
     }
 }
 
-/// A half space under a flux q for a time t is warmest at its surface at the end: 2 q √(αt/π)/k (Carslaw and Jaeger 1959,
-/// §2.9).
+/// A half space under a flux q for a time t is warmest at its surface at the end: 2 q √(αt/π)/k (Carslaw and Jaeger
+/// 1959, §2.9).
 #[test]
 fn a_pulse_is_hottest_at_the_surface_as_it_ends() {
     let materials = [

@@ -8,7 +8,8 @@ use impinge::advice::parse_with_warnings;
 use impinge::model::forecast;
 use impinge::scene::parse;
 
-/// Density, viscosity, specific heat, conductivity, surface tension; temperature of the drop, of the plate; freezes, boils.
+/// Density, viscosity, specific heat, conductivity, surface tension; temperature of the drop, of the plate; freezes,
+/// boils.
 type Case = (&'static str, [f64; 5], [f64; 2], [f64; 2]);
 const TIN: Case = ("tin", [6970.0, 1.9e-3, 250.0, 30.0, 0.55], [550.0, 300.0], [505.1, 2875.0]);
 const WATER: Case = ("water", [998.0, 1e-3, 4180.0, 0.6, 0.072], [300.0, 200.0], [273.15, 373.15]);

@@ -67,7 +67,8 @@ fn a_saved_state_of_solved_pressure_goes_on_to_the_bit_on_any_threads() {
     assert!(whole.state == other.state);
 }
 
-/// A drop that is let go above a wall falls freely in steps that its speed allows, however long a step of communication is.
+/// A drop that is let go above a wall falls freely in steps that its speed allows, however long a step of communication
+/// is.
 #[test]
 fn drops_that_are_let_go_fall_freely() {
     let text = scene("pressure = \"implicit\"\nheight = 2e-3")

@@ -153,7 +153,8 @@ fn errors_stay_within_their_bounds_on_steps_and_on_random_inputs() {
             "{}: {order} unknowns, bound {bound:e} K of {largest} K, worst error over bound {worst}",
             case.name
         );
-        // The bound says something. Where faces jump, heat stored decides on the order, and temperatures are better yet.
+        // The bound says something. Where faces jump, heat stored decides on the order, and temperatures are better
+        // yet.
         assert!(worst > 1e-3 || case.size == 0.0, "{}: {worst}", case.name);
     }
 }

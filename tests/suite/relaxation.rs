@@ -292,8 +292,8 @@ fn bilayer(layers: &str, elements: &str) -> String {
     )
 }
 
-/// Stress of layers of a free strip under a sudden rise, at times, by plate theory with a thousand steps: `ε = e + κ z`,
-/// no resultant, no moment, and elastic strains of the branch that are linear in z, too.
+/// Stress of layers of a free strip under a sudden rise, at times, by plate theory with a thousand steps: `ε = e + κ
+/// z`, no resultant, no moment, and elastic strains of the branch that are linear in z, too.
 fn strip(
     moduli: [f64; 2],
     expansions: [f64; 2],
@@ -424,7 +424,7 @@ fn steps_end_as_soon_as_they_are_too_long() {
     let before = trial.state.clone();
     let Trial { model, state, .. } = &mut trial;
     let little = Allowance::of_updates(&Interrupt::default(), 1e5);
-    let halted = model.step_within(&little, state, &mut Default::default(), 5.0);
+    let halted = model.step_within(&little, state, &mut Default::default(), (5.0, 5.0));
     let message = halted.unwrap_err().to_string();
     assert!(message.contains("iterations of equilibrium"), "{message}");
     assert_eq!(state.bodies, before.bodies);

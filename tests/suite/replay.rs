@@ -289,8 +289,8 @@ fn drops_on_demand_are_those_of_arrivals() {
                 asked.step(STEP);
             });
         }
-        // The time of the release is a sum of steps. Films are known at more speeds where inputs tell these, and then on
-        // other rings.
+        // The time of the release is a sum of steps. Films are known at more speeds where inputs tell these, and then
+        // on other rings.
         let bound = if method == "record" { 1e-9 } else { 1e-3 };
         for name in ["drop.heat", "drop.impulse_z", "drop.mass", "drop.active"] {
             let [one, other] = [&mut timed, &mut asked].map(|trial| trial.get(name));
@@ -460,7 +460,8 @@ fn states_that_contradict_themselves_are_refused() {
     let state = trial.state.clone();
     trial.model.check_state(&state).unwrap();
     let body = trial.model.scene().body.keys().position(|name| name == "drop").unwrap();
-    // Time, last step, asked, released, overlapping, films, heat, impulse; then contact, place, speed, temperature, rings.
+    // Time, last step, asked, released, overlapping, films, heat, impulse; then contact, place, speed, temperature,
+    // rings.
     let first = 10;
     for (place, value, words) in [
         (0, -1.0, "a last step"),

@@ -1,5 +1,5 @@
-//! `docs/scene.schema.json` is what follows from the types of scenes, the tables of `docs/scene.md` are what follows from
-//! it, and both have every key that a scene may have, and no other. `WRITE_REFERENCE=1` writes both anew.
+//! `docs/scene.schema.json` is what follows from the types of scenes, the tables of `docs/scene.md` are what follows
+//! from it, and both have every key that a scene may have, and no other. `WRITE_REFERENCE=1` writes both anew.
 
 mod tables;
 

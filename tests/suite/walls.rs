@@ -63,7 +63,8 @@ fn film_plan(cells: WallCells, effusivity: Option<f64>, mirrors: [bool; 2]) -> D
     }
 }
 
-/// Particles at rest in layers, each displaced in x and y from its place on the lattice, over the distance of particles.
+/// Particles at rest in layers, each displaced in x and y from its place on the lattice, over the distance of
+/// particles.
 fn film(mirrors: [bool; 2], mut displacement: impl FnMut() -> [f64; 2]) -> ParticleFields {
     let mut film = ParticleFields::default();
     let first = mirrors.map(|mirrored| if mirrored { 0 } else { -HALF });

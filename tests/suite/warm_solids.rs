@@ -73,7 +73,8 @@ fn a_rod_with_a_hot_tip_lengthens_as_danilovskaya_says() {
 
 #[test]
 fn a_rod_with_inertia_swings_as_danilovskaya_says() {
-    // A free rod of two halves, each a rod that is held at its base; R = c h/κ = 10. Poisson's ratio is 0, so sides are free.
+    // A free rod of two halves, each a rod that is held at its base; R = c h/κ = 10. Poisson's ratio is 0, so sides are
+    // free.
     let keys = "shape = { box = [0.05, 1.0, 2.0] }\ndimension = 2\ninertia = true\nmesh = { spacing = 0.025 }\nstart = { height = 1.0 }\n\
                 faces = { bottom = { temperature = 400.0 }, top = { temperature = 400.0 } }";
     let material = "density = 1.0, specific_heat = 1.0, conductivity = 0.1, expansion = 1e-7, young = 1.0, poisson = 0.0";
@@ -385,5 +386,28 @@ fn fields_have_the_values_of_probes() {
                 assert!(probe != 0.0, "{key}");
             }
         }
+    }
+}
+
+/// A gel that is warmer than its plate without a conductance passes no heat, and one whose elements are thicker than
+/// what heat penetrates passes too much: both are told.
+#[test]
+fn heat_that_does_not_pass_or_is_not_resolved_is_warned_of() {
+    let told = |conductance: &str, stop: f64| -> Vec<&'static str> {
+        let text = format!(
+            "name = \"Drop\"\nstop_time = {stop:?}\nstep = 1e-3\n[body.gel]\nkind = \"solid\"\nstrain = \"finite\"\n\
+             inertia = true\nshape = {{ ball = {{ radius = 5e-3 }} }}\ninitial_temperature = 350.0\ngravity = 9.81\n\
+             material = {{ model = \"neo_hookean\", density = 1000.0, specific_heat = 4180.0, conductivity = 0.6, \
+             young = 2e4, poisson = 0.4 }}\n[body.plate]\nkind = \"solid\"\nshape = {{ box = [30e-3, 30e-3, 3e-3] }}\n\
+             material = \"soda-lime-glass\"\ninitial_temperature = 290.0\nfaces = {{ bottom = {{ clamped = true }} }}\n\
+             [[coupling]]\nfrom = \"gel\"\nto = \"plate.top\"\n{conductance}\n"
+        );
+        let (_, found) = impinge::advice::parse_with_warnings(&text, "scene.toml").unwrap();
+        found.iter().map(|warning| warning.finding().id).collect()
+    };
+    assert!(told("", 0.02).contains(&"no_heat_passes"));
+    assert!(told("conductance = 1e5", 0.02).contains(&"warm_layer_unresolved"));
+    for (conductance, stop) in [("conductance = 100.0", 0.02), ("conductance = 1e5", 1e3)] {
+        assert_eq!(told(conductance, stop), [""; 0], "{conductance} {stop}");
     }
 }

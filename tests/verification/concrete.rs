@@ -64,8 +64,8 @@ fn bar(spacing: f64, smoothing: Option<f64>) -> Deformable {
     Deformable::layered(space, (layers.to_vec(), of_groups), [false; 2], 1)
 }
 
-/// Energy that a bar has dissipated per area when its ends are 0.3 mm apart, pulled at a steady speed; damping of motion
-/// across the even one takes its own.
+/// Energy that a bar has dissipated per area when its ends are 0.3 mm apart, pulled at a steady speed; damping of
+/// motion across the even one takes its own.
 fn dissipated(body: &Deformable) -> f64 {
     let (speed, damping) = (0.04, 2e3);
     let dt = 1.4 / body.highest_frequency();

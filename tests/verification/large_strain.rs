@@ -250,8 +250,8 @@ fn slow_balls_tend_to_hertz() {
     }
 }
 
-/// Lowest place along z of the tip of a beam that gravity sets in motion [mm], and its time [s]: test CSM3 of S. Turek and J.
-/// Hron (2006, doi 10.1007/3-540-34596-5_15).
+/// Lowest place along z of the tip of a beam that gravity sets in motion [mm], and its time [s]: test CSM3 of S. Turek
+/// and J. Hron (2006, doi 10.1007/3-540-34596-5_15).
 fn swinging_beam(across: usize, dt: f64) -> [f64; 2] {
     let counts = [across * 35 / 2, 1, across];
     let mesh = Mesh::of_box(Form::Plane, [0.0, 0.0, -0.01], [0.35, 0.0, 0.01], counts);

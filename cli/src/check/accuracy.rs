@@ -26,8 +26,8 @@ struct Line {
 /// Marks the expected error of each output, the largest first, and those that drops bring; then names what has no
 /// estimate.
 ///
-/// ✓ is within the tolerance, ✗ is warned of, and ≈ is between: estimates of chosen meshes are high by a factor of two, and
-/// those of drops follow from measurements of others.
+/// ✓ is within the tolerance, ✗ is warned of, and ≈ is between: estimates of chosen meshes are high by a factor of two,
+/// and those of drops follow from measurements of others.
 pub fn accuracy(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<String> {
     let tolerance = scene.fidelity.tolerance;
     let lines = by_output(scene, estimates);

@@ -48,6 +48,7 @@ pub fn couplings(scene: &Scene) -> String {
                     engineering(conductance, Quantity::HeatTransferCoefficient.unit())
                 )
             }
+            (None, _) if scene.large_strain(&coupling.from).is_some() => "pressure".to_owned(),
             (None, true) => "heat, pressure, shear".to_owned(),
             (None, false) => "heat".to_owned(),
         };

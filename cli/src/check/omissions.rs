@@ -7,8 +7,8 @@ use impinge::scene::{Carries, Droplet, Load, Scene};
 const FREE_FALL: f64 = 9.81;
 /// Bond number ρgD²/σ above which gravity flattens a drop by some per cent.
 const FELT: f64 = 0.1;
-/// `√We Re^¼` from which on drops splash on dry walls (C. Mundo, M. Sommerfeld & C. Tropea 1995, Int. J. Multiphase Flow
-/// 21, 151–173, doi 10.1016/0301-9322(94)00069-V).
+/// `√We Re^¼` from which on drops splash on dry walls (C. Mundo, M. Sommerfeld & C. Tropea 1995, Int. J. Multiphase
+/// Flow 21, 151–173, doi 10.1016/0301-9322(94)00069-V).
 const SPLASHES: f64 = 57.7;
 
 /// Share of a beam on its face below which the remainder is reported.
@@ -33,7 +33,11 @@ pub fn omissions(scene: &Scene, forecast: &Forecast) -> Vec<String> {
     }
     if scene.large_strains().next().is_some() {
         let conduct = scene.large_strains().all(|(_, solid)| solid.conducts());
-        let heat = if conduct { "heating by deformation" } else { "heat" };
+        let heat = if conduct {
+            "heating by deformation"
+        } else {
+            "heat without `conductance` or thermal faces"
+        };
         list.push(format!("{heat} and friction of solids of large strain"));
     }
     if scene.filaments().next().is_some() {

@@ -13,7 +13,8 @@ use super::packed::Array;
 const MOST_DOTS: usize = 60_000;
 /// Most times, and fewest if each has many dots.
 const TIMES: [usize; 2] = [60, 8];
-/// Half the thickness of a section over the distance of particles: layers on a lattice lie half of it beside the middle.
+/// Half the thickness of a section over the distance of particles: layers on a lattice lie half of it beside the
+/// middle.
 const HALF_SECTION: f64 = 0.75;
 /// Shares of positions at either end that do not widen the picture: fluid that has come off.
 const STRAY: f64 = 0.005;

@@ -1,5 +1,5 @@
-//! The document of a report: everything that its page shows, as one JSON object. `impinge run` writes it from a run, the
-//! Python package from its results; the page draws it.
+//! The document of a report: everything that its page shows, as one JSON object. `impinge run` writes it from a run,
+//! the Python package from its results; the page draws it.
 
 use serde::{Deserialize, Serialize};
 

@@ -149,8 +149,8 @@ fn check_reports_the_governing_numbers_of_a_droplet() {
     assert!(!report.contains("names no `effusivity`"), "{report}");
 }
 
-/// A drop of molten glass (Re 0.7) on steel has 25 % too much heat after 1 D/U with 20 particles across, where the fitted
-/// law has +5 ± 6 %.
+/// A drop of molten glass (Re 0.7) on steel has 25 % too much heat after 1 D/U with 20 particles across, where the
+/// fitted law has +5 ± 6 %.
 #[test]
 fn check_gives_no_fitted_error_outside_of_the_fitted_range() {
     let place = Workplace::new();

@@ -21,9 +21,9 @@ pub trait Maxima {
         Err(BodyError::NoSuchReading)
     }
 
-    /// Returns true if the quantity behind a running maximum is right when a step begins. Stress is not where temperatures
-    /// have just been prescribed: only the nodes of the face have jumped, which strains those next to them by what no
-    /// body has.
+    /// Returns true if the quantity behind a running maximum is right when a step begins. Stress is not where
+    /// temperatures have just been prescribed: only the nodes of the face have jumped, which strains those next to them
+    /// by what no body has.
     fn holds_at_beginning(&self, _which: usize) -> bool {
         true
     }

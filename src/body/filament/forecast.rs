@@ -30,7 +30,8 @@ pub struct FilamentForecast {
 const SEGMENT: f64 = 1000.0;
 /// Time of a segment in a step [s], measured on wax above a plate of 2500 nodes.
 const STEP: f64 = 4e-6;
-/// Time of a particle in a time step with solved pressure [s], measured on strands of 10 Pa s with 280 to 1800 particles.
+/// Time of a particle in a time step with solved pressure [s], measured on strands of 10 Pa s with 280 to 1800
+/// particles.
 const PARTICLE_STEP: f64 = 40e-6;
 
 impl FilamentForecast {

@@ -76,7 +76,8 @@ impl ParticleFilament {
         }
     }
 
-    /// Refuses motions that lay more than may come, or with the outlet lower than a distance of particles above the plate.
+    /// Refuses motions that lay more than may come, or with the outlet lower than a distance of particles above the
+    /// plate.
     fn check_motions(&self, mut came: f64, motions: &[Motion]) -> Result<(), Failure> {
         for motion in motions {
             guard(motion, came, self.most)?;

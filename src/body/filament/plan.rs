@@ -30,8 +30,8 @@ pub fn plan_of(
 /// Side of the plate of a filament without a solid below [m].
 const PLATE: f64 = 1e3;
 
-/// Returns the plan of a filament of particles, above the cells of a solid or on a plate that takes no heat, with the place
-/// of the outlet at time zero.
+/// Returns the plan of a filament of particles, above the cells of a solid or on a plate that takes no heat, with the
+/// place of the outlet at time zero.
 pub fn particles_of(
     scene: &Scene,
     (name, filament): (&str, &Filament),
@@ -96,9 +96,9 @@ pub fn target_of(scene: &Scene, name: &str) -> Option<Target> {
     scene.target_of(name).map(|target| Target::new(target.line.clone()))
 }
 
-/// Part `e_f/(e + e_f)` of the difference of temperature by which a strand warms the solid below it, with the effusivities
-/// e of the solid's top and e_f of the fluid. The error that cells beside the edge of the strand cause is in proportion to
-/// it (`tests/verification/strands.py`).
+/// Part `e_f/(e + e_f)` of the difference of temperature by which a strand warms the solid below it, with the
+/// effusivities e of the solid's top and e_f of the fluid. The error that cells beside the edge of the strand cause is
+/// in proportion to it (`tests/verification/strands.py`).
 pub fn share_of_rise(filament: &Filament, solid: &Solid) -> f64 {
     let top = solid.strata().last().map_or(f64::INFINITY, |layer| layer.constants.effusivity());
     let own = filament.fluid.effusivity();

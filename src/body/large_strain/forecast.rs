@@ -28,8 +28,8 @@ pub struct LargeStrainForecast {
     pub notes: Vec<String>,
 }
 
-/// Time of a point and of a function there, in a step of motion and in one of equilibrium with five iterations, and of the
-/// factorisation there, which grows with the power 1.5 of the nodes in a plane and the square in space [s].
+/// Time of a point and of a function there, in a step of motion and in one of equilibrium with five iterations, and of
+/// the factorisation there, which grows with the power 1.5 of the nodes in a plane and the square in space [s].
 const MOVING: [f64; 2] = [0.15e-6, 0.04e-6];
 const RESTING: [f64; 2] = [5e-6, 0.4e-6];
 /// Time of an implicit step over that of an equilibrium: its matrix is not symmetric, and stress has two stations.
@@ -39,6 +39,9 @@ const FACTOR_IN_SPACE: f64 = 6.0e-8;
 /// Parts of a usual step of heat, and time of a pair of functions at a point in one [s].
 const PARTS: f64 = 4.0;
 const HEAT: f64 = 0.05e-6;
+/// Time of a step of concrete in equilibrium over that of an elastic body: its tangent is made of differences, and
+/// softening takes many iterations.
+const OF_CONCRETE: f64 = 30.0;
 /// Memory of a point, and of a function there [B].
 const POINT: f64 = 500.0;
 const FUNCTION: f64 = 90.0;
@@ -75,6 +78,8 @@ impl LargeStrainForecast {
             }
             false => 0.0,
         };
+        let is_concrete = layers.iter().any(|own| own.law.concrete().is_some());
+        let of_step = if is_concrete && !explicit { OF_CONCRETE * of_step } else { of_step };
         let of_point = POINT + FUNCTION * functions + 8.0 * history as f64;
         let solver = if explicit { 0.0 } else { solver_memory(&mesh, functions) };
         let memory = of_point * points as f64 + solver;
@@ -123,8 +128,8 @@ fn points(solid: &LargeStrain, mesh: &Mesh) -> (usize, f64) {
     }
 }
 
-/// Memory of the stiffness and its factor [B]: the entries of all blocks with their places, and fill that grows with the
-/// power 4/3 of the unknowns in space; measured on blocks of 1000 to 9300 nodes.
+/// Memory of the stiffness and its factor [B]: the entries of all blocks with their places, and fill that grows with
+/// the power 4/3 of the unknowns in space; measured on blocks of 1000 to 9300 nodes.
 fn solver_memory(mesh: &Mesh, functions: f64) -> f64 {
     let axes = mesh.form.axes().len() as f64;
     let unknowns = axes * mesh.nodes.len() as f64;
@@ -232,8 +237,8 @@ fn note_on_temperature(solid: &LargeStrain) -> Option<&'static str> {
 const NOTE_ON_LOCKING: &str = "the material hardly changes its volume, which makes reproducing kernels far too stiff on coarse meshes, by half at \
                                a Poisson's ratio of 0.49 and four nodes across: finite elements do not lock";
 
-/// Longest time between exchanges with the body below [s]: the value of the scene, or the time in which the body falls by
-/// an element.
+/// Longest time between exchanges with the body below [s]: the value of the scene, or the time in which the body falls
+/// by an element.
 pub fn contact_interval(coupling: &Coupling, solid: &LargeStrain) -> f64 {
     let start = solid.start;
     let speed = (start.velocity[2].powi(2) + 2.0 * solid.gravity * start.height).sqrt();

@@ -1,5 +1,5 @@
-//! Solids of large strain: moving freely above a plane or another body by explicit steps, moving by implicit steps, or in
-//! equilibrium under the displacements of their faces.
+//! Solids of large strain: moving freely above a plane or another body by explicit steps, moving by implicit steps, or
+//! in equilibrium under the displacements of their faces.
 
 mod faces;
 mod forecast;

@@ -181,8 +181,8 @@ impl MovingBody {
         }
     }
 
-    /// Advances motion and heat in turn: heat that also passes to a body below follows the motion that makes the contact,
-    /// and stress then feels its temperatures in the next step.
+    /// Advances motion and heat in turn: heat that also passes to a body below follows the motion that makes the
+    /// contact, and stress then feels its temperatures in the next step.
     fn advance_warm(
         &self,
         warming: &Warming,

@@ -164,7 +164,8 @@ pub fn plane(solid: &LargeStrain, body: &Deformable) -> Plane {
     }
 }
 
-/// Refinement of the solid on which a body falls: below the body as it spreads, as far as half of its width resolves it.
+/// Refinement of the solid on which a body falls: below the body as it spreads, as far as half of its width resolves
+/// it.
 pub fn refinement(coupling: &Coupling, solid: &LargeStrain) -> Refinement {
     let [width, depth, _] = solid.extents();
     let reach = |length: f64| coupling.radius.unwrap_or(SPREAD * 0.5 * length);

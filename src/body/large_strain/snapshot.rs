@@ -37,8 +37,8 @@ pub fn copies(mirrors: [bool; 2]) -> f64 {
     mirrors.iter().map(|&mirrored| if mirrored { 2.0 } else { 1.0 }).product()
 }
 
-/// Lowest and highest node of each column of nodes within the middle half of a strip along x, in their order; none if the
-/// model is no box in the plane.
+/// Lowest and highest node of each column of nodes within the middle half of a strip along x, in their order; none if
+/// the model is no box in the plane.
 pub fn columns(space: &Space, is_box: bool) -> Vec<[usize; 2]> {
     if !is_box || space.form != Form::Plane {
         return Vec::new();

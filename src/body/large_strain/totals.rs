@@ -245,8 +245,8 @@ const fn conducting(
     Total { key, words, quantity, of: Offered::Conducting, read: Read::Heat(read) }
 }
 
-/// Returns the totals that a solid offers, each with its place: first those of the table, then the forces of faces whose
-/// displacement is prescribed. In a plane model they are amounts per metre of depth.
+/// Returns the totals that a solid offers, each with its place: first those of the table, then the forces of faces
+/// whose displacement is prescribed. In a plane model they are amounts per metre of depth.
 pub fn offered_totals(solid: &LargeStrain, is_coupled: bool) -> Vec<(usize, Descriptor)> {
     let is_plane = solid.dimension == 2;
     let is_offered = |place: usize| match TOTALS[place].of {

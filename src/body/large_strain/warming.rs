@@ -189,6 +189,11 @@ impl Warming {
         warmth.brought_in += passed.brought_in;
         warmth.lost += passed.through_held + own.iter().sum::<f64>();
         warmth.given += other.iter().sum::<f64>();
+        // Beyond some length of step or size of constants rounding is all that is left.
+        let [missing, passed] = self.balance(warmth);
+        if missing.is_nan() || missing.abs() > BALANCE * passed {
+            return Err(BodyError::Unbalanced { body: name.to_owned(), missing, passed });
+        }
         let coldest = self.zero + warmth.rise.iter().copied().fold(f64::INFINITY, f64::min);
         if coldest <= 0.0 {
             let body = name.to_owned();
@@ -334,16 +339,22 @@ impl Warming {
         self.conduction.capacity.iter().zip(&warmth.rise).map(|(c, rise)| c * rise).sum()
     }
 
+    /// Heat that has no cause, and the sum of all that has passed and is stored [J].
+    fn balance(&self, warmth: &Warmth) -> [f64; 2] {
+        let &Warmth { brought_in, lost, given, .. } = warmth;
+        let missing = self.stored(warmth) - brought_in + lost + given;
+        let content = self.conduction.capacity.iter().zip(&warmth.rise).map(|(c, t)| (c * t).abs());
+        [missing, brought_in.abs() + lost.abs() + given.abs() + content.sum::<f64>()]
+    }
+
     /// Refuses heat that no run produces.
     pub fn check(&self, warmth: &Warmth) -> Result<(), String> {
         let felt = &warmth.felt;
         if warmth.rise.iter().chain(felt).any(|rise| rise.is_nan() || self.zero + rise <= 0.0) {
             return Err("a temperature is not above absolute zero".to_owned());
         }
-        let &Warmth { brought_in, lost, given, ref exchange, .. } = warmth;
-        let missing = self.stored(warmth) - brought_in + lost + given;
-        let content = self.conduction.capacity.iter().zip(&warmth.rise).map(|(c, t)| (c * t).abs());
-        let scale = brought_in.abs() + lost.abs() + given.abs() + content.sum::<f64>();
+        let [missing, scale] = self.balance(warmth);
+        let exchange = &warmth.exchange;
         if missing.is_nan() || missing.abs() > BALANCE * scale {
             return Err(format!("{missing:.1e} J of heat have no cause"));
         }

@@ -1,8 +1,8 @@
 //! Probability of failure of a solid of brittle material.
 //!
 //! A flaw breaks at the largest stress that it has met, so the equivalent stress of every node keeps its running
-//! maximum, as part of the body's state. It is noted at communication points, like other running maxima. Flaws that grow
-//! slowly break at a stress that falls with time, which counts like a stress that rises.
+//! maximum, as part of the body's state. It is noted at communication points, like other running maxima. Flaws that
+//! grow slowly break at a stress that falls with time, which counts like a stress that rises.
 
 use std::borrow::Cow;
 
@@ -126,8 +126,8 @@ impl SolidBody {
         }
     }
 
-    /// Lets flaws grow up to the observed stress; returns the stress that breaks as many which have not grown. Before the
-    /// first note the stress counts as if it had been there from the start.
+    /// Lets flaws grow up to the observed stress; returns the stress that breaks as many which have not grown. Before
+    /// the first note the stress counts as if it had been there from the start.
     fn note_growth<'o>(
         &self,
         flaws: &Flaws,

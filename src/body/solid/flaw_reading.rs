@@ -97,7 +97,8 @@ impl SolidBody {
     }
 }
 
-/// Signed stress intensity of a flaw of given depth, by its row or a solution; `None` if the depth is searched or grows.
+/// Signed stress intensity of a flaw of given depth, by its row or a solution; `None` if the depth is searched or
+/// grows.
 fn signed(reader: &mut SolidReader, crack: &Crack, flaw: usize) -> Result<Option<f64>, BodyError> {
     match reader.flaw_by_row(flaw) {
         Some(value) => value.map(Some),

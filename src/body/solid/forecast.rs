@@ -69,14 +69,14 @@ const ROW_RATE: f64 = 2.5e4;
 const NONLINEAR_HEAT: f64 = 3e-6;
 const FRONT: f64 = 1.2e-8;
 /// Time per node for the equilibrium of a body with yielding parts in a step [s], in boxes and in sections: the middle,
-/// in ratio, of bodies that stay elastic and of those that flow throughout. Constants that depend on the temperature and
-/// the inner steps of creep multiply it.
+/// in ratio, of bodies that stay elastic and of those that flow throughout. Constants that depend on the temperature
+/// and the inner steps of creep multiply it.
 const YIELDING: f64 = 1.1e-5;
 const YIELDING_SECTION: f64 = 2e-5;
 const WITH_TABLES: f64 = 2.5;
 const WITH_CREEP: f64 = 11.0;
-/// Time per node for the equilibrium of a body in which cracks grow in a step [s], the middle of quenches, and memory per
-/// node [B].
+/// Time per node for the equilibrium of a body in which cracks grow in a step [s], the middle of quenches, and memory
+/// per node [B].
 const CRACKING: f64 = 1e-4;
 const CRACKING_MEMORY: f64 = 2e3;
 /// Time of a body with moduli that relax, over that of one that stays elastic: a step is compared with its halves.
@@ -194,8 +194,8 @@ fn becomes_incompressible(solid: &Solid) -> bool {
     })
 }
 
-/// Memory per node of the history of moduli that relax [B]: quadratic elements have some four points for each node, and a
-/// step compares five states.
+/// Memory per node of the history of moduli that relax [B]: quadratic elements have some four points for each node, and
+/// a step compares five states.
 fn memory_of_branches(solid: &Solid) -> f64 {
     let materials = solid.materials_of_layers().into_iter();
     let laws = materials.filter_map(|own| own.law.deformation().relaxing());

@@ -21,6 +21,8 @@ const TOLERANCE: f64 = 1e-7;
 /// Shortest steps, relative to all the time and to what has passed of it.
 const SHORTEST: f64 = 1e-12;
 const SHORTEST_OF_PAST: f64 = 1e-5;
+/// Steps after which a flaw that stops and runs again and again counts as one that runs through its line.
+const MOST_STEPS: usize = 20_000;
 /// Relative accuracy of the depth at which a flaw that runs stops.
 const ACCURACY: f64 = 1e-9;
 
@@ -91,7 +93,12 @@ impl Growth<'_> {
             return depth;
         }
         let mut rate = self.rate(depth, 0.0);
+        let mut steps = 0;
         while past < 1.0 {
+            steps += 1;
+            if steps > MOST_STEPS {
+                return self.line.end();
+            }
             let shortest = (SHORTEST_OF_PAST * past).max(SHORTEST);
             let length = if past + step >= 1.0 { 1.0 - past } else { step };
             let second = self.rate(depth + 0.5 * length * rate, past + 0.5 * length);
@@ -256,8 +263,8 @@ mod tests {
         growth.grown(DEPTH)
     }
 
-    /// `a^(1 − n/2)` falls by `(n/2 − 1) v₀ (Y/K_Ic)^n ∫σ^n dt` in uniform stress, where `K = Yσ√a` (A. G. Evans & S. M.
-    /// Wiederhorn 1974, doi 10.1007/BF00035405); `None` after the crack has become unstable.
+    /// `a^(1 − n/2)` falls by `(n/2 − 1) v₀ (Y/K_Ic)^n ∫σ^n dt` in uniform stress, where `K = Yσ√a` (A. G. Evans & S.
+    /// M. Wiederhorn 1974, doi 10.1007/BF00035405); `None` after the crack has become unstable.
     fn closed_form(law: CrackGrowth, powers: f64) -> Option<f64> {
         let shape = closed_form::edge_crack::edge(1.0, |_| 1.0);
         let half = 0.5 * law.exponent - 1.0;

@@ -158,10 +158,10 @@ impl SolidBody {
         acts.in_halves(|half| self.advance_part(advance, state, half, halves - 1))
     }
 
-    /// Returns true if temperatures between two states exceed those at its ends, in a body that yields. The margin is the
-    /// tolerance times the rise that makes a held body yield, or a tenth of the temperatures' own change if that is
-    /// larger. Monotonic changes of a place, at any pace, do not count. Where moduli relax, any change counts that is not
-    /// linear, by its effect on the stress.
+    /// Returns true if temperatures between two states exceed those at its ends, in a body that yields. The margin is
+    /// the tolerance times the rise that makes a held body yield, or a tenth of the temperatures' own change if that is
+    /// larger. Monotonic changes of a place, at any pace, do not count. Where moduli relax, any change counts that is
+    /// not linear, by its effect on the stress.
     fn turns(
         &self,
         advance: &Advance,

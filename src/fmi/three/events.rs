@@ -1,7 +1,7 @@
 //! FMI functions of Event Mode, sections 2.3.5 and 4.2 of the standard.
 //!
-//! An event is the moment at which a body cracks or comes apart. It changes no state: Event Mode lets the host act on it,
-//! and set inputs anew.
+//! An event is the moment at which a body cracks or comes apart. It changes no state: Event Mode lets the host act on
+//! it, and set inputs anew.
 
 use super::table::Fmi3;
 use super::types::{Boolean, FALSE, Float64, Handle};

@@ -97,8 +97,9 @@ fn no_status(kind: c_int) -> Answer {
 
 /// Cancels the step under way.
 ///
-/// The standard defines this for pending steps. Here it ends a step that runs on another thread. The fmi2DoStep of that thread
-/// discards the step between two rounds of its computation, and leaves the unit unchanged in the state stepCanceled.
+/// The standard defines this for pending steps. Here it ends a step that runs on another thread. The fmi2DoStep of that
+/// thread discards the step between two rounds of its computation, and leaves the unit unchanged in the state
+/// stepCanceled.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2CancelStep(component: Handle) -> Status {
     // SAFETY: by contract.

@@ -29,6 +29,8 @@ const HALVINGS: u32 = 4;
 struct Part<'a> {
     from: f64,
     to: f64,
+    /// End of the whole step, at which inputs are reached that bodies follow evenly.
+    until: f64,
     /// True if the step begins with it.
     is_first: bool,
     allowance: &'a Allowance,
@@ -48,7 +50,8 @@ impl StepControl {
         let mut allowance = Allowance::of_step(interrupt);
         let mut length = step;
         loop {
-            let advanced = self.go((model, &mut *cache), state, (point, length), &allowance);
+            let times = (point, length, point + step);
+            let advanced = self.go((model, &mut *cache), state, times, &allowance);
             let error = match advanced {
                 Ok(is_at_event) => return Ok(is_at_event),
                 Err(error) => error,
@@ -70,16 +73,16 @@ impl StepControl {
         self.may_end_early && state.derivatives.is_empty()
     }
 
-    /// Advances towards the end of a step, in parts if the host follows its progress.
+    /// Advances towards the end of a step at `until` [s], in parts if the host follows its progress.
     fn go(
         &self,
         (model, cache): (&Model, &mut Cache),
         state: &mut State,
-        (point, step): (f64, f64),
+        (point, step, until): (f64, f64, f64),
         allowance: &Allowance,
     ) -> Result<bool, ModelError> {
         let Some(ask) = self.ask.as_ref().filter(|_| model.parts(step) > 1.0) else {
-            let part = Part { from: point, to: point + step, is_first: true, allowance };
+            let part = Part { from: point, to: point + step, until, is_first: true, allowance };
             return self.go_on((model, cache), state, (part, step));
         };
         model.foresee(state, step, allowance)?;
@@ -90,7 +93,7 @@ impl StepControl {
             let next = if parts > 1.0 { now + (end - now) / parts } else { end };
             // Guards against a step lost in rounding.
             let next = if next > now { next } else { end };
-            let part = Part { from: now, to: next, is_first: now == point, allowance };
+            let part = Part { from: now, to: next, until, is_first: now == point, allowance };
             match self.go_on((model, &mut *cache), state, (part, next - now)) {
                 Ok(is_at_event) => has_event |= is_at_event,
                 Err(error) if now > point && may_end && is_too_long(&error) => break,
@@ -115,8 +118,8 @@ impl StepControl {
         Ok(has_event)
     }
 
-    /// Advances through a part of a step of a length [s], or to an event in it if the step may end early. Returns true if
-    /// there is one. After an error the state is unchanged.
+    /// Advances through a part of a step of a length [s], or to an event in it if the step may end early. Returns true
+    /// if there is one. After an error the state is unchanged.
     fn go_on(
         &self,
         (model, cache): (&Model, &mut Cache),
@@ -148,9 +151,10 @@ impl Part<'_> {
         state: &mut State,
         length: f64,
     ) -> Result<(), ModelError> {
+        let ahead = if self.to < self.until { self.until - self.from } else { length };
         match self.is_first {
-            true => model.step_within(self.allowance, state, cache, length)?,
-            false => model.step_on(self.allowance, state, cache, length)?,
+            true => model.step_within(self.allowance, state, cache, (length, ahead))?,
+            false => model.step_on(self.allowance, state, cache, (length, ahead))?,
         }
         state.set_time(self.to);
         Ok(())

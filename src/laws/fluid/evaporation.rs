@@ -30,23 +30,23 @@ const ATMOSPHERE: f64 = 101_325.0;
 const ROOM: f64 = 298.15;
 
 impl Evaporation {
-    /// Density of the saturated vapour `p M/(R T)` at a temperature T [K], kg/m³, with the pressure that follows from the
-    /// boiling point T_b [K], `p = p₀ exp(−(L M/R)(1/T − 1/T_b))` (Clausius and Clapeyron, L constant).
+    /// Density of the saturated vapour `p M/(R T)` at a temperature T [K], kg/m³, with the pressure that follows from
+    /// the boiling point T_b [K], `p = p₀ exp(−(L M/R)(1/T − 1/T_b))` (Clausius and Clapeyron, L constant).
     pub fn saturated_density(&self, temperature: f64, boils_at: f64) -> f64 {
         let activation = self.latent_heat * self.molar_mass / GAS_CONSTANT;
         let pressure = ATMOSPHERE * (activation * (1.0 / boils_at - 1.0 / temperature)).exp();
         pressure * self.molar_mass / (GAS_CONSTANT * temperature)
     }
 
-    /// Diffusivity of the vapour at a temperature T [K], m²/s, which grows with T^1.75 (E. N. Fuller, P. D. Schettler & J.
-    /// C. Giddings 1966, doi 10.1021/ie50677a007).
+    /// Diffusivity of the vapour at a temperature T [K], m²/s, which grows with T^1.75 (E. N. Fuller, P. D. Schettler &
+    /// J. C. Giddings 1966, doi 10.1021/ie50677a007).
     pub fn diffusivity_at(&self, temperature: f64) -> f64 {
         self.diffusivity * (temperature / ROOM).powf(1.75)
     }
 
-    /// Rate at which a drop at rest evaporates into dry, still air, `2π R D c f(θ)` [kg/s], limited by diffusion: R [m] is the
-    /// radius of the sphere of which the drop is a cap, c the saturated density at its temperature [K], θ its contact
-    /// angle [rad] (R. G. Picknett & R. Bexon 1977, doi 10.1016/0021-9797(77)90396-4).
+    /// Rate at which a drop at rest evaporates into dry, still air, `2π R D c f(θ)` [kg/s], limited by diffusion: R [m]
+    /// is the radius of the sphere of which the drop is a cap, c the saturated density at its temperature [K], θ its
+    /// contact angle [rad] (R. G. Picknett & R. Bexon 1977, doi 10.1016/0021-9797(77)90396-4).
     pub fn rate(&self, cap: SphericalCap, temperature: f64, boils_at: f64) -> f64 {
         let density = self.saturated_density(temperature, boils_at);
         2.0 * PI * cap.radius * self.diffusivity_at(temperature) * density * cap.shape()

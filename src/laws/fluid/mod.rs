@@ -120,8 +120,8 @@ impl Fluid {
     }
 
     /// √(2σ/(ρΔx)) [m/s], the speed equivalent to Laplace's pressure 2σ/Δx of the sharpest surface that particles at a
-    /// distance Δx [m] resolve. It is no less than √(σ/(ρΔx)) of the shortest waves and √(2σ/(ρR)) of the whole drop. If
-    /// sound is not much faster, the outermost particles detach one after the other.
+    /// distance Δx [m] resolve. It is no less than √(σ/(ρΔx)) of the shortest waves and √(2σ/(ρR)) of the whole drop.
+    /// If sound is not much faster, the outermost particles detach one after the other.
     pub fn laplace_speed(&self, spacing: f64) -> f64 {
         (2.0 * self.surface_tension / (self.density * spacing)).sqrt()
     }
@@ -132,10 +132,10 @@ impl Fluid {
         self.viscosity.at(temperature).viscosity(rate)
     }
 
-    /// √(12 µU/(ρD)) [m/s], the speed equivalent to the pressure at which a drop of high viscosity stops, of a reference
-    /// viscosity µ [Pa s], an impact speed U [m/s] and a diameter D [m]; it exceeds that of the flow where Re < 12. Drops of Re 0.8 to 5 were measured
-    /// at 12 to 14 µU/D. At Re 0.1 (asphalt, D/Δx 10 to 40) density stays within 0.5 % at communication points. Below
-    /// that nothing was measured.
+    /// √(12 µU/(ρD)) [m/s], the speed equivalent to the pressure at which a drop of high viscosity stops, of a
+    /// reference viscosity µ [Pa s], an impact speed U [m/s] and a diameter D [m]; it exceeds that of the flow where Re
+    /// < 12. Drops of Re 0.8 to 5 were measured at 12 to 14 µU/D. At Re 0.1 (asphalt, D/Δx 10 to 40) density stays
+    /// within 0.5 % at communication points. Below that nothing was measured.
     pub fn viscous_speed(&self, viscosity: f64, speed: f64, diameter: f64) -> f64 {
         (VISCOUS_PRESSURE * viscosity * speed / (self.density * diameter)).sqrt()
     }

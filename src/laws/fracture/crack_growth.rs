@@ -23,8 +23,8 @@ pub struct CrackGrowth {
 }
 
 impl CrackGrowth {
-    /// Rate of the depth [m/s] at a stress intensity over the toughness, which it does not exceed: at the toughness a crack
-    /// runs. Closed cracks do not grow.
+    /// Rate of the depth [m/s] at a stress intensity over the toughness, which it does not exceed: at the toughness a
+    /// crack runs. Closed cracks do not grow.
     pub fn rate(&self, ratio: f64) -> f64 {
         self.speed * ratio.clamp(0.0, 1.0).powf(self.exponent)
     }

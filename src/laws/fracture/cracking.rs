@@ -35,8 +35,8 @@ pub struct Cracking {
     /// Part of the elastic energy that cracks release.
     #[serde(default)]
     pub split: Split,
-    /// Half the width of the range, over its middle, in which the energy of cracks is distributed evenly from element to
-    /// element [1].
+    /// Half the width of the range, over its middle, in which the energy of cracks is distributed evenly from element
+    /// to element [1].
     #[serde(default, skip_serializing_if = "is_zero")]
     #[schemars(transform = within(0.0, 0.9, "1", "").says("scatter is a part of the energy", "0 to 0.9"))]
     pub scatter: f64,

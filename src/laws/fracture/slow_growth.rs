@@ -1,8 +1,8 @@
 //! Flaws that grow slowly under tension, as water does it in glass and oxide ceramics.
 //!
-//! A crack grows at the rate `ȧ = A K^n` (S. M. Wiederhorn 1967, doi 10.1111/j.1151-2916.1967.tb15145.x; A. G. Evans 1974,
-//! doi 10.1007/BF00701063). A flaw that an inert environment lets bear a stress S has then broken by the time t if at some
-//! moment τ before
+//! A crack grows at the rate `ȧ = A K^n` (S. M. Wiederhorn 1967, doi 10.1111/j.1151-2916.1967.tb15145.x; A. G. Evans
+//! 1974, doi 10.1007/BF00701063). A flaw that an inert environment lets bear a stress S has then broken by the time t
+//! if at some moment τ before
 //!
 //! `S^(n−2) ≤ σ(τ)^(n−2) + 1/B ∫₀^τ σ^n dt`, `B = 2/((n − 2) A Y² K_Ic^(n−2))`, `K = Yσ√a`.
 //!
@@ -46,8 +46,8 @@ impl SlowGrowth {
         if part == 0.0 { 0.0 } else { part / ((self.exponent + 1.0) * change) * duration }
     }
 
-    /// Inert strength of the weakest flaw that a stress [Pa] does not break after [`Self::grown`] [s]. Where nothing has
-    /// grown that is the stress itself, negative where nothing is in tension.
+    /// Inert strength of the weakest flaw that a stress [Pa] does not break after [`Self::grown`] [s]. Where nothing
+    /// has grown that is the stress itself, negative where nothing is in tension.
     pub fn inert(&self, stress: f64, strength: f64, grown: f64) -> f64 {
         if grown == 0.0 {
             return stress;

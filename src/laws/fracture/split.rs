@@ -16,8 +16,8 @@ pub enum Split {
     /// 10.1016/j.jmps.2010.02.010): closed cracks transmit compression.
     #[default]
     NoTension,
-    /// The energy of positive principal strains and of a positive change of volume (C. Miehe, M. Hofacker & F. Welschinger
-    /// 2010, doi 10.1016/j.cma.2010.04.011).
+    /// The energy of positive principal strains and of a positive change of volume (C. Miehe, M. Hofacker & F.
+    /// Welschinger 2010, doi 10.1016/j.cma.2010.04.011).
     Spectral,
     /// The energy of shear and of a positive change of volume (H. Amor, J.-J. Marigo & C. Maurini 2009, doi
     /// 10.1016/j.jmps.2009.04.011).

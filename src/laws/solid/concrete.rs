@@ -61,8 +61,8 @@ pub struct Kcc {
         .plausible(&plausible::CRACK_ENERGY)
         .otherwise("`tension_exponent` and `opening_damage`"))]
     pub fracture_energy: Option<f64>,
-    /// Width of the band in which a crack localises, with `fracture_energy`: that of the second smoothing if there is one
-    /// [m].
+    /// Width of the band in which a crack localises, with `fracture_energy`: that of the second smoothing if there is
+    /// one [m].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = length("the width of a crack's band")
         .plausible(&plausible::EXTENT)
@@ -145,7 +145,8 @@ pub struct CompactionKeys {
     pub pressure: Vec<f64>,
 }
 
-/// Strengths in triaxial extension over those in compression, linear over the pressure from that of biaxial compression on.
+/// Strengths in triaxial extension over those in compression, linear over the pressure from that of biaxial compression
+/// on.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MeridianKeys {

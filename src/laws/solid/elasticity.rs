@@ -28,8 +28,8 @@ pub struct Elasticity {
         .plausible(&plausible::EXPANSION)
         .otherwise(NO_STRESS))]
     pub expansion: Option<Property>,
-    /// Temperature T₀ from which the mean coefficient is measured [K]: the thermal strain at T of a body without stress at
-    /// T_f is α(T) (T − T₀) − α(T_f) (T_f − T₀). Data sheets mostly have 293.15 K.
+    /// Temperature T₀ from which the mean coefficient is measured [K]: the thermal strain at T of a body without stress
+    /// at T_f is α(T) (T − T₀) − α(T_f) (T_f − T₀). Data sheets mostly have 293.15 K.
     #[schemars(transform = own_temperature()
         .otherwise("the temperature without stress")
         .condition("matters to tables only"))]

@@ -53,13 +53,14 @@ pub trait Deformation: Keys {
         false
     }
 
-    /// Returns the law of large strain at a temperature [K]; `None` if there is none, or constants are missing or beyond it.
+    /// Returns the law of large strain at a temperature [K]; `None` if there is none, or constants are missing or
+    /// beyond it.
     fn large_strain(&self, _temperature: f64) -> Option<LargeStrainLaw> {
         None
     }
 
-    /// Reason why constants make no law of large strain at a temperature [K], with what is allowed; `None` if they do, or a
-    /// constant is missing.
+    /// Reason why constants make no law of large strain at a temperature [K], with what is allowed; `None` if they do,
+    /// or a constant is missing.
     fn obstacle(&self, _temperature: f64) -> Option<(&'static str, String)> {
         None
     }

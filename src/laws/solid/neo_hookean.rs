@@ -36,8 +36,8 @@ impl Deformation for NeoHookeanLaw {
     }
 }
 
-/// Bulk and shear modulus at a temperature [K], `κ = E/(3(1 − 2ν))` and `µ = E/(2(1 + ν))` [Pa]; `None` if a constant is
-/// missing.
+/// Bulk and shear modulus at a temperature [K], `κ = E/(3(1 − 2ν))` and `µ = E/(2(1 + ν))` [Pa]; `None` if a constant
+/// is missing.
 pub fn moduli(elasticity: &Elasticity, temperature: f64) -> Option<[f64; 2]> {
     let value = |property: &Option<Property>| Some(property.as_ref()?.value(temperature));
     let (young, poisson) = (value(&elasticity.young)?, value(&elasticity.poisson)?);

@@ -1,7 +1,7 @@
 //! Relaxation of stress by the generalised Maxwell model, exact for strain that is linear in time over a step.
 //!
-//! With the change e of shape and the elastic change θ of volume, both without thermal strain, instantaneous moduli G and
-//! K and the reduced time ξ (see `shift`):
+//! With the change e of shape and the elastic change θ of volume, both without thermal strain, instantaneous moduli G
+//! and K and the reduced time ξ (see `shift`):
 //!
 //! `s = 2G (g_∞ e + Σ g_i d_i)`, `ḋ_i = ė − d_i ξ̇/τ_i`, and `p = K (k_∞ θ + Σ k_j b_j)`, `ḃ_j = θ̇ − b_j ξ̇/τ_j`
 //!
@@ -169,8 +169,8 @@ impl Relaxation {
     /// Returns the effect of a temperature within a duration [s] that differs from an even change [K], relative to the
     /// stress of a change of temperature [K] and to that at its beginning.
     ///
-    /// A strain that is off by δ in the middle but not at the ends leaves of it `x/(1 + x²)` in a branch, to first order
-    /// for short and for long durations.
+    /// A strain that is off by δ in the middle but not at the ends leaves of it `x/(1 + x²)` in a branch, to first
+    /// order for short and for long durations.
     pub fn unevenness(&self, [even, now]: [f64; 2], duration: f64, change: f64) -> f64 {
         let time = self.reduced_time([even; 2], duration);
         let left = |spectrum: &Spectrum| -> f64 {
@@ -234,7 +234,8 @@ impl Relaxation {
         PointTangent { bulk, all, along: 0.0, direction: [0.0; SIX] }
     }
 
-    /// Computes stress and energy of a change of shape and of volume; what differs from those of the history is elastic.
+    /// Computes stress and energy of a change of shape and of volume; what differs from those of the history is
+    /// elastic.
     pub fn present(
         &self,
         own: &PointConstants,

@@ -71,8 +71,8 @@ impl Shift {
         logarithm.clamp(-MOST, MOST)
     }
 
-    /// Reduced time `ξ = ∫ dt/a(T)` [s] over a duration [s] in which the temperature changes linearly [K] (L. W. Morland
-    /// and E. H. Lee 1960, doi 10.1122/1.548856), by Gauss's rule over parts in which `ln a` changes little.
+    /// Reduced time `ξ = ∫ dt/a(T)` [s] over a duration [s] in which the temperature changes linearly [K] (L. W.
+    /// Morland and E. H. Lee 1960, doi 10.1122/1.548856), by Gauss's rule over parts in which `ln a` changes little.
     pub fn reduced_time(&self, [start, end]: [f64; 2], duration: f64) -> f64 {
         let rate = |part: f64| (-self.logarithm(start + (end - start) * part)).exp();
         if start == end {

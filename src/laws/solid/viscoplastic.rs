@@ -5,8 +5,8 @@
 //!
 //! `ṗ = A ⟨√(3/2) ‖ξ‖ − (σ_y + H_i p)⟩ⁿ e^{−T_a/T}`, `ε̇ₚ = √(3/2) ṗ ξ/‖ξ‖`,
 //!
-//! with the activation temperature `T_a = Q/R`. Without a yield stress that is secondary creep. Where a power law breaks
-//! down, as in solders, the stress σ in it becomes `σ_b sinh(σ/σ_b)` (F. Garofalo, Trans. AIME 227 (1963) 351).
+//! with the activation temperature `T_a = Q/R`. Without a yield stress that is secondary creep. Where a power law
+//! breaks down, as in solders, the stress σ in it becomes `σ_b sinh(σ/σ_b)` (F. Garofalo, Trans. AIME 227 (1963) 351).
 //!
 //! A step is implicit (Euler): with the flow `γ = c sⁿ` over it and the overstress `s = ‖ξ‖ − √⅔ (σ_y + H_i p)`, the
 //! elastic trial's excess e over the yield surface is `e = s + m γ`, `m = 2G + ⅔ (H_i + H_k)`.

@@ -30,8 +30,8 @@ pub struct Cracks {
     pub depth: f64,
 }
 
-/// Returns the broken nodes of a section, each list a connected region. A single node is no crack: nothing has come apart
-/// along it.
+/// Returns the broken nodes of a section, each list a connected region. A single node is no crack: nothing has come
+/// apart along it.
 fn regions(grid: Grid, damage: &[f64]) -> Vec<Vec<usize>> {
     let [columns, rows] = grid.counts;
     let mut is_open: Vec<bool> = damage.iter().map(|&damage| damage >= BROKEN).collect();
@@ -79,8 +79,8 @@ impl Section {
         regions(self.grid(), after).iter().any(is_new)
     }
 
-    /// Depth of a region [m]: how far it reaches from the face that it touches, from the nearest one if it touches several
-    /// or none; zero if all faces are held.
+    /// Depth of a region [m]: how far it reaches from the face that it touches, from the nearest one if it touches
+    /// several or none; zero if all faces are held.
     fn depth(&self, region: &[usize], sides: [[Side; 2]; 2]) -> f64 {
         let faces = (0..4).filter(|face| sides[face / 2][face % 2] == Side::Face);
         let reaches = faces.map(|face| {

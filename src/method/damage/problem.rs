@@ -64,8 +64,8 @@ impl DamageProblem {
     }
 
     /// Advances a state to a minimum of the energy at nodal temperatures above the stress-free one [K] under nodal
-    /// forces [N], by alternating minimisation in displacement and damage. Displacements that are held have their values
-    /// already. After an error the state is unusable.
+    /// forces [N], by alternating minimisation in displacement and damage. Displacements that are held have their
+    /// values already. After an error the state is unusable.
     pub fn advance(
         &self,
         state: &mut DamageState,

@@ -5,8 +5,8 @@
 //!
 //! `E = ½ V Σ_l n_l [2µ Σ_i ε_ii² + λ_l (Σ_i ε_ii)² + Σ_{i<j} µ_l,ij γ_ij²]`, `n_l = Π 1/(2 l_k + 1)`.
 //!
-//! - Quadratic bricks project their dilatation on linear polynomials (see [`super::dilatation`]): λ_l = λ up to degree 1,
-//!   0 beyond.
+//! - Quadratic bricks project their dilatation on linear polynomials (see [`super::dilatation`]): λ_l = λ up to degree
+//!   1, 0 beyond.
 //! - Linear bricks have enhanced strains (see [`super::hexahedron`]) that are free to relieve the stresses of
 //!   their own polynomials: a normal strain along i where l_i = 1, the shear ij for l = e_i and l = e_j. What is left
 //!   are plane and uniaxial stress, and no energy of those shears.

@@ -7,8 +7,8 @@
 //! a load that is a polynomial in time is an exponential and φ-functions. So a step of any length costs a few
 //! operations per node, is L-stable and has no time error; θ is the temperature above the initial one.
 //!
-//! Arrays are modal, `(i, j, mode)`, or mixed: `(i, j, k)` with modes along the surface and coefficients in the basis of
-//! [`DepthModes`] along z.
+//! Arrays are modal, `(i, j, mode)`, or mixed: `(i, j, k)` with modes along the surface and coefficients in the basis
+//! of [`DepthModes`] along z.
 
 mod class;
 mod depth;

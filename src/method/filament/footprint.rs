@@ -1,8 +1,8 @@
 //! Place of a segment on the cells of the plate.
 //!
-//! The lower side of a segment, a rectangle along its direction, becomes rectangles along the axes of the cells, where cells
-//! partition unity: one of its size if it lies along an axis, otherwise one for each of nearly square parts, with the
-//! same second moments along both axes.
+//! The lower side of a segment, a rectangle along its direction, becomes rectangles along the axes of the cells, where
+//! cells partition unity: one of its size if it lies along an axis, otherwise one for each of nearly square parts, with
+//! the same second moments along both axes.
 
 use std::mem::take;
 use std::sync::{Arc, Mutex};

@@ -14,8 +14,8 @@ use crate::inputs::Motion;
 
 /// Number of pieces of a segment, each of which touches down at a place of its own.
 const PIECES: f64 = 4.0;
-/// Speed of the nozzle over that of the fluid in it below which fluid piles up in a heap, which is complete when it is as
-/// long as wide, or when it has the volume of a segment and the nozzle moves on.
+/// Speed of the nozzle over that of the fluid in it below which fluid piles up in a heap, which is complete when it is
+/// as long as wide, or when it has the volume of a segment and the nozzle moves on.
 const SLOW: f64 = 0.25;
 /// Least height of the outlet over its diameter.
 const LEAST_HEIGHT: f64 = 0.01;
@@ -176,8 +176,8 @@ impl Line {
         Ok(Arrival { segment: index, volume: piece.volume, time: middle, impulse })
     }
 
-    /// Height at which fluid touches down [m], at the speeds of the nozzle and of the fluid in it: that of a strand as wide
-    /// as high, or of the segment below a nozzle that hardly moves.
+    /// Height at which fluid touches down [m], at the speeds of the nozzle and of the fluid in it: that of a strand as
+    /// wide as high, or of the segment below a nozzle that hardly moves.
     fn thickness(&self, strand: &Strand, swift: f64, speed: f64) -> f64 {
         match strand.segments().next_back() {
             Some(last) if swift < SLOW * speed => last.height(),
@@ -199,8 +199,8 @@ impl Line {
         }
     }
 
-    /// Finds on what a segment lies: the highest of the `older` ones under its middle that the outlet clears, or the plate.
-    /// Neighbours along the strand, closer than its width, are not below it unless the outlet has risen since.
+    /// Finds on what a segment lies: the highest of the `older` ones under its middle that the outlet clears, or the
+    /// plate. Neighbours along the strand, closer than its width, are not below it unless the outlet has risen since.
     fn settled(
         &self,
         (strand, beneath): (&Strand, &mut Beneath),

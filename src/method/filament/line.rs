@@ -284,7 +284,8 @@ impl Line {
     }
 
     /// Largest `ρ g H/(√3 τ_y)` of a segment, with the height H of itself and all that is stacked on it: a layer yields
-    /// from 1 on (N. Roussel 2018, doi 10.1016/j.cemconres.2018.04.005). 0 without a yield stress; frozen segments bear all.
+    /// from 1 on (N. Roussel 2018, doi 10.1016/j.cemconres.2018.04.005). 0 without a yield stress; frozen segments bear
+    /// all.
     fn bearing(&self, strand: &Strand) -> f64 {
         let fluid = &self.plan.fluid;
         if fluid.viscosity.yield_stress() == 0.0 {
@@ -341,7 +342,8 @@ enum Below<'a> {
     Nothing,
     Plate {
         surface: &'a Surface,
-        /// Mean temperature of the cells without the strand's heat when contact begins in this step, and at its end [K].
+        /// Mean temperature of the cells without the strand's heat when contact begins in this step, and at its end
+        /// [K].
         ends: [f64; 2],
         /// Flux into the cells over the heat flow of the segment, as others share them with it [1/m²].
         flux: f64,
@@ -438,13 +440,15 @@ impl SegmentStep<'_> {
         [above, 2.0 * segment.height() * segment.length()]
     }
 
-    /// Heat per difference of temperature that passes to the air in a time, over the heat capacity of the molten segment.
+    /// Heat per difference of temperature that passes to the air in a time, over the heat capacity of the molten
+    /// segment.
     fn air_ratio(&self, segment: &Segment, duration: f64) -> f64 {
         let exposed: f64 = self.exposed(segment).iter().sum();
         duration * self.line.plan.air * exposed / self.line.heat.capacity(segment.volume)
     }
 
-    /// Returns the bodies with which the segment exchanges heat between two ages, after some heat has passed down in this step [J].
+    /// Returns the bodies with which the segment exchanges heat between two ages, after some heat has passed down in
+    /// this step [J].
     fn surroundings(&self, segment: &Segment, ages: [f64; 2], before: f64) -> Surroundings {
         let (below, resistance) = self.below(segment, ages, before);
         let [above, aside] = self.exposed(segment).map(|area| self.line.plan.air * area);
@@ -461,8 +465,8 @@ impl SegmentStep<'_> {
         }
     }
 
-    /// Heat flow from the lowest layer into the plate over their difference of temperature [W/K], at the end of a time [s] in
-    /// which it warms the plate; 0 without one.
+    /// Heat flow from the lowest layer into the plate over their difference of temperature [W/K], at the end of a time
+    /// [s] in which it warms the plate; 0 without one.
     fn conductance(&self, segment: &Segment, time: f64) -> f64 {
         let Below::Plate { surface, flux, .. } = self.below else { return 0.0 };
         let area = self.contact(segment);

@@ -42,8 +42,8 @@ impl LinePlan {
         self.outlet() * self.spacing
     }
 
-    /// Largest number of segments: twice those of the largest volume, because interrupted strands end in the middle of a
-    /// segment. The state holds those that have been laid.
+    /// Largest number of segments: twice those of the largest volume, because interrupted strands end in the middle of
+    /// a segment. The state holds those that have been laid.
     pub fn capacity(&self) -> usize {
         2 * (self.most / self.segment_volume()).ceil() as usize + SPARE
     }

@@ -2,8 +2,8 @@
 //!
 //! Layers that came one after the other make a slice, as long as a segment of a line is. The centre line of the strand
 //! goes through the centroids of slices; ends of segments lie midway between them. Each particle belongs to the nearest
-//! of the segments around its own slice. A segment has the volume of its particles, and is as wide as these reach across
-//! it, with half of their distance on either side.
+//! of the segments around its own slice. A segment has the volume of its particles, and is as wide as these reach
+//! across it, with half of their distance on either side.
 //!
 //! Fluid is laid where it moves at less than half the speed at which it comes. The newest layer that is laid touches
 //! down, with a place between layers by their speeds.
@@ -174,7 +174,8 @@ fn measure(
 mod tests {
     use super::*;
 
-    /// A bar of particles along a line at an angle: length, width and section are its own to half a distance of particles.
+    /// A bar of particles along a line at an angle: length, width and section are its own to half a distance of
+    /// particles.
     #[test]
     fn bars_have_their_width_and_section() {
         let (distance, per_layer) = (0.1, 8);

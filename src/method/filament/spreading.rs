@@ -4,7 +4,8 @@
 //! - gravity drives with `F_g = c ρgA²/x²`; c is 0.26108 of the profile `(1 − s²)^{1/3}` that a Newtonian current keeps
 //!   (Huppert 1982, doi 10.1017/S0022112082001797), and 9/32 of the profile `(1 − |s|)^{1/2}` in which a yield stress
 //!   holds it (Roussel and Coussot 2005, doi 10.1122/1.1879041), linear in `F_y/F_g` in between;
-//! - surface tension drives with `F_c = 2σ (cos θ_e − cos θ)`, the angle θ being that of a circular segment of width 2x;
+//! - surface tension drives with `F_c = 2σ (cos θ_e − cos θ)`, the angle θ being that of a circular segment of width
+//!   2x;
 //! - the yield stress resists with `F_y = τ_y x`;
 //! - the viscous stress τ_v resists with `½ J x τ_v(γ̇)`, at the shear rate `γ̇ = 6 x ẋ/A` of the plate.
 //!
@@ -13,8 +14,8 @@
 //! line (O. V. Voinov 1976, doi 10.1007/BF01012963) with `ln(x/λ) = 10`; in proportion to its share of the forces.
 //! The contact line advances and does not recede: a strand that was pressed wide stays so.
 //!
-//! Frozen crystals thicken the fluid by `(1 − f/f_m)^{−1.6}` of the frozen fraction f and hold it from `f_m = 0.64` on (I.
-//! M. Krieger and T. J. Dougherty 1959, doi 10.1122/1.548848).
+//! Frozen crystals thicken the fluid by `(1 − f/f_m)^{−1.6}` of the frozen fraction f and hold it from `f_m = 0.64` on
+//! (I. M. Krieger and T. J. Dougherty 1959, doi 10.1122/1.548848).
 
 use std::f64::consts::PI;
 
@@ -181,7 +182,8 @@ mod tests {
         }
     }
 
-    /// Concrete and a silicone paste come to rest at the closed form, from a tenth of that width on, in one step or many.
+    /// Concrete and a silicone paste come to rest at the closed form, from a tenth of that width on, in one step or
+    /// many.
     #[test]
     fn yield_stress_holds_strands_at_their_closed_width() {
         let laws = [

@@ -75,8 +75,8 @@ fn length([a, b]: [[f64; 2]; 2]) -> f64 {
     (b[0] - a[0]).hypot(b[1] - a[1])
 }
 
-/// Interval of a straight line that lies within the half-width of a segment's centre line, in distances from its beginning
-/// [m]: a rectangle with round ends is convex.
+/// Interval of a straight line that lies within the half-width of a segment's centre line, in distances from its
+/// beginning [m]: a rectangle with round ends is convex.
 fn covered_by(segment: &Segment, part: [[f64; 2]; 2]) -> Option<[f64; 2]> {
     let ([start, end], whole) = (part, length(part));
     let along = [0, 1].map(|axis| (end[axis] - start[axis]) / whole);

@@ -189,7 +189,8 @@ fn circles_are_laid_smaller() {
     assert!((behind - lag.atan()).abs() < 1e-2, "{} {}", y.atan2(x), lag.atan());
 }
 
-/// After a right angle the strand nears the new leg as `exp(−t/t_r)`, from the point before the corner at which it lagged.
+/// After a right angle the strand nears the new leg as `exp(−t/t_r)`, from the point before the corner at which it
+/// lagged.
 #[test]
 fn corners_are_cut_exponentially() {
     let line = Line::new(LinePlan { spacing: 0.002, most: 1e-2, ..plan(CONCRETE, 0.02) });
@@ -382,8 +383,8 @@ fn impossible_motions_are_refused() {
     assert!(refusal(Motion { temperature: [-1.0, 0.0, 0.0], ..fine }).contains("absolute zero"));
 }
 
-/// Around a corner that the nozzle cuts as a circle of radius R: the largest deviation is `(1 − √½) R`, and the mean over
-/// the arc `(1 − (4/π) √½) R`.
+/// Around a corner that the nozzle cuts as a circle of radius R: the largest deviation is `(1 − √½) R`, and the mean
+/// over the arc `(1 − (4/π) √½) R`.
 #[test]
 fn deviations_converge_with_the_length_of_segments() {
     let (radius, straight, arc) = (4e-3, 0.01, 0.5 * PI * 4e-3);

@@ -2,9 +2,9 @@
 //!
 //! The law is exact for strain and reduced time that are linear over a step (`laws/solid/relaxation`), so held bodies
 //! need no shorter ones. Where strain follows from equilibrium, as in creep, a step is compared with its halves: the
-//! error of these is a third of the difference, as the method is of second order. As everything is linear but yield, that
-//! third is added to the halves, which makes the result of fourth order. Lengths are powers of ½ of the increment, so that
-//! the factors of a few lengths serve all steps.
+//! error of these is a third of the difference, as the method is of second order. As everything is linear but yield,
+//! that third is added to the halves, which makes the result of fourth order. Lengths are powers of ½ of the increment,
+//! so that the factors of a few lengths serve all steps.
 
 use super::problem::{InelasticError, InelasticProblem};
 use super::substeps::{Increment, between};

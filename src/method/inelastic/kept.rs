@@ -1,7 +1,7 @@
 //! Solvers of linear systems that are kept for steps with the same tangents.
 //!
-//! The tangent of a body whose moduli relax depends on the length of a step alone, if temperatures shift nothing, and so
-//! does that of a body that does not yield yet. What is kept changes no bit: a solver follows from its key.
+//! The tangent of a body whose moduli relax depends on the length of a step alone, if temperatures shift nothing, and
+//! so does that of a body that does not yield yet. What is kept changes no bit: a solver follows from its key.
 
 use std::sync::Arc;
 
@@ -56,8 +56,8 @@ pub fn runs(tangents: &[PointTangent], most: usize) -> Option<Vec<(PointTangent,
     Some(runs)
 }
 
-/// Elastic tangent that represents some points: their own if they have one in common, otherwise their mean, rounded to a
-/// power of √2 so that it recurs while they change little.
+/// Elastic tangent that represents some points: their own if they have one in common, otherwise their mean, rounded to
+/// a power of √2 so that it recurs while they change little.
 pub fn representative(tangents: &[PointTangent]) -> PointTangent {
     let own = PointTangent { along: 0.0, direction: [0.0; 6], ..tangents[0] };
     if tangents.iter().all(|other| *other == own) {

@@ -351,8 +351,8 @@ impl InelasticProblem {
         self.laws.iter().filter_map(rise).fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the effect of temperatures that do not change linearly over a duration [s], relative to the stress, where
-    /// moduli relax: `now` are nodal temperatures at a part of it, between those at its ends [K].
+    /// Returns the effect of temperatures that do not change linearly over a duration [s], relative to the stress,
+    /// where moduli relax: `now` are nodal temperatures at a part of it, between those at its ends [K].
     pub fn unevenness(
         &self,
         [first, last]: [&[f64]; 2],

@@ -140,8 +140,8 @@ impl Deformable {
         self.mass.len()
     }
 
-    /// Displacements of the nodes themselves from their coefficients, which are the same where each function is one at its
-    /// own node.
+    /// Displacements of the nodes themselves from their coefficients, which are the same where each function is one at
+    /// its own node.
     pub fn displacements(&self, u: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let Some(at_nodes) = &self.space.at_nodes else { return u.to_vec() };
         let of_node = |node: usize| {
@@ -166,8 +166,11 @@ impl Deformable {
     /// Mean of a field of the nodes over each group of points.
     pub fn means_of_groups(&self, values: &[f64]) -> Vec<f64> {
         let volume = &self.space.volume;
+        // Values of functions at a point near an axis have the sum of a hoop strain, which need not be 1.
         let at = |point: usize| -> f64 {
-            volume.row(point).iter().map(|own| own.value * values[own.node as usize]).sum()
+            let row = volume.row(point);
+            let sum: f64 = row.iter().map(|own| own.value * values[own.node as usize]).sum();
+            sum / row.iter().map(|own| own.value).sum::<f64>()
         };
         let of_group = |group: &Range<usize>| {
             let whole: f64 = volume.weights[group.clone()].iter().sum();

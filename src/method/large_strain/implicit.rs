@@ -1,9 +1,9 @@
 //! Motion with inertia by implicit steps that conserve energy and momentum; see [`path`](super::path).
 //!
-//! A step obeys `M (v₁ − v₀)/Δt = f`, `u₁ − u₀ = ½ Δt (v₀ + v₁)` with the forces f of the stresses along its way, of loads at
-//! its middle and of gravity. It is of second order, stable for any Δt, and solved by Newton's method with the exact
-//! derivative, which is not symmetric. Prescribed displacements are linear over a step; the velocity of their nodes is
-//! the mean one.
+//! A step obeys `M (v₁ − v₀)/Δt = f`, `u₁ − u₀ = ½ Δt (v₀ + v₁)` with the forces f of the stresses along its way, of
+//! loads at its middle and of gravity. It is of second order, stable for any Δt, and solved by Newton's method with the
+//! exact derivative, which is not symmetric. Prescribed displacements are linear over a step; the velocity of their
+//! nodes is the mean one.
 
 use super::path::{Path, gradients};
 use super::statics::{difference, is_rounding, rounding, sum};

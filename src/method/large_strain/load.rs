@@ -1,9 +1,9 @@
 //! Loads on faces: pressure that stays normal to them while they deform, and tractions that stay as they are.
 //!
-//! A pressure p acts per present area, `−p J F^(−T) N dA`; with unit vectors s and t along the undeformed face, `s × t =
-//! N`, that is `−p (F s) × (F t) dA` and needs only gradients along the face (K. Schweizerhof and E. Ramm 1984, doi
-//! 10.1016/0045-7949(84)90191-8). Its derivative is not symmetric where the face has an edge that moves. A traction is a
-//! force per area of the undeformed face.
+//! A pressure p acts per present area, `−p J F^(−T) N dA`; with unit vectors s and t along the undeformed face, `s × t
+//! = N`, that is `−p (F s) × (F t) dA` and needs only gradients along the face (K. Schweizerhof and E. Ramm 1984, doi
+//! 10.1016/0045-7949(84)90191-8). Its derivative is not symmetric where the face has an edge that moves. A traction is
+//! a force per area of the undeformed face.
 
 use super::Deformable;
 use crate::math::matrix3::{Matrix3, cross};

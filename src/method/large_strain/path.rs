@@ -1,11 +1,12 @@
 //! Stresses along the way from one state to another that conserve energy and momentum.
 //!
-//! Over a step from F₀ to F₁ the stress is `P = F_½ ∫₀¹ S(C(s)) ds` with `F_½ = ½ (F₀ + F₁)`, the second Piola–Kirchhoff stress
-//! S and the straight path `C(s) = C₀ + s (C₁ − C₀)` of `C = FᵀF`. As `C₁ − C₀ = 2 sym F_½ᵀ(F₁ − F₀)`, the work `P : (F₁ −
-//! F₀)` is the change of the energy for any steps, and as S is symmetric no moment arises; a rotation has no stress. With
-//! an S that is linear in C this is the method of J. C. Simo and N. Tarnow (1992, doi 10.1007/BF00913408); the mean over
-//! the path is that of G. R. W. Quispel and D. I. McLaren (2008, doi 10.1088/1751-8113/41/4/045206), taken in C. Two Gauss
-//! points on the path leave an error of the fifth power of the change.
+//! Over a step from F₀ to F₁ the stress is `P = F_½ ∫₀¹ S(C(s)) ds` with `F_½ = ½ (F₀ + F₁)`, the second
+//! Piola–Kirchhoff stress S and the straight path `C(s) = C₀ + s (C₁ − C₀)` of `C = FᵀF`. As `C₁ − C₀ = 2 sym F_½ᵀ(F₁ −
+//! F₀)`, the work `P : (F₁ − F₀)` is the change of the energy for any steps, and as S is symmetric no moment arises; a
+//! rotation has no stress. With an S that is linear in C this is the method of J. C. Simo and N. Tarnow (1992, doi
+//! 10.1007/BF00913408); the mean over the path is that of G. R. W. Quispel and D. I. McLaren (2008, doi
+//! 10.1088/1751-8113/41/4/045206), taken in C. Two Gauss points on the path leave an error of the fifth power of the
+//! change.
 
 use super::tangent::{GroupTangent, Swelling};
 use super::{Courses, Deformable, Failure};

@@ -85,7 +85,8 @@ pub enum Factor {
 pub struct Singular;
 
 impl Stiffness {
-    /// Creates the pattern; `held` marks prescribed displacements, and `couplings` are the nodes of the blocks of loads.
+    /// Creates the pattern; `held` marks prescribed displacements, and `couplings` are the nodes of the blocks of
+    /// loads.
     pub fn new(
         body: &Deformable,
         held: &[[bool; 3]],

@@ -168,8 +168,8 @@ impl Strip {
         self.cut(Particles { places, pairs, spacing, area, cells })
     }
 
-    /// Takes the particles of the notch out, and of the links across it the part of their facet that is in it: stiffness
-    /// and strength follow its depth continuously.
+    /// Takes the particles of the notch out, and of the links across it the part of their facet that is in it:
+    /// stiffness and strength follow its depth continuously.
     fn cut(&self, whole: Particles) -> Particles {
         let mut number = Vec::with_capacity(whole.places.len());
         let (mut places, mut cells) = (Vec::new(), Vec::new());

@@ -108,8 +108,8 @@ impl Member {
         (b[0] - a[0]) * strain.chord[0] + (b[1] - a[1]) * strain.chord[1]
     }
 
-    /// Changes the forces of a closed link by those of a dashpot, of a coefficient [N s/m] and the rate at which its ends
-    /// move apart, as far as they still press; returns the force of the dashpot, positive in tension [N].
+    /// Changes the forces of a closed link by those of a dashpot, of a coefficient [N s/m] and the rate at which its
+    /// ends move apart, as far as they still press; returns the force of the dashpot, positive in tension [N].
     pub fn damp(
         &self,
         forces: &mut EndForces,

@@ -2,9 +2,9 @@
 //!
 //! The Gramians of `ẋ = −M x + …` with rates μ_q are Cauchy matrices `1/(μ_q + μ_s)`, whose Cholesky factor `L` with
 //! pivots has a closed form: `L_{qp} = g_q √(2 μ_p)/(μ_q + μ_p)` with `g_q ← g_q (μ_q − μ_p)/(μ_q + μ_p)` after each
-//! pivot p, to full relative accuracy. With residues `R_q` between inputs and outputs the products of the Gramians' roots
-//! are the blocks `Lᵀ diag(R) L`: their singular values are those of Hankel, and the truncated system follows (B. C. Moore
-//! 1981, doi 10.1109/TAC.1981.1102568; A. J. Laub, M. T. Heath, C. C. Paige and R. C. Ward 1987, doi
+//! pivot p, to full relative accuracy. With residues `R_q` between inputs and outputs the products of the Gramians'
+//! roots are the blocks `Lᵀ diag(R) L`: their singular values are those of Hankel, and the truncated system follows (B.
+//! C. Moore 1981, doi 10.1109/TAC.1981.1102568; A. J. Laub, M. T. Heath, C. C. Paige and R. C. Ward 1987, doi
 //! 10.1109/TAC.1987.1104549).
 //!
 //! Such systems are stable. Their poles are real or, with several inputs and outputs, some of them pairs.

@@ -2,9 +2,10 @@
 //!
 //! Above the outlet stands a column of layers, as wide as the outlet and one particle thick, which moves with the
 //! nozzle and down with the mean speed of the flow: the nozzle holds its particles, and takes up all forces on them. A
-//! layer holds the volume A Δx of the section A. The centre of layer k is `((k + ½) A Δx − V)/A` above the outlet once the
-//! volume V has come. When it passes the outlet its particles are free, and another layer joins on top. So the volume of
-//! what is free is V to half a layer, and pressure at the outlet is that of the fluid which the column pushes.
+//! layer holds the volume A Δx of the section A. The centre of layer k is `((k + ½) A Δx − V)/A` above the outlet once
+//! the volume V has come. When it passes the outlet its particles are free, and another layer joins on top. So the
+//! volume of what is free is V to half a layer, and pressure at the outlet is that of the fluid which the column
+//! pushes.
 //!
 //! The column reaches farther than the kernel, so particles at the outlet do not see its upper end.
 
@@ -132,8 +133,8 @@ impl Fed {
 mod tests {
     use super::*;
 
-    /// Rings fill the section: shares are those of equal areas to 6 %, their sum 1 and their second moment that of a disc to
-    /// 3 %.
+    /// Rings fill the section: shares are those of equal areas to 6 %, their sum 1 and their second moment that of a
+    /// disc to 3 %.
     #[test]
     fn rings_fill_the_outlet() {
         for across in [4.0, 6.0, 9.0, 12.0, 20.0] {

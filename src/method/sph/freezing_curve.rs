@@ -37,8 +37,8 @@ pub struct Curve {
 /// Number of knots of a section, and of the curve of a fluid that stays molten.
 pub const KNOTS: usize = 17;
 const MOLTEN_KNOTS: usize = 193;
-/// Number of layers of the lattice, and most couplings of a layer. Its diffusion steps relative to the elapsed time, and their upper bound for
-/// the molten fluid and for its fastest phase.
+/// Number of layers of the lattice, and most couplings of a layer. Its diffusion steps relative to the elapsed time,
+/// and their upper bound for the molten fluid and for its fastest phase.
 const LAYERS: usize = 64;
 const MOST_COUPLINGS: usize = 8;
 const SHARE: f64 = 0.02;

@@ -391,8 +391,8 @@ impl Method {
         self.diffusion * (self.shares.diffusive * self.diffusive_step / dt).min(1.0)
     }
 
-    /// Viscous limit of the time step; that of implicit viscosity is its solver's. The sums of
-    /// viscosity have no rate above twice their diagonal, `(4d/m) ν`, with m the kernel's second moment. Accelerations use velocities
+    /// Viscous limit of the time step; that of implicit viscosity is its solver's. The sums of viscosity have no rate
+    /// above twice their diagonal, `(4d/m) ν`, with m the kernel's second moment. Accelerations use velocities
     /// predicted ahead, so nothing grows whose rate times the step is below 1.
     fn viscous_step(&self) -> f64 {
         if self.implicit {

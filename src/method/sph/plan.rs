@@ -141,8 +141,8 @@ pub struct Feed {
 }
 
 impl DropletPlan {
-    /// The plan with the cheaper of explicit steps and of its own at a speed of the flow [m/s]; its own where the viscosity is
-    /// not constant.
+    /// The plan with the cheaper of explicit steps and of its own at a speed of the flow [m/s]; its own where the
+    /// viscosity is not constant.
     pub fn with_cheaper_viscosity(self, fastest: f64) -> Self {
         if self.fluid.viscosity.constant().is_none() {
             return self;

@@ -262,8 +262,8 @@ impl<'a, 'p> Stepper<'a, 'p> {
         Ok(self.kick(Times::NONE))
     }
 
-    /// Changes velocities by viscosity over a step, and by pressure where it is solved; the velocities `before` are then
-    /// a first guess of those after it.
+    /// Changes velocities by viscosity over a step, and by pressure where it is solved; the velocities `before` are
+    /// then a first guess of those after it.
     fn apply_viscosity(&mut self, dt: f64, before: &[[f64; 3]]) -> Result<(), Failure> {
         let (method, team, blocks) = (self.method, self.team, &self.neighbours.blocks);
         let step = viscous::advance(method, self.cloud, &self.frozen, blocks, (dt, before), team)

@@ -5,8 +5,9 @@ use std::collections::BTreeSet;
 /// 1/φ of the golden ratio φ.
 const GOLDEN: f64 = 0.618_033_988_749_895;
 
-/// Returns at most `most` places of a list of `count`, ascending: all, or where the multiples of 1/φ modulo 1 fall first,
-/// which lie evenly in every stretch of the list and follow no period of it (Kronecker's sequence of least discrepancy).
+/// Returns at most `most` places of a list of `count`, ascending: all, or where the multiples of 1/φ modulo 1 fall
+/// first, which lie evenly in every stretch of the list and follow no period of it (Kronecker's sequence of least
+/// discrepancy).
 pub fn sample(count: usize, most: usize) -> Vec<usize> {
     if count <= most {
         return (0..count).collect();

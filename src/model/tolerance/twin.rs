@@ -27,8 +27,8 @@ pub struct Twin {
     /// True if extremes of the body count. Those of stress may lie at edges where no mesh converges, so they count only
     /// if running maxima are requested.
     pub reads_extremes: bool,
-    /// True if stress depends on the history of the body, because it yields, creeps or has tabulated constants; moduli that
-    /// relax alone do not count.
+    /// True if stress depends on the history of the body, because it yields, creeps or has tabulated constants; moduli
+    /// that relax alone do not count.
     pub has_history: bool,
     /// True if loads represent drops, whose heat does not depend on the mesh.
     pub has_drops: bool,

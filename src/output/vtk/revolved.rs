@@ -1,7 +1,7 @@
 //! The nodes of a disc, whose meridian section is revolved about the axis: a structured grid (`.vts`).
 //!
-//! Viewers show a meridian section as the half plane alone. Here it is repeated at equal angles, with vectors and tensors rotated into components along x, y, z. Values at the angle 0 are those of the
-//! section to the bit.
+//! Viewers show a meridian section as the half plane alone. Here it is repeated at equal angles, with vectors and
+//! tensors rotated into components along x, y, z. Values at the angle 0 are those of the section to the bit.
 
 use std::f64::consts::TAU;
 use std::io::{self, Write};

@@ -65,7 +65,7 @@ fn of_large_strain(
     let at = path.at(if field.on.is_some() { "on" } else { "in" });
     let Some(shape) = solid.plate() else {
         let message = "this shape has neither faces nor sections with a grid for a field";
-        checker.refuse(&at, message, "a box or a disc");
+        checker.refuse(&at, message, "a box or a disc; or probes");
         return;
     };
     if !is_sound(&shape) {

@@ -7,8 +7,8 @@ use crate::scene::locate::Path;
 
 /// Largest ratio of the constants of both phases, either way, and of their diffusivities.
 const MOST_DIFFERENT: f64 = 50.0;
-/// Least heat between liquidus and solidus, over that which warms the fluid from 0 K to the liquidus: with far less a front stalls
-/// between layers of particles.
+/// Least heat between liquidus and solidus, over that which warms the fluid from 0 K to the liquidus: with far less a
+/// front stalls between layers of particles.
 const LEAST_CHANGE: f64 = 0.04;
 /// Largest latent heat [J/kg]; that of no substance is above 1e8.
 const MOST_LATENT: f64 = 1e9;

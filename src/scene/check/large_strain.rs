@@ -108,7 +108,12 @@ fn quadrilateral(checker: &mut Checker, path: &Path, own: &Quadrilateral, is_fla
     }
     let message = "the corners are not those of a quadrilateral with angles below 180°, in order";
     let allowed = "[x, z] of bottom left, bottom right, top right, top left";
-    let corners = checker.require(own.is_convex(), &path.key("corners"), message, allowed);
+    let corners = checker.require(
+        own.is_convex() && own.begins_below(),
+        &path.key("corners"),
+        message,
+        allowed,
+    );
     let message = "a body in three dimensions has a depth";
     let depth = checker.require(
         is_flat || own.depth.is_some(),
@@ -116,6 +121,9 @@ fn quadrilateral(checker: &mut Checker, path: &Path, own: &Quadrilateral, is_fla
         message,
         "a positive number (m), or `dimension = 2`",
     );
+    let message = "a plane body has no depth: its totals are those of a metre";
+    let fine = !is_flat || own.depth.is_none();
+    checker.require(fine, &path.key("depth"), message, "no `depth`, or `dimension = 3`");
     corners && depth
 }
 
@@ -233,6 +241,7 @@ fn check_heat(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
 }
 
 fn check_faces(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
+    let is_flat = solid.dimension == 2;
     for (&name, face) in &solid.faces {
         let at = path.key("faces").key(name.as_str());
         let offered: Vec<FaceName> = match solid.plate() {
@@ -278,6 +287,14 @@ fn check_faces(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
             SolidShape::Quadrilateral(own) => own.is_straight(name),
             SolidShape::Box(_) | SolidShape::Ball(_) => true,
         };
+        let is_of_kernels = matches!(solid.mechanics, Mechanics::Rkpm | Mechanics::Efg);
+        let is_held = !face.is_loaded() && !conditions.is_empty() || face.temperature.is_some();
+        if is_of_kernels && solid.is_quadrilateral() && is_held && !is_along {
+            let message =
+                "kernels hold faces along the axes alone: a slanted one would slip between nodes";
+            let allowed = "`mechanics = \"fem\"` or `\"sph\"`, or a load";
+            checker.refuse(&at, message, allowed);
+        }
         if face.roller && (!is_along || face.displacement.is_some() && name.normal().is_none()) {
             let message = "this face has no normal along an axis";
             checker.refuse(&at.key("roller"), message, "`clamped` or `displacement` alone");
@@ -287,21 +304,40 @@ fn check_faces(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
                 LoadComponent::Traction(axis) => Some(axis),
                 LoadComponent::Pressure => None,
             });
-        prescribed(checker, &at.key("displacement"), face.displacement, &solid.moved_axes(name));
-        prescribed(checker, &at.key("traction"), face.traction, &drawn.collect::<Vec<_>>());
+        prescribed(
+            checker,
+            &at.key("displacement"),
+            face.displacement,
+            (&solid.moved_axes(name), is_flat),
+        );
+        prescribed(
+            checker,
+            &at.key("traction"),
+            face.traction,
+            (&drawn.collect::<Vec<_>>(), is_flat),
+        );
     }
 }
 
 /// Refuses values of a face along axes on which none is prescribed.
-fn prescribed(checker: &mut Checker, path: &Path, values: Option<[f64; 3]>, taken: &[usize]) {
+fn prescribed(
+    checker: &mut Checker,
+    path: &Path,
+    values: Option<[f64; 3]>,
+    (taken, is_flat): (&[usize], bool),
+) {
     for axis in (0..3).filter(|axis| !taken.contains(axis)) {
         let message = "nothing is prescribed along this axis";
         let fine = values.is_none_or(|values| values[axis] == 0.0);
-        checker.require(fine, &path.index(axis), message, "0, or `symmetry = \"none\"`");
+        let is_across = is_flat && axis == 1;
+        let allowed =
+            if is_across { "0, or `dimension = 3`" } else { "0, or `symmetry = \"none\"`" };
+        checker.require(fine, &path.index(axis), message, allowed);
     }
 }
 
-/// Returns true if a model has a face: a plane one has none across y, and half of a body is cut where the face would be.
+/// Returns true if a model has a face: a plane one has none across y, and half of a body is cut where the face would
+/// be.
 fn is_there(solid: &LargeStrain, face: FaceName) -> bool {
     let [mirrored_x, mirrored_y] = solid.mirrors();
     match face {

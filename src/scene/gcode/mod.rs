@@ -1,8 +1,8 @@
 //! G-code as the route of a nozzle: the moves that its lines describe, and the motion through them.
 //!
-//! Understood are G0 and G1, arcs G2 and G3 by their centre, G4, units G20 and G21, places G90 and G91, lengths of filament
-//! M82 and M83, and G92. Codes of temperatures, fans, motors and messages change no motion and are passed over. All
-//! others are refused with their line: a path of which a part is guessed is no path.
+//! Understood are G0 and G1, arcs G2 and G3 by their centre, G4, units G20 and G21, places G90 and G91, lengths of
+//! filament M82 and M83, and G92. Codes of temperatures, fans, motors and messages change no motion and are passed
+//! over. All others are refused with their line: a path of which a part is guessed is no path.
 //!
 //! A retraction takes time; fluid comes again when all that was drawn back has been fed.
 
@@ -137,8 +137,8 @@ mod tests {
         }
     }
 
-    /// A straight move from rest to rest takes `L/v + v/a`; one too short for its speed `2 √(L/a)`. The flow follows the
-    /// speed, and all comes.
+    /// A straight move from rest to rest takes `L/v + v/a`; one too short for its speed `2 √(L/a)`. The flow follows
+    /// the speed, and all comes.
     #[test]
     fn acceleration_makes_trapezoids() {
         for (length, speed, time) in

@@ -1,8 +1,8 @@
 //! Motion through moves: at their speed, or with a limited acceleration as firmware plans it.
 //!
 //! With an acceleration a, speeds are trapezoids over time. A corner is passed at the speed at which a circle of the
-//! acceleration a would pass a right angle with the speed v_c, `v² = v_c² (√2 − 1) s/(1 − s)`, with the sine s of half of
-//! the angle between both moves (rule of the junction deviation). The flow follows the speed.
+//! acceleration a would pass a right angle with the speed v_c, `v² = v_c² (√2 − 1) s/(1 − s)`, with the sine s of half
+//! of the angle between both moves (rule of the junction deviation). The flow follows the speed.
 
 use std::f64::consts::SQRT_2;
 

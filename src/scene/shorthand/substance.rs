@@ -182,8 +182,8 @@ fn expand_links(source: &mut Source, body: &Path, problems: &mut Vec<(Path, Prob
     }
 }
 
-/// Replaces a fluid's name, or a table with the key `substance`, by all constants. `start` is the temperature at which they
-/// are taken where the table has none, and `free` that of a solid without stress [K].
+/// Replaces a fluid's name, or a table with the key `substance`, by all constants. `start` is the temperature at which
+/// they are taken where the table has none, and `free` that of a solid without stress [K].
 fn expand_table(
     source: &mut Source,
     place: &Path,

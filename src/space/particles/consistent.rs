@@ -1,10 +1,11 @@
-//! Gradients of particles whose forces balance: the smallest change of all after which a constant stress is in equilibrium
-//! with its tractions.
+//! Gradients of particles whose forces balance: the smallest change of all after which a constant stress is in
+//! equilibrium with its tractions.
 //!
-//! Nodal forces of a constant stress P are `−P Σ w g_b` over the points, which have to be the tractions, `Σ w g_b = ∮ N_b n
-//! dA` (the integration constraint of J.-S. Chen, M. Hillman & M. Rüter 2013, doi 10.1002/nme.4512). Gradients g are changed
-//! by the least squares that keep them exact for affine motion: `δg_b(a) = λ_b`, less the affine function that is closest to
-//! λ at the nodes of a. The λ of all nodes follow from one symmetric positive semidefinite system for each coordinate.
+//! Nodal forces of a constant stress P are `−P Σ w g_b` over the points, which have to be the tractions, `Σ w g_b = ∮
+//! N_b n dA` (the integration constraint of J.-S. Chen, M. Hillman & M. Rüter 2013, doi 10.1002/nme.4512). Gradients g
+//! are changed by the least squares that keep them exact for affine motion: `δg_b(a) = λ_b`, less the affine function
+//! that is closest to λ at the nodes of a. The λ of all nodes follow from one symmetric positive semidefinite system
+//! for each coordinate.
 
 use super::Point;
 use crate::math::conjugate_gradients::{self, Operator};

@@ -1,19 +1,22 @@
 //! Second smoothing of gradients over a length of the material.
 //!
-//! The mean gradients `∇̃Ψ(X_K)` of nodal cells are averaged once more, `∇̂Ψ(X_L) = Σ_K w_LK ∇̃Ψ(X_K)`, over cells within a radius R
-//! that does not depend on the mesh, so that strain that softens does not localise in one row of nodes. The weights are
-//! `V_L w_LK = V_L d_L φ(|X_L − X_K|/R) d_K V_K` with the factors d for which `Σ_K w_LK = 1` (R. Sinkhorn 1964, doi
-//! 10.1214/aoms/1177703591; symmetric). As `V_L w_LK` is symmetric, `Σ_L V_L w_LK = V_K` too, hence with forces of the same gradients:
+//! The mean gradients `∇̃Ψ(X_K)` of nodal cells are averaged once more, `∇̂Ψ(X_L) = Σ_K w_LK ∇̃Ψ(X_K)`, over cells
+//! within a radius R that does not depend on the mesh, so that strain that softens does not localise in one row of
+//! nodes. The weights are `V_L w_LK = V_L d_L φ(|X_L − X_K|/R) d_K V_K` with the factors d for which `Σ_K w_LK = 1` (R.
+//! Sinkhorn 1964, doi 10.1214/aoms/1177703591; symmetric). As `V_L w_LK` is symmetric, `Σ_L V_L w_LK = V_K` too, hence
+//! with forces of the same gradients:
 //!
 //! - linear displacements keep their gradients, and rotations have no stress;
 //! - constant stress balances with its tractions as before, `Σ V ∇̂Ψ = Σ V ∇̃Ψ`;
 //! - forces do the work of the stresses and have neither resultant nor moment.
 //!
-//! Gradients that are linear in X are exact within R of no boundary only, and this cannot be helped: of weights with both
-//! sums, exact for `X` everywhere, the mean of `Σ_K w_LK |X_K − X_L|²` over the body is 0, so that they do not smooth.
+//! Gradients that are linear in X are exact within R of no boundary only, and this cannot be helped: of weights with
+//! both sums, exact for `X` everywhere, the mean of `Σ_K w_LK |X_K − X_L|²` over the body is 0, so that they do not
+//! smooth.
 //!
-//! What gradients vary within a cell stays as it is. Source of two levels: D. Wang & L. Li 2013, Int. J. Damage Mech. 22; of the
-//! regularisation: J.-S. Chen, X. Zhang & T. Belytschko 2004, doi 10.1016/j.cma.2003.12.057; the weights are this project's.
+//! What gradients vary within a cell stays as it is. Source of two levels: D. Wang & L. Li 2013, Int. J. Damage Mech.
+//! 22; of the regularisation: J.-S. Chen, X. Zhang & T. Belytschko 2004, doi 10.1016/j.cma.2003.12.057; the weights are
+//! this project's.
 
 use super::super::bins::Bins;
 use super::super::{Form, Samples, Value};
@@ -30,7 +33,8 @@ struct Cells {
     rows: Vec<Vec<(u32, [f64; 3])>>,
 }
 
-/// Rounding of a sum of weights at which the factors are found, and iterations, each of which halves the error or better.
+/// Rounding of a sum of weights at which the factors are found, and iterations, each of which halves the error or
+/// better.
 const CONVERGED: f64 = 4e-15;
 const ITERATIONS: usize = 300;
 

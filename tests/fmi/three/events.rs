@@ -183,3 +183,27 @@ fn lattice_that_comes_apart_is_an_event() {
     assert_eq!(stepped(&unit, 0.1, 0.1).flags, AT_END);
     assert_eq!(unit.value("strip.max_damage"), 1.0);
 }
+
+/// A step that ends early leaves the load on its way: it is as fast as in the whole step.
+#[test]
+fn load_of_a_lattice_moves_as_evenly_in_a_step_that_ends_early() {
+    let moving = LINKS.replace("support = \"ends\"", "support = \"ends\"\ninertia = true");
+    let unit = instance(&moving, true, true);
+    assert_eq!(unit.put("strip.displacement", 1e-4), OK);
+    let found = stepped(&unit, 0.0, 1e-3);
+    assert_eq!(found.flags, EARLY);
+    let work = unit.value("strip.mechanical_work");
+    let ramped = instance(&moving, true, true);
+    let mut time = 0.0;
+    for part in 1..=16 {
+        assert_eq!(ramped.put("strip.displacement", 1e-4 * f64::from(part) / 16.0), OK);
+        let now = stepped(&ramped, time, 1e-3 / 16.0);
+        time += 1e-3 / 16.0;
+        if now.flags[0] {
+            break;
+        }
+    }
+    assert!((time - found.time).abs() < 1e-12, "{time} {}", found.time);
+    let expected = ramped.value("strip.mechanical_work");
+    assert!((work / expected - 1.0).abs() < 1e-6, "{work} {expected}");
+}

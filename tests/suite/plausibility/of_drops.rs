@@ -143,8 +143,8 @@ fn films_thinner_than_particles_are_warned_of() {
     assert!(!said.iter().any(|said| said.contains("film is expected")), "{finer}: {said:?}");
 }
 
-/// Heat of drops of 0.1 mm on a held wall by 2 D/U with 20 particles across, beside 56, was off by −32 % and 15 % (water,
-/// 50 and 5 m/s), −1 % (tin, 15 m/s), 0 % (mercury, 5 m/s), −3 % (glycerol, 15 m/s).
+/// Heat of drops of 0.1 mm on a held wall by 2 D/U with 20 particles across, beside 56, was off by −32 % and 15 %
+/// (water, 50 and 5 m/s), −1 % (tin, 15 m/s), 0 % (mercury, 5 m/s), −3 % (glycerol, 15 m/s).
 #[test]
 fn heat_that_particles_tell_badly_is_warned_of_and_no_other() {
     let said = |row: FluidRow, speed: f64, more: &str| {
@@ -173,8 +173,8 @@ fn heat_that_particles_tell_badly_is_warned_of_and_no_other() {
     assert!(poor[1].contains("cells of"), "{poor:?}");
 }
 
-/// Heat after 1 D/U with 20 particles across, beside 40 and 80: molten glass of Re 0.7 +25 %, honey of Re 0.7 +22 %, asphalt
-/// of Re 0.1 −33 %. The fitted law has +5 ± 6 %.
+/// Heat after 1 D/U with 20 particles across, beside 40 and 80: molten glass of Re 0.7 +25 %, honey of Re 0.7 +22 %,
+/// asphalt of Re 0.1 −33 %. The fitted law has +5 ± 6 %.
 #[test]
 fn errors_of_heat_outside_of_the_fitted_range_are_covered_and_warned_of() {
     let said = |row: FluidRow, [diameter, speed, across]: [f64; 3], more: &str| {
@@ -218,8 +218,8 @@ fn errors_of_heat_outside_of_the_fitted_range_are_covered_and_warned_of() {
     }
 }
 
-/// Beside particles films have 1.9 times the heat at Re 2.4 (silicone oil), 2.9 times at Re 0.7 (honey) and 8.9 times at
-/// Re 0.1 (asphalt).
+/// Beside particles films have 1.9 times the heat at Re 2.4 (silicone oil), 2.9 times at Re 0.7 (honey) and 8.9 times
+/// at Re 0.1 (asphalt).
 #[test]
 fn films_of_drops_that_they_were_not_fitted_on_are_warned_of() {
     let said = |row: FluidRow, diameter: f64, speed: f64| {
@@ -294,8 +294,8 @@ fn long_steps_below_films_are_warned_of_where_solids_may_fail() {
     assert!(!said("1e-4", ""));
 }
 
-/// Under wax on glass the middle rises 30 % too high with 20 particles across, and mercury on polymers gives a third too
-/// little heat (`docs/maps/coupling.md`).
+/// Under wax on glass the middle rises 30 % too high with 20 particles across, and mercury on polymers gives a third
+/// too little heat (`docs/maps/coupling.md`).
 #[test]
 fn particles_too_wide_for_the_layers_of_a_drop_on_a_solid_are_warned_of() {
     let wax = ("wax", 780.0, 4e-3, 2200.0, 0.15, 0.027, 373.0);
@@ -327,14 +327,15 @@ fn particles_too_wide_for_the_layers_of_a_drop_on_a_solid_are_warned_of() {
     assert_eq!(said(honey, 30.0, 20.0), [false; 3]);
     assert_eq!(said(mercury, 0.2, 20.0), [false, true, false]);
     assert_eq!(said(mercury, 0.2, 60.0), [false; 3]);
-    // Next to nothing is conducted: 21 % too much of water with half a particle across its layer of shear, 1 % with one.
+    // Next to nothing is conducted: 21 % too much of water with half a particle across its layer of shear, 1 % with
+    // one.
     let water = ("water", 998.0, 1e-3, 4182.0, 0.6, 0.072, 350.0);
     assert_eq!(said(water, 1e-3, 20.0), [false, false, true]);
     assert_eq!(said(water, 1e-3, 36.0), [false; 3]);
 }
 
-/// Small drops of water on glass have some 0.5 to 0.75 particles across their layer of heat at 2 to 1.1 m/s, and get 6 % to
-/// 19 % too hot under the middle; at 0.8 m/s 13 % at first and 2 % later.
+/// Small drops of water on glass have some 0.5 to 0.75 particles across their layer of heat at 2 to 1.1 m/s, and get 6
+/// % to 19 % too hot under the middle; at 0.8 m/s 13 % at first and 2 % later.
 #[test]
 fn particles_somewhat_too_wide_for_the_layer_of_heat_are_warned_of() {
     let said = |speed: f64| {

@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 use crate::laws::{GAS_CONSTANT, Part};
 use crate::limits::{knot, plausible, within};
 
-/// Factor `exp(E/R (1/T − 1/T_r))` of the viscous stress at a temperature T [K], 1 at the reference temperature T_r [K],
-/// with the activation energy E of flow [J/mol] (E. N. da C. Andrade, Nature 125 (1930) 309; H. Eyring, J. Chem. Phys. 4
-/// (1936) 283).
+/// Factor `exp(E/R (1/T − 1/T_r))` of the viscous stress at a temperature T [K], 1 at the reference temperature T_r
+/// [K], with the activation energy E of flow [J/mol] (E. N. da C. Andrade, Nature 125 (1930) 309; H. Eyring, J. Chem.
+/// Phys. 4 (1936) 283).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table, `{ energy = E, reference = T }`")]
 pub struct Arrhenius {

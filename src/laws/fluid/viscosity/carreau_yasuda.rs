@@ -8,10 +8,10 @@ use crate::laws::{AtStart, MaterialConstant, Part};
 use crate::limits::{plausible, within};
 use crate::quantity::Quantity;
 
-/// `µ = µ_∞ + (µ₀ − µ_∞) [1 + (λγ̇)ᵃ]^((n−1)/a)` with the viscosities µ₀ at rest and µ_∞ at the highest rates [Pa s], the
-/// time λ [s], the exponent n between them and the width a of the transition (P. J. Carreau, Trans. Soc. Rheol. 16 (1972)
-/// 99, doi 10.1122/1.549276, with a = 2; K. Yasuda, R. C. Armstrong and R. E. Cohen, Rheol. Acta 20 (1981) 163, doi
-/// 10.1007/BF01513059).
+/// `µ = µ_∞ + (µ₀ − µ_∞) [1 + (λγ̇)ᵃ]^((n−1)/a)` with the viscosities µ₀ at rest and µ_∞ at the highest rates [Pa s],
+/// the time λ [s], the exponent n between them and the width a of the transition (P. J. Carreau, Trans. Soc. Rheol. 16
+/// (1972) 99, doi 10.1122/1.549276, with a = 2; K. Yasuda, R. C. Armstrong and R. E. Cohen, Rheol. Acta 20 (1981) 163,
+/// doi 10.1007/BF01513059).
 ///
 /// With 0 < n ≤ 1 stress grows with the rate in either order of µ₀ and µ_∞. Beyond 1, µ_∞ would not be a limit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]

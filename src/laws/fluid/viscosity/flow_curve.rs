@@ -2,16 +2,16 @@
 
 use super::{FluidLaw, Newtonian, Shear, ShearLaw};
 
-/// Shear stress τ [Pa] over the shear rate γ̇ [1/s] at one temperature: `τ = τ_y + f τ_v(γ̇)`, with the yield stress τ_y
-/// and the viscous stress τ_v of a law and the factor f of the temperature.
+/// Shear stress τ [Pa] over the shear rate γ̇ [1/s] at one temperature: `τ = τ_y + f τ_v(γ̇)`, with the yield stress
+/// τ_y and the viscous stress τ_v of a law and the factor f of the temperature.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlowCurve {
     law: FluidLaw,
     factor: f64,
 }
 
-/// Change of the logarithm of the rate below which another step of Newton's method would change no digit: the error after
-/// this step is its square times some tens.
+/// Change of the logarithm of the rate below which another step of Newton's method would change no digit: the error
+/// after this step is its square times some tens.
 const CLOSE: f64 = 1e-9;
 /// Largest number of iterations; bisection alone needs 64.
 const MOST_ITERATIONS: usize = 200;
@@ -39,7 +39,8 @@ impl FlowCurve {
         self.law.yield_stress()
     }
 
-    /// Stress τ at a shear rate [1/s]; at rest the yield stress, which the stress of resting fluid does not exceed [Pa].
+    /// Stress τ at a shear rate [1/s]; at rest the yield stress, which the stress of resting fluid does not exceed
+    /// [Pa].
     #[inline]
     pub fn stress(&self, rate: f64) -> f64 {
         let viscous = if rate > 0.0 { self.viscous(rate).secant * rate } else { 0.0 };

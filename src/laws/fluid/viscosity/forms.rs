@@ -90,8 +90,8 @@ impl Viscosity {
         }
     }
 
-    /// Smallest and largest secant viscosity [Pa s] between two temperatures [K] and two shear rates [1/s], each pair in
-    /// ascending order; infinite at rest beyond a yield stress.
+    /// Smallest and largest secant viscosity [Pa s] between two temperatures [K] and two shear rates [1/s], each pair
+    /// in ascending order; infinite at rest beyond a yield stress.
     pub fn range(&self, temperatures: [f64; 2], rates: [f64; 2]) -> [f64; 2] {
         let between = |[low, high]: [f64; 2], value: &f64| low < *value && *value < high;
         let knots = match self {

@@ -8,8 +8,8 @@ use super::power::{CONSISTENCY, EXPONENT, Power, consistency, exponent};
 use super::{Shear, ShearLaw};
 use crate::laws::{MaterialConstant, Part};
 
-/// `τ = τ_y + k γ̇ⁿ` with the yield stress τ_y [Pa], the consistency k [Pa sⁿ] and the exponent n; at rest τ ≤ τ_y (W. H.
-/// Herschel and R. Bulkley, Kolloid-Z. 39 (1926) 291, doi 10.1007/BF01432034).
+/// `τ = τ_y + k γ̇ⁿ` with the yield stress τ_y [Pa], the consistency k [Pa sⁿ] and the exponent n; at rest τ ≤ τ_y (W.
+/// H. Herschel and R. Bulkley, Kolloid-Z. 39 (1926) 291, doi 10.1007/BF01432034).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(inline)]
 pub struct HerschelBulkley {

@@ -1,8 +1,8 @@
 //! Constitutive laws of viscosity: the shear stress τ of a fluid over its shear rate γ̇, one law per file.
 //!
-//! The rate is `γ̇ = √(2 D:D)` [1/s] of the symmetric velocity gradient D, and the deviatoric stress is `2 µ(γ̇) D` with
-//! the secant viscosity `µ = τ/γ̇`. A law has a yield stress, below which fluid at rest stays at rest, and a viscous
-//! part, which may change with temperature by an Arrhenius factor.
+//! The rate is `γ̇ = √(2 D:D)` [1/s] of the symmetric velocity gradient D, and the deviatoric stress is `2 µ(γ̇) D`
+//! with the secant viscosity `µ = τ/γ̇`. A law has a yield stress, below which fluid at rest stays at rest, and a
+//! viscous part, which may change with temperature by an Arrhenius factor.
 //!
 //! To add a law, write its file with a struct of its keys that implements [`Part`] and [`ShearLaw`], and add it to the
 //! list of [`FluidLaw`] below. Its keys, limits and parameters follow from these.

@@ -7,7 +7,8 @@ pub struct Shear {
     pub tangent: f64,
 }
 
-/// A law of simple shear at the reference temperature: `τ = τ_y + τ_v(γ̇)`, with a viscous part that grows with the rate.
+/// A law of simple shear at the reference temperature: `τ = τ_y + τ_v(γ̇)`, with a viscous part that grows with the
+/// rate.
 pub trait ShearLaw {
     /// Yield stress τ_y [Pa].
     fn yield_stress(&self) -> f64 {

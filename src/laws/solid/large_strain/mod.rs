@@ -1,9 +1,9 @@
 //! Laws of solids of large strain: elastic changes of volume, with a deviator that relaxes or flows.
 //!
-//! The energy of the dilatation `J = det F` per reference volume is `U(J) = ½ κ (½ (J² − 1) − ln J)`, source: J. C. Simo and
-//! T. J. R. Hughes, *Computational Inelasticity*, Springer 1998, eq. 9.2.3. Deviators have no part in the volume:
-//! [`relaxing`] is neo-Hooke with Maxwell branches, [`plastic`] multiplicative J₂ plasticity. [`concrete`] has the whole stress,
-//! and U is 0. [`thermal`] adds expansion.
+//! The energy of the dilatation `J = det F` per reference volume is `U(J) = ½ κ (½ (J² − 1) − ln J)`, source: J. C.
+//! Simo and T. J. R. Hughes, *Computational Inelasticity*, Springer 1998, eq. 9.2.3. Deviators have no part in the
+//! volume: [`relaxing`] is neo-Hooke with Maxwell branches, [`plastic`] multiplicative J₂ plasticity. [`concrete`] has
+//! the whole stress, and U is 0. [`thermal`] adds expansion.
 
 pub mod concrete;
 mod deformed;

@@ -1,13 +1,13 @@
 //! Metals that flow: multiplicative J₂ plasticity with isotropic hardening.
 //!
-//! The elastic left Cauchy–Green tensor of the change of shape, `b̄ = J^(−2/3) F C_p⁻¹ Fᵀ`, has the energy `½ µ (tr b̄ − 3)`
-//! and the Kirchhoff stress `s = µ dev b̄`, with the plastic right tensor C_p. The body yields at `‖s‖ = √⅔ σ_y(α)`,
-//! `σ_y = σ₀ + H α + (σ_∞ − σ₀)(1 − e^(−δα))` (E. Voce 1955). A step returns radially with `µ̄ = ⅓ µ tr b̄`:
+//! The elastic left Cauchy–Green tensor of the change of shape, `b̄ = J^(−2/3) F C_p⁻¹ Fᵀ`, has the energy `½ µ (tr b̄
+//! − 3)` and the Kirchhoff stress `s = µ dev b̄`, with the plastic right tensor C_p. The body yields at `‖s‖ = √⅔
+//! σ_y(α)`, `σ_y = σ₀ + H α + (σ_∞ − σ₀)(1 − e^(−δα))` (E. Voce 1955). A step returns radially with `µ̄ = ⅓ µ tr b̄`:
 //!
 //! `s = s_tr − 2 µ̄ Δγ n`, `‖s_tr‖ − 2 µ̄ Δγ = √⅔ σ_y(α + √⅔ Δγ)`
 //!
-//! (J. C. Simo 1988, doi 10.1016/0045-7825(88)90076-X; Simo and Hughes 1998, box 9.1). The spherical part of b̄ after the
-//! return follows from `det b̄ = 1`, so that flow keeps the volume and the energy is elastic. The tangent is the
+//! (J. C. Simo 1988, doi 10.1016/0045-7825(88)90076-X; Simo and Hughes 1998, box 9.1). The spherical part of b̄ after
+//! the return follows from `det b̄ = 1`, so that flow keeps the volume and the energy is elastic. The tangent is the
 //! derivative of this step, which is not symmetric.
 
 use super::{Deformed, Isochoric, Tangent};

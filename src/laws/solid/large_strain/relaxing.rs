@@ -1,14 +1,14 @@
 //! Rubber and gels: neo-Hooke with Maxwell branches in shear.
 //!
-//! The energy of the change of shape per reference volume is `½ µ (J^(−2/3) tr C − 3)`, `C = FᵀF`. All deviatoric stresses
-//! have the form
+//! The energy of the change of shape per reference volume is `½ µ (J^(−2/3) tr C − 3)`, `C = FᵀF`. All deviatoric
+//! stresses have the form
 //!
 //! `P = J^(−2/3) [F Q − ⅓ (C : Q) F^(−T)]`
 //!
 //! with a symmetric Q that is `µ 1` for neo-Hooke. A branch of fraction γ and time τ keeps a stress H in the reference
 //! configuration, `Q = γ_∞ µ 1 + Σ γ H`, which follows `Ḣ + H/τ = dS̃/dt` with the elastic `S̃ = µ F̄^(−1) dev(F̄F̄ᵀ)
-//! F̄^(−T)`, `F̄ = J^(−1/3) F` (J. C. Simo and T. J. R. Hughes 1998, *Computational Inelasticity*, §10.4). The step `H ←
-//! e^(−x) H + (1 − e^(−x))/x ΔS̃`, `x = Δt/τ`, is exact for S̃ linear in time, however long the step.
+//! F̄^(−T)`, `F̄ = J^(−1/3) F` (J. C. Simo and T. J. R. Hughes 1998, *Computational Inelasticity*, §10.4). The step `H
+//! ← e^(−x) H + (1 − e^(−x))/x ΔS̃`, `x = Δt/τ`, is exact for S̃ linear in time, however long the step.
 
 use super::{Deformed, Isochoric, Tangent};
 use crate::math::matrix3::{

@@ -1,8 +1,8 @@
 //! Effects of the temperature on solids of large strain.
 //!
-//! A uniform temperature stretches a free body by ϑ, `F = ϑ F_e`, and the energy of the law is that of the rest: `W(F, ϑ) = ϑ³
-//! W_e(F/ϑ)` per reference volume, so `P = ϑ² P_e` and `∂P/∂F = ϑ ∂P_e/∂F_e` (S. C. H. Lu and K. S. Pister 1975, doi
-//! 10.1016/0020-7683(75)90015-3). Relaxation goes on in the reduced time of its [`Shift`].
+//! A uniform temperature stretches a free body by ϑ, `F = ϑ F_e`, and the energy of the law is that of the rest: `W(F,
+//! ϑ) = ϑ³ W_e(F/ϑ)` per reference volume, so `P = ϑ² P_e` and `∂P/∂F = ϑ ∂P_e/∂F_e` (S. C. H. Lu and K. S. Pister
+//! 1975, doi 10.1016/0020-7683(75)90015-3). Relaxation goes on in the reduced time of its [`Shift`].
 
 use crate::laws::Property;
 use crate::laws::solid::{Elasticity, Shift};
@@ -42,8 +42,8 @@ impl Thermal {
         length(temperature) / length(self.free)
     }
 
-    /// Time [s] in which a body at the temperature without stress relaxes as this one does over a duration [s] in which its
-    /// temperature changes linearly [K].
+    /// Time [s] in which a body at the temperature without stress relaxes as this one does over a duration [s] in which
+    /// its temperature changes linearly [K].
     pub fn reduced_time(&self, temperatures: [f64; 2], duration: f64) -> f64 {
         match self.shift {
             Some(shift) if temperatures != [self.free; 2] => {

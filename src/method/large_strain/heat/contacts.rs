@@ -12,7 +12,8 @@ use crate::port::{Cover, Surface};
 pub struct Contacts(BTreeMap<(u32, usize), f64>);
 
 impl Contacts {
-    /// Adds the contact of a body displaced by u over a time [s]; `cover` returns the cells below a spot, by its number.
+    /// Adds the contact of a body displaced by u over a time [s]; `cover` returns the cells below a spot, by its
+    /// number.
     pub fn add(
         &mut self,
         body: &Deformable,
@@ -38,8 +39,8 @@ impl Contacts {
     }
 
     /// Films through which the nodes of one of `copies` images exchange heat with the cells over a step of this length
-    /// [s], with a conductance [W/(m² K)] in series with the mean response of the surface, which warms meanwhile. In long
-    /// steps the response counts as far as the surface does not overshoot the body's temperature.
+    /// [s], with a conductance [W/(m² K)] in series with the mean response of the surface, which warms meanwhile. In
+    /// long steps the response counts as far as the surface does not overshoot the body's temperature.
     pub fn films(
         &self,
         surface: &Surface,

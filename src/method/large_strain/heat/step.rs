@@ -1,8 +1,8 @@
 //! Steps of heat in time.
 //!
-//! A step is cut into parts of a stiffly accurate Runge–Kutta method of three stages and third order, L-stable: long parts leave
-//! nothing of fast modes (R. Alexander 1977, doi 10.1137/0714068). Its first two slopes give a result of second order, whose
-//! distance estimates the error that sets the length of parts.
+//! A step is cut into parts of a stiffly accurate Runge–Kutta method of three stages and third order, L-stable: long
+//! parts leave nothing of fast modes (R. Alexander 1977, doi 10.1137/0714068). Its first two slopes give a result of
+//! second order, whose distance estimates the error that sets the length of parts.
 
 use super::super::{Deformable, Failure};
 use super::conduction::{Conduction, Factored};

@@ -284,8 +284,8 @@ impl MovingLattice {
         0.5 * growth * dot(&forces, q)
     }
 
-    /// Adds the force of the dashpot of a contact. Faces of cracks that met elastically would rattle, and explicit steps
-    /// as short as the contact would heat them.
+    /// Adds the force of the dashpot of a contact. Faces of cracks that met elastically would rattle, and explicit
+    /// steps as short as the contact would heat them.
     #[cold]
     fn meet(&self, member: &Member, strain: &Strain, ends: [&Mover; 2], strained: &mut Strained) {
         let masses = member.ends.map(|i| self.inverse[i as usize][0]);

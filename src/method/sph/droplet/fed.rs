@@ -24,8 +24,8 @@ pub struct Laid {
     pub fed: Fed,
     /// Velocity of the column in the nozzle in the last part of a step [m/s].
     pub drive: [f64; 3],
-    /// Particles outside the nozzle: places [m], velocities [m/s] and volumes at rest [m³], with the number of the layer in
-    /// which each came.
+    /// Particles outside the nozzle: places [m], velocities [m/s] and volumes at rest [m³], with the number of the
+    /// layer in which each came.
     pub position: Vec<[f64; 3]>,
     pub velocity: Vec<[f64; 3]>,
     pub volume: Vec<f64>,
@@ -53,8 +53,8 @@ impl DropletSph {
         self.column.as_ref().expect("a plan with a nozzle")
     }
 
-    /// Advances by motions of the nozzle one after the other, above a surface that responds to heat. Returns the rises of
-    /// its cells due to the heat at the end [K m²]. A failure leaves the state unchanged.
+    /// Advances by motions of the nozzle one after the other, above a surface that responds to heat. Returns the rises
+    /// of its cells due to the heat at the end [K m²]. A failure leaves the state unchanged.
     ///
     /// # Panics
     /// If the plan has no nozzle.

@@ -1,9 +1,9 @@
 //! Fluid of a strand that rests, and takes no part in steps.
 //!
-//! Fluid with a yield stress comes to rest for good. In cubes as wide as the kernel reaches, particles are awake up to two
-//! cubes from any that moves faster than a limit, or is in the nozzle. Those up to four cubes away are held at rest: awake
-//! ones see all of their neighbours, and sound pressures and fits besides. The others leave the cloud of a step, so that its
-//! cost follows what moves. Their weight passes to the wall below them.
+//! Fluid with a yield stress comes to rest for good. In cubes as wide as the kernel reaches, particles are awake up to
+//! two cubes from any that moves faster than a limit, or is in the nozzle. Those up to four cubes away are held at
+//! rest: awake ones see all of their neighbours, and sound pressures and fits besides. The others leave the cloud of a
+//! step, so that its cost follows what moves. Their weight passes to the wall below them.
 //!
 //! Which particles sleep follows from places and speeds alone, at the beginning of each part of a step, so that fluid
 //! which arrives beside a sleeping strand wakes it.

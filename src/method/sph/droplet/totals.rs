@@ -53,8 +53,8 @@ pub struct DropletTotals {
     pub creep: f64,
     /// Iterations of pressure and viscosity so far; 0 where pressure is not solved.
     pub iterations: f64,
-    /// Frozen fraction of the mass, mass of frozen fluid [kg], latent heat that it has given off [J], and time since which all fluid on the wall is
-    /// frozen [s], 0 while some is not; zero for fluids that stay liquid.
+    /// Frozen fraction of the mass, mass of frozen fluid [kg], latent heat that it has given off [J], and time since
+    /// which all fluid on the wall is frozen [s], 0 while some is not; zero for fluids that stay liquid.
     pub solid_fraction: f64,
     pub frozen_mass: f64,
     pub latent_heat: f64,

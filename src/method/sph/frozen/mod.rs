@@ -25,16 +25,16 @@ use links::connected;
 
 /// Frozen fraction from which on a particle is rigid.
 pub const RIGID: f64 = 0.5;
-/// Largest distance over Δx of bonded particles: it exceeds the diagonals of the lattice, and pieces next to each other do
-/// not hover.
+/// Largest distance over Δx of bonded particles: it exceeds the diagonals of the lattice, and pieces next to each other
+/// do not hover.
 const REACH: f64 = 1.75;
 /// Distance from a plane over Δx below which rigid particles adhere to it; those nearer exchange heat with the wall.
 const ADHERING: f64 = 1.05;
 
 /// Factor of viscosity of rigid particles in sums over pairs of explicit viscosity. With it fluid has the velocity of
-/// the rigid particles at the boundary of both, not at their centres, which are twice as far: a pair of both kinds counts
-/// twice. In a film of six layers on a frozen one the plane without slip lies 0.02 Δx above the boundary; without the
-/// factor it lay 0.55 Δx below.
+/// the rigid particles at the boundary of both, not at their centres, which are twice as far: a pair of both kinds
+/// counts twice. In a film of six layers on a frozen one the plane without slip lies 0.02 Δx above the boundary;
+/// without the factor it lay 0.55 Δx below.
 const STICKING: f64 = 3.0;
 /// Weight of rigid particles in the dissipation of implicit viscosity, for the same reason: the plane without slip lies
 /// at the boundary to 0.01 Δx; without the factor it lay 0.41 Δx below.

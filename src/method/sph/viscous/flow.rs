@@ -6,19 +6,20 @@
 //! `Σ m (u − u*)²/(2 dt) + Σ V [Φ(|q|) + s·(y′ − q) + r/2 (y′ − q)²] + …`
 //!
 //! in u, in a shear rate q of each particle and in its stress s, with the deviator y′ of the strain rate of u and a
-//! penalty r > 0. The method of multipliers takes turns: q and s of each particle by the flow curve, u by a linear system
-//! with the viscosity r. No viscosity is regularised: where a fluid does not yield, q is zero, and s is any stress up to
-//! the yield stress. What creeps there is the remainder y′, which the iteration reduces below its tolerance.
+//! penalty r > 0. The method of multipliers takes turns: q and s of each particle by the flow curve, u by a linear
+//! system with the viscosity r. No viscosity is regularised: where a fluid does not yield, q is zero, and s is any
+//! stress up to the yield stress. What creeps there is the remainder y′, which the iteration reduces below its
+//! tolerance.
 //!
-//! The slope dτ/dγ̇ of the flow curve before the step, not τ/γ̇, resists the remainder of the fits. Where a shear
-//! flow has the curvature u″, the fits lose `Δx²/6 (dτ/dγ̇) u″²` of Φ, and pairs of the same slope compensate for it. With
+//! The slope dτ/dγ̇ of the flow curve before the step, not τ/γ̇, resists the remainder of the fits. Where a shear flow
+//! has the curvature u″, the fits lose `Δx²/6 (dτ/dγ̇) u″²` of Φ, and pairs of the same slope compensate for it. With
 //! τ/γ̇ the shear at a wall would have five times the error in a fluid of exponent ½.
 //!
 //! Stresses are kept from step to step, as a first guess of the next.
 //!
-//! Sources: R. Glowinski and P. Le Tallec, *Augmented Lagrangian and Operator-Splitting Methods in Nonlinear Mechanics*,
-//! SIAM 1989; for yield stresses Roquet & Saramito (2003), Comput. Methods Appl. Mech. Eng. 192, 3317–3341, doi
-//! 10.1016/S0045-7825(03)00262-7.
+//! Sources: R. Glowinski and P. Le Tallec, *Augmented Lagrangian and Operator-Splitting Methods in Nonlinear
+//! Mechanics*, SIAM 1989; for yield stresses Roquet & Saramito (2003), Comput. Methods Appl. Mech. Eng. 192, 3317–3341,
+//! doi 10.1016/S0045-7825(03)00262-7.
 
 use super::super::cloud::Cloud;
 use super::super::frozen::Pieces;

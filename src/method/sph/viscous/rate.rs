@@ -2,8 +2,8 @@
 
 use super::tensor::Products;
 
-/// Divides y into the part of the volume and the rest. With n axes, `y·y = 2 D:D + (tr D)²` is the sum of `γ̇² = 2 D′:D′`
-/// of the deviator and `(1 + 2/n)(tr D)²`.
+/// Divides y into the part of the volume and the rest. With n axes, `y·y = 2 D:D + (tr D)²` is the sum of `γ̇² = 2
+/// D′:D′` of the deviator and `(1 + 2/n)(tr D)²`.
 #[derive(Debug, Clone, Copy)]
 pub struct Axes {
     /// Unit vector of the volume.

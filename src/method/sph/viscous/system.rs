@@ -238,8 +238,8 @@ impl<'a> System<'a> {
         self.bodies.project(velocities, self.team);
     }
 
-    /// What wall and nozzle did, under which velocities have changed by this much. The wall balances the forces of fluid
-    /// on pieces that it holds, the nozzle all forces on the particles in it.
+    /// What wall and nozzle did, under which velocities have changed by this much. The wall balances the forces of
+    /// fluid on pieces that it holds, the nozzle all forces on the particles in it.
     pub fn reactions(&self, forces: &[Forces], changes: &[f64]) -> Reactions {
         let mut reactions = Reactions { by_wall: Vec::new(), by_nozzle: [0.0; 3] };
         let in_nozzle = |i: &usize| self.frozen.bond(*i) == Bond::Nozzle;

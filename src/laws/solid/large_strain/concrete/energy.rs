@@ -1,9 +1,9 @@
 //! Energy of softening of the KCC law, in closed form, and constants that follow from it.
 //!
-//! Beyond the peak in uniaxial tension `p = −σ/3`, so `σ = 3 η f_t/(2 + η)`, the axial plastic strain per ε̄ᵖ is `(1 + ωη/2)/√(1 +
-//! ω²η²/2)`, and `dε̄ᵖ = (2/(2 + η))^b₂ dλ`. The work of σ there per volume, times the width of the band in which strain
-//! localises, is the fracture energy (crack band: Z. P. Bažant & B. H. Oh 1983, doi 10.1007/BF02486267). Under equal
-//! tension from all sides it is `f_t ∫ η dλ/b₃`.
+//! Beyond the peak in uniaxial tension `p = −σ/3`, so `σ = 3 η f_t/(2 + η)`, the axial plastic strain per ε̄ᵖ is `(1 +
+//! ωη/2)/√(1 + ω²η²/2)`, and `dε̄ᵖ = (2/(2 + η))^b₂ dλ`. The work of σ there per volume, times the width of the band in
+//! which strain localises, is the fracture energy (crack band: Z. P. Bažant & B. H. Oh 1983, doi 10.1007/BF02486267).
+//! Under equal tension from all sides it is `f_t ∫ η dλ/b₃`.
 
 use super::{Concrete, DamageFunction};
 
@@ -43,8 +43,8 @@ impl Concrete {
         tension(&self.function, self.surfaces.tensile, self.exponents[1], self.dilatancy)
     }
 
-    /// Largest fall of stress per plastic strain over the elastic modulus, in uniaxial tension and under equal tension from
-    /// all sides: from 1 on, stress jumps.
+    /// Largest fall of stress per plastic strain over the elastic modulus, in uniaxial tension and under equal tension
+    /// from all sides: from 1 on, stress jumps.
     pub fn brittleness(&self, young: f64, bulk: f64) -> f64 {
         let tensile = self.surfaces.tensile;
         let steepest = |(fall, [start, end]): (f64, [f64; 2])| {

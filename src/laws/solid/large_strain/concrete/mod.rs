@@ -4,13 +4,13 @@
 //! ε`, so that the law is objective, its energy is elastic, and its return is that of small strains in principal axes (J. C.
 //! Simo 1992, doi 10.1016/0045-7825(92)90123-2). With the pressure `p = −⅓ tr τ` and `q = √(3 J₂)`:
 //!
-//! - Strength: `q ≤ r(θ, p) Δσ(p, λ)`, `Δσ = η Δσ_m + (1 − η) Δσ_y` up to the peak λ_m of the damage function η(λ), beyond it `η Δσ_m +
-//!   (1 − η) Δσ_r` ([`Surfaces`], [`DamageFunction`]).
-//! - Flow: the deviator returns radially, and the volume grows by `ω r Δσ′` per `Δε̄`, with the dilatancy ω: 0 keeps the
-//!   volume, 1 flows along the normal.
+//! - Strength: `q ≤ r(θ, p) Δσ(p, λ)`, `Δσ = η Δσ_m + (1 − η) Δσ_y` up to the peak λ_m of the damage function η(λ),
+//!   beyond it `η Δσ_m + (1 − η) Δσ_r` ([`Surfaces`], [`DamageFunction`]).
+//! - Flow: the deviator returns radially, and the volume grows by `ω r Δσ′` per `Δε̄`, with the dilatancy ω: 0 keeps
+//!   the volume, 1 flows along the normal.
 //! - Damage: `dλ = dε̄ᵖ/(1 + p/f_t)^b`, b = b₁ in compression and b₂ in tension, with `ε̄ᵖ = ∫ √(⅔ ε̇ᵖ:ε̇ᵖ)`.
-//! - Opening: `p ≥ −f_t`, beyond the peak `p ≥ −η f_t`; volume that opens there damages, `dλ = b₃ dε_v`. The source does so only close
-//!   to the axis of pressure, where it is needed.
+//! - Opening: `p ≥ −f_t`, beyond the peak `p ≥ −η f_t`; volume that opens there damages, `dλ = b₃ dε_v`. The source
+//!   does so only close to the axis of pressure, where it is needed.
 //! - Compaction: `p ≤ p_c(ε_c)` over the plastic change of volume ε_c, if there is a table.
 //!
 //! Sources: L. J. Malvar et al. 1997, doi 10.1016/S0734-743X(97)00023-7; Y. Wu, D. Wang & C.-T. Wu 2014 use the law in
@@ -247,8 +247,8 @@ const NO_PRESSURE: f64 = 1e-6;
 const ITERATIONS: usize = 100;
 const CONVERGED: f64 = 1e-14;
 
-/// Smallest root that bracketing finds between 0, where a function is positive, and `most`, where it is not: regula falsi
-/// with halved weights (Illinois), and a bisection in every third iteration.
+/// Smallest root that bracketing finds between 0, where a function is positive, and `most`, where it is not: regula
+/// falsi with halved weights (Illinois), and a bisection in every third iteration.
 fn root(function: &dyn Fn(f64) -> f64, most: f64) -> f64 {
     let (mut low, mut high) = ([0.0, function(0.0)], [most, function(most)]);
     let enough = CONVERGED * low[1].abs().max(high[1].abs());

@@ -1,13 +1,14 @@
 //! Strength surfaces of the KCC law over the pressure, which is positive in compression.
 //!
-//! `Δσ_m = a₀ + p/(a₁ + a₂ p)` is the strength in triaxial compression from the pressure `f_c/3` of uniaxial compression
-//! on, `Δσ_m = ³⁄₂ (p + f_t)/ψ(p)` below it, with the ratio ψ of strengths in triaxial extension and compression, ½ for p ≤ 0:
-//! in tension the largest principal stress is then f_t. The body yields at Δσ_y, of the same form from the pressure p_y at
-//! which uniaxial compression yields; in tension it yields at the same part of the strength, and in between linearly. What
-//! remains is `Δσ_r = p/(a₁f + a₂f p)`, nothing in tension.
+//! `Δσ_m = a₀ + p/(a₁ + a₂ p)` is the strength in triaxial compression from the pressure `f_c/3` of uniaxial
+//! compression on, `Δσ_m = ³⁄₂ (p + f_t)/ψ(p)` below it, with the ratio ψ of strengths in triaxial extension and
+//! compression, ½ for p ≤ 0: in tension the largest principal stress is then f_t. The body yields at Δσ_y, of the same
+//! form from the pressure p_y at which uniaxial compression yields; in tension it yields at the same part of the
+//! strength, and in between linearly. What remains is `Δσ_r = p/(a₁f + a₂f p)`, nothing in tension.
 //!
 //! Sources: L. J. Malvar, J. E. Crawford, J. W. Wesevich & D. Simons (1997), Int. J. Impact Eng. 19, 847–873, doi
-//! 10.1016/S0734-743X(97)00023-7; K. J. Willam & E. P. Warnke (1975), IABSE Proceedings 19, for sections across the axis.
+//! 10.1016/S0734-743X(97)00023-7; K. J. Willam & E. P. Warnke (1975), IABSE Proceedings 19, for sections across the
+//! axis.
 
 /// The three surfaces.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,8 +33,9 @@ pub struct Surfaces {
 pub type Slope = [f64; 2];
 
 impl Surfaces {
-    /// Creates the surfaces of coefficients and of f_t; `biaxial` is the strength in equal biaxial compression over f_c, and
-    /// `meridians` has ψ at pressures over f_c. `None` unless uniaxial compression has a strength, and yields below it.
+    /// Creates the surfaces of coefficients and of f_t; `biaxial` is the strength in equal biaxial compression over
+    /// f_c, and `meridians` has ψ at pressures over f_c. `None` unless uniaxial compression has a strength, and yields
+    /// below it.
     pub fn new(
         [strength, yielding]: [[f64; 3]; 2],
         residual: [f64; 2],
@@ -114,8 +116,8 @@ impl Surfaces {
         if own[0] < most[0] { own } else { most }
     }
 
-    /// Strength at a Lode angle over that in triaxial compression, at ψ: 1 at 60° and ψ at 0°, where one principal stress
-    /// is above two equal ones. `cosine` is that of the angle.
+    /// Strength at a Lode angle over that in triaxial compression, at ψ: 1 at 60° and ψ at 0°, where one principal
+    /// stress is above two equal ones. `cosine` is that of the angle.
     pub fn section(ratio: f64, cosine: f64) -> f64 {
         let (a, b) = (1.0 - ratio * ratio, 2.0 * ratio - 1.0);
         let square = 4.0 * a * cosine * cosine;

@@ -99,7 +99,8 @@ impl Driver {
         self.history[Concrete::LAMBDA]
     }
 
-    /// Strains along to an end, in equal steps under a stress across; returns the largest magnitude of the stress difference.
+    /// Strains along to an end, in equal steps under a stress across; returns the largest magnitude of the stress
+    /// difference.
     fn drive(&mut self, end: f64, steps: usize, across: f64) -> f64 {
         let start = self.strains[1];
         let mut most: f64 = 0.0;
