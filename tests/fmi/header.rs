@@ -44,6 +44,7 @@ const FMI3: Interface = Interface {
     parts: &[
         File("types.rs"),
         File("life_cycle.rs"),
+        File("events.rs"),
         File("variables.rs"),
         Rows("absent"),
         File("dependencies.rs"),

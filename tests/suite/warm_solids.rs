@@ -396,10 +396,10 @@ fn heat_that_does_not_pass_or_is_not_resolved_is_warned_of() {
     let told = |conductance: &str, stop: f64| -> Vec<&'static str> {
         let text = format!(
             "name = \"Drop\"\nstop_time = {stop:?}\nstep = 1e-3\n[body.gel]\nkind = \"solid\"\nstrain = \"finite\"\n\
-             inertia = true\nshape = {{ ball = {{ radius = 5e-3 }} }}\ninitial_temperature = 350.0\ngravity = 9.81\n\
+             inertia = true\nshape = {{ ball = {{ radius = 5e-3 }} }}\ninitial_temperature = 340.0\ngravity = 9.81\n\
              material = {{ model = \"neo_hookean\", density = 1000.0, specific_heat = 4180.0, conductivity = 0.6, \
              young = 2e4, poisson = 0.4 }}\n[body.plate]\nkind = \"solid\"\nshape = {{ box = [30e-3, 30e-3, 3e-3] }}\n\
-             material = \"soda-lime-glass\"\ninitial_temperature = 290.0\nfaces = {{ bottom = {{ clamped = true }} }}\n\
+             material = \"soda-lime-glass\"\ninitial_temperature = 300.0\nfaces = {{ bottom = {{ clamped = true }} }}\n\
              [[coupling]]\nfrom = \"gel\"\nto = \"plate.top\"\n{conductance}\n"
         );
         let (_, found) = impinge::advice::parse_with_warnings(&text, "scene.toml").unwrap();

@@ -166,15 +166,17 @@ impl Deformable {
     /// Mean of a field of the nodes over each group of points.
     pub fn means_of_groups(&self, values: &[f64]) -> Vec<f64> {
         let volume = &self.space.volume;
-        // Values of functions at a point near an axis have the sum of a hoop strain, which need not be 1.
-        let at = |point: usize| -> f64 {
-            let row = volume.row(point);
-            let sum: f64 = row.iter().map(|own| own.value * values[own.node as usize]).sum();
-            sum / row.iter().map(|own| own.value).sum::<f64>()
-        };
+        // Functions in a meridian section have values for hoop strains, whose sum need not be 1.
         let of_group = |group: &Range<usize>| {
-            let whole: f64 = volume.weights[group.clone()].iter().sum();
-            group.clone().map(|point| volume.weights[point] * at(point)).sum::<f64>() / whole
+            let mut sums = [0.0; 2];
+            for point in group.clone() {
+                let weight = volume.weights[point];
+                for own in volume.row(point) {
+                    sums[0] += weight * own.value * values[own.node as usize];
+                    sums[1] += weight * own.value;
+                }
+            }
+            sums[0] / sums[1]
         };
         self.space.groups.iter().map(of_group).collect()
     }
