@@ -358,7 +358,7 @@ fn fields_have_the_values_of_probes() {
         ),
         (
             "disc = { radius = 0.5, thickness = 0.6 }",
-            "mechanics = \"rkpm\"",
+            "mechanics = \"rkpm\"\nrkpm = { integration = \"scni\" }",
             "in = \"pad\"\nplane = { y = 0.0 }",
             [[-0.25, 0.0, -0.45], [-0.25, 0.0, -0.15], [0.25, 0.0, -0.45], [0.25, 0.0, -0.15]],
         ),

@@ -166,17 +166,12 @@ impl Deformable {
     /// Mean of a field of the nodes over each group of points.
     pub fn means_of_groups(&self, values: &[f64]) -> Vec<f64> {
         let volume = &self.space.volume;
-        // Functions in a meridian section have values for hoop strains, whose sum need not be 1.
+        let at = |point: usize| -> f64 {
+            volume.row(point).iter().map(|own| own.value * values[own.node as usize]).sum()
+        };
         let of_group = |group: &Range<usize>| {
-            let mut sums = [0.0; 2];
-            for point in group.clone() {
-                let weight = volume.weights[point];
-                for own in volume.row(point) {
-                    sums[0] += weight * own.value * values[own.node as usize];
-                    sums[1] += weight * own.value;
-                }
-            }
-            sums[0] / sums[1]
+            let whole: f64 = volume.weights[group.clone()].iter().sum();
+            group.clone().map(|point| volume.weights[point] * at(point)).sum::<f64>() / whole
         };
         self.space.groups.iter().map(of_group).collect()
     }

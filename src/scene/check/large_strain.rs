@@ -222,6 +222,13 @@ fn check_heat(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
     if !solid.conducts() {
         return;
     }
+    let is_of_kernels = matches!(solid.mechanics, Mechanics::Rkpm | Mechanics::Efg);
+    let nsni = solid.rkpm.unwrap_or_default().integration == KernelIntegration::Nsni;
+    // Values of functions at these points are those of hoop strains, of which temperatures near the axis are not made.
+    let fine = !(is_of_kernels && nsni && solid.is_axisymmetric());
+    let message = "heat in a meridian section takes other points of kernels than `nsni`";
+    let allowed = "`rkpm = { integration = \"scni\" }`; or `mechanics = \"fem\"` or `\"sph\"`";
+    checker.require(fine, &path.key("mechanics"), message, allowed);
     let own = solid.material.iter().map(|choice| (path.key("material"), choice.material()));
     let layers = solid.layers.iter().flatten().enumerate();
     let of_layers = layers
