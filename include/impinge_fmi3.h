@@ -144,6 +144,18 @@ fmi3Status fmi3Terminate(fmi3Instance instance);
 
 fmi3Status fmi3Reset(fmi3Instance instance);
 
+fmi3Status fmi3EnterEventMode(fmi3Instance instance);
+
+fmi3Status fmi3EnterStepMode(fmi3Instance instance);
+
+fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance,
+                                    fmi3Boolean *discreteStatesNeedUpdate,
+                                    fmi3Boolean *terminateSimulation,
+                                    fmi3Boolean *nominalsOfContinuousStatesChanged,
+                                    fmi3Boolean *valuesOfContinuousStatesChanged,
+                                    fmi3Boolean *nextEventTimeDefined,
+                                    fmi3Float64 *nextEventTime);
+
 fmi3Status fmi3GetFloat64(fmi3Instance instance,
                           const fmi3ValueReference *valueReferences,
                           size_t valueReferenceCount,
