@@ -348,6 +348,6 @@ mod tests {
         let sum = checksum(&bytes[..end]);
         bytes[end..].copy_from_slice(&sum);
         let refusal = unit.deserialize(&bytes).err().unwrap();
-        assert!(refusal.message.contains("version 3; this program reads 4"), "{}", refusal.message);
+        assert!(refusal.message.contains("version 3; this program reads 5"), "{}", refusal.message);
     }
 }

@@ -1,7 +1,7 @@
 use super::elements::Nodal;
 use super::*;
 use crate::laws::fracture::{Dissipation, GradientDamage, Principal, Split};
-use crate::math::nine_point::{NinePoint, Padded};
+use crate::math::nine_point::Padded;
 use crate::runtime::allowance::Allowance;
 use crate::runtime::parallel::Team;
 
@@ -147,7 +147,7 @@ fn stiffness_is_the_derivative_of_forces() {
                 elements.forces(&nodal, None, &team).0
             };
             let nodal = Nodal { displacement: &displacement, damage: &damage, rise: &rise };
-            let mut stiffness = NinePoint::zeros(elements.grid);
+            let mut stiffness = elements.intact_stiffness(&team);
             elements.forces(&nodal, Some(&mut stiffness), &team);
             let mut padded = Padded::zeros(elements.grid);
             padded.inner_mut().copy_from_slice(&change);
