@@ -1,4 +1,4 @@
-"""Times drops whose pressure is solved beside those in steps of sound.
+"""Measures the time of drops with solved pressure and with explicit steps.
 
     .venv/bin/python benches/pressure.py
 
