@@ -1,6 +1,7 @@
 //! Questions about bodies, answered for each kind: others ask these instead of which kind a body is.
 
-use super::droplet::{Coupling, Droplet, Wall};
+use super::coupling::{Coupling, Wall};
+use super::droplet::Droplet;
 use super::grid::Grid;
 use super::lookup::BodyInput;
 use super::materials::MaterialChoice;

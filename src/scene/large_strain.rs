@@ -1,22 +1,32 @@
 //! Solids of large strain: gels, rubbers and soft prints, with or without inertia.
 
+mod discretisation;
+mod faces;
+mod kind;
+mod quadrilateral;
+mod shape;
+
 use std::collections::BTreeMap;
 
-use schemars::{JsonSchema, Schema};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use serde_json::json;
 
 use super::lookup::BodyInput;
 use super::materials::{MaterialChoice, heights};
-use super::quadrilateral::Quadrilateral;
-use super::types::{Convection, Disc, Face, FaceName, Layer, Shape};
+use super::types::{Disc, FaceName, Layer, Shape};
+pub use discretisation::{
+    KernelIntegration, KernelSettings, LargeStrainMesh, Mechanics, ParticleSettings,
+};
+pub use faces::{HeldFace, LoadComponent};
+use faces::{displacement, displacement_key, load_key};
+pub use kind::{KIND, name_kind, with_names};
+pub use quadrilateral::Quadrilateral;
+pub use shape::{Ball, SolidShape};
+
 use crate::laws::Material;
 use crate::laws::solid::SolidLaw;
 use crate::laws::solid::large_strain::Thermal;
-use crate::limits::{
-    Keys, Limits, above_zero, heat_flux, length, own_temperature, plausible, signed, traction,
-    whole, within,
-};
+use crate::limits::{Keys, own_temperature, plausible, signed, traction, whole, within};
 use crate::quantity::Quantity;
 
 /// A solid of large strain.
@@ -44,7 +54,7 @@ pub struct LargeStrain {
     #[schemars(transform = own_temperature())]
     pub initial_temperature: f64,
     /// 3, or 2 for a plane model in x and z of plane strain, whose totals are per metre of depth.
-    #[serde(default = "three")]
+    #[serde(default = "crate::scene::defaults::three")]
     #[schemars(transform = whole(2, 3, "no model of this dimension", "3, 2 (plane)"))]
     pub dimension: usize,
     /// Part of the body that is modelled.
@@ -108,10 +118,6 @@ pub enum MotionSteps {
     Implicit,
 }
 
-fn three() -> usize {
-    3
-}
-
 /// Measure of the deformation of a solid of large strain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -127,109 +133,6 @@ pub enum SmallStrain {
     /// Strains and rotations far below 1.
     #[default]
     Small,
-}
-
-/// Discretisation of a solid of large strain.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Mechanics {
-    /// Linear finite elements.
-    #[default]
-    Fem,
-    /// Reproducing kernels: cubic splines.
-    Rkpm,
-    /// The element-free Galerkin method: moving least squares with quartic splines.
-    Efg,
-    /// Total-Lagrangian smoothed particles: neighbours of the undeformed body, with corrected gradients.
-    Sph,
-}
-
-/// Settings of smoothed particles of large strain.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct ParticleSettings {
-    /// Radius of supports, in distances of particles.
-    #[schemars(transform = within(1.5, 6.0, "distances of particles", "").says(
-        "the support, in distances of particles, reaches too few or too many",
-        "1.5 to 6",
-    ))]
-    pub support: f64,
-}
-
-impl Default for ParticleSettings {
-    fn default() -> Self {
-        Self { support: 2.2 }
-    }
-}
-
-/// Settings of reproducing kernels.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct KernelSettings {
-    /// Order of the polynomials that the functions reproduce.
-    #[schemars(transform = whole(1, 2, "no basis of this order", "1 (linear), 2 (quadratic)"))]
-    pub basis: usize,
-    /// Half of the width of supports, in distances of nodes.
-    #[schemars(transform = within(1.0, 6.0, "distances of nodes", "").low_open().says(
-        "the support, in distances of nodes, reaches too few or too many",
-        "above `basis`, up to 6",
-    ).otherwise("`basis` + 0.75"))]
-    pub support: Option<f64>,
-    /// Points at which the mechanics is integrated.
-    pub integration: KernelIntegration,
-    /// Radius over which gradients are averaged once more, a length of the material on which strain localises [m].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = length("the radius of smoothing")
-        .plausible(&plausible::EXTENT)
-        .condition("with `integration = \"nsni\"`, four distances of nodes or more")
-        .otherwise("none"))]
-    pub smoothing: Option<f64>,
-}
-
-impl Default for KernelSettings {
-    fn default() -> Self {
-        Self { basis: 1, support: None, integration: KernelIntegration::default(), smoothing: None }
-    }
-}
-
-/// Integration of reproducing kernels.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum KernelIntegration {
-    /// Naturally stabilised: as exact as the basis, at a few points about each node.
-    #[default]
-    Nsni,
-    /// Stabilised conforming: one point a node with the mean gradient of its cell; soft in bending.
-    Scni,
-    /// Gauss points of the cells between nodes; fails the patch test.
-    Gauss,
-}
-
-/// The shape of a solid of large strain. The origin of a box and of a disc is the centre of their top, that of a ball
-/// its centre.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum SolidShape {
-    /// Extents along x, y and z [m].
-    Box(
-        #[schemars(transform = length("the extent of a body").plausible(&plausible::EXTENT))]
-        [f64; 3],
-    ),
-    /// A round plate or cylinder.
-    Disc(Disc),
-    /// A ball; in a plane model a circle.
-    Ball(Ball),
-    /// Four corners in x and z; its faces are those of a box, `left` and `right` between the corners there.
-    Quadrilateral(Quadrilateral),
-}
-
-/// A ball.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Ball {
-    /// Radius [m].
-    #[schemars(transform = length("the radius of a body").plausible(&plausible::EXTENT))]
-    pub radius: f64,
 }
 
 /// Modelled part of a solid of large strain.
@@ -259,91 +162,6 @@ pub struct LargeStrainStart {
     #[schemars(transform = within(0.0, 1e3, "m", "the gap between body and plane")
         .plausible(&plausible::HEIGHT))]
     pub height: f64,
-}
-
-/// Mesh of a solid of large strain.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct LargeStrainMesh {
-    /// Distance of nodes [m].
-    #[schemars(transform = above_zero("m")
-        .condition("up to the smallest extent")
-        .otherwise("a tenth of the smallest extent"))]
-    pub spacing: Option<f64>,
-}
-
-/// Conditions on a face of a solid of large strain: at most one thermal one, and a mechanical one, or `roller` with
-/// `displacement`, or `pressure` with `traction`.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct HeldFace {
-    /// No displacement.
-    #[serde(default)]
-    pub clamped: bool,
-    /// No displacement along the normal; with `displacement`, that one along it, and none is held across.
-    #[serde(default)]
-    pub roller: bool,
-    /// Displacement along x, y and z at the start; inputs [m].
-    #[schemars(transform = displacement().otherwise("free"))]
-    pub displacement: Option<[f64; 3]>,
-    /// Pressure on the deformed face, into the body, at the start; an input [Pa].
-    #[schemars(transform = traction().otherwise("free"))]
-    pub pressure: Option<f64>,
-    /// Force per area of the undeformed face along x, y and z at the start; inputs [Pa].
-    #[schemars(transform = traction().otherwise("free"))]
-    pub traction: Option<[f64; 3]>,
-    /// Prescribed temperature [K]; an input.
-    #[schemars(transform = own_temperature().otherwise("insulated"))]
-    pub temperature: Option<f64>,
-    /// Heat flux into the body per present area [W/m²]; an input.
-    #[schemars(transform = heat_flux().otherwise("insulated"))]
-    pub flux: Option<f64>,
-    /// Heat flux by convection to a fluid, per present area.
-    #[schemars(extend("otherwise" = "insulated"))]
-    pub convection: Option<Convection>,
-}
-
-/// A component of the load on a face.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LoadComponent {
-    Pressure,
-    /// Along an axis.
-    Traction(usize),
-}
-
-impl HeldFace {
-    /// Keys of the mechanical conditions that are set.
-    pub fn conditions(&self) -> Vec<&'static str> {
-        let given = [
-            ("clamped", self.clamped),
-            ("roller", self.roller),
-            ("displacement", self.displacement.is_some()),
-            ("pressure", self.pressure.is_some()),
-            ("traction", self.traction.is_some()),
-        ];
-        given.into_iter().filter(|(_, given)| *given).map(|(key, _)| key).collect()
-    }
-
-    /// Thermal conditions as those of other solids.
-    pub fn heated(&self) -> Face {
-        let Self { temperature, flux, convection, .. } = *self;
-        Face { temperature, flux, convection, ..Face::default() }
-    }
-
-    /// Returns true if the face is held or moved.
-    pub fn is_held(&self) -> bool {
-        self.clamped || self.roller || self.displacement.is_some()
-    }
-
-    /// Returns true if a load acts on the face, which is not held then.
-    pub fn is_loaded(&self) -> bool {
-        self.pressure.is_some() || self.traction.is_some()
-    }
-}
-
-/// Displacement of a face [m].
-const fn displacement() -> Limits {
-    signed("m", "a displacement")
 }
 
 /// Elements across the smallest extent, by default.
@@ -571,73 +389,3 @@ impl LargeStrain {
         displacements.chain(self.faces.iter().flat_map(of_load)).chain(temperature).collect()
     }
 }
-
-impl HeldFace {
-    /// Returns true if the face is neither moved nor drawn along x or y at the start.
-    fn is_straight(&self) -> bool {
-        let along = [self.displacement, self.traction];
-        along.into_iter().flatten().all(|by| by[0] == 0.0 && by[1] == 0.0)
-    }
-
-    /// Returns true if no input moves or draws the face along x or y in a model of the whole body.
-    fn stays_straight(&self, face: FaceName) -> bool {
-        let is_moved = self.displacement.is_some() && !(self.roller && face.normal() == Some(2));
-        !is_moved && self.traction.is_none()
-    }
-}
-
-/// Last part of the name of an input of a face.
-macro_rules! face_key {
-    ($face:expr, $suffix:literal) => {
-        match $face {
-            FaceName::Top => concat!("top.", $suffix),
-            FaceName::Bottom => concat!("bottom.", $suffix),
-            FaceName::Sides => concat!("sides.", $suffix),
-            FaceName::Left => concat!("left.", $suffix),
-            FaceName::Right => concat!("right.", $suffix),
-            FaceName::Front => concat!("front.", $suffix),
-            FaceName::Back => concat!("back.", $suffix),
-        }
-    };
-}
-
-fn displacement_key(face: FaceName, axis: usize) -> &'static str {
-    match axis {
-        0 => face_key!(face, "displacement_x"),
-        1 => face_key!(face, "displacement_y"),
-        _ => face_key!(face, "displacement_z"),
-    }
-}
-
-fn load_key(face: FaceName, component: LoadComponent) -> &'static str {
-    match component {
-        LoadComponent::Pressure => face_key!(face, "pressure"),
-        LoadComponent::Traction(0) => face_key!(face, "traction_x"),
-        LoadComponent::Traction(1) => face_key!(face, "traction_y"),
-        LoadComponent::Traction(_) => face_key!(face, "traction_z"),
-    }
-}
-
-/// Names the kind of solids of large strain in the schema as scenes do, `kind = "solid"` with `strain = "finite"`, and
-/// has the measure of strain tell solids apart.
-pub fn name_kind(schema: &mut Schema) {
-    let kinds = schema.get_mut("oneOf").and_then(serde_json::Value::as_array_mut);
-    for kind in kinds.into_iter().flatten() {
-        let keys = &mut kind["properties"];
-        let strain = match keys["kind"]["const"].as_str() {
-            Some(KIND) => "finite",
-            Some("solid") => "small",
-            _ => continue,
-        };
-        keys["kind"]["const"] = json!("solid");
-        if let Some(table) = keys["strain"].as_object_mut() {
-            table.remove("$ref");
-            table.remove("anyOf");
-            table.insert("type".to_owned(), json!("string"));
-            table.insert("const".to_owned(), json!(strain));
-        }
-    }
-}
-
-/// Name of the kind within the program; see [`name_kind`].
-pub const KIND: &str = "solid of large strain";

@@ -55,7 +55,7 @@ pub struct Lattice {
         .condition("with `inertia = true`"))]
     pub damping: f64,
     /// True if links that are damaged bear pressure like intact ones.
-    #[serde(default = "yes")]
+    #[serde(default = "crate::scene::defaults::yes")]
     pub contact: bool,
     /// Half the width of the range, over its middle, in which the strength is distributed evenly from link to link [1].
     /// Without scatter a symmetric beam stays symmetric, which is not what it does.
@@ -69,10 +69,6 @@ pub struct Lattice {
     #[serde(default = "room")]
     #[schemars(transform = own_temperature())]
     pub initial_temperature: f64,
-}
-
-fn yes() -> bool {
-    true
 }
 
 fn usual_scatter() -> f64 {

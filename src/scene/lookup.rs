@@ -1,6 +1,7 @@
 //! Look-ups in a checked scene.
 
-use super::droplet::{Coupling, Droplet, SOUND_OVER_FLOW};
+use super::coupling::Coupling;
+use super::droplet::{Droplet, SOUND_OVER_FLOW};
 use super::filament::{Filament, Target};
 use super::large_strain::LargeStrain;
 use super::lattice::Lattice;

@@ -9,12 +9,15 @@ mod contact;
 mod constants;
 mod cracks;
 mod decode;
+mod defaults;
+mod coupling;
 mod droplet;
 mod droplet_symmetry;
 mod error;
 mod excerpt;
 mod filament;
 mod lattice;
+mod face;
 mod file;
 mod files;
 mod flaw;
@@ -24,12 +27,11 @@ mod gcode;
 mod grid;
 mod kinds;
 mod large_strain;
-mod large_strain_kind;
 mod load;
 pub(crate) mod locate;
 mod lookup;
 mod materials;
-mod quadrilateral;
+mod reading;
 mod recording;
 mod reduction;
 mod refinement;
@@ -37,8 +39,10 @@ mod reservoir;
 mod route;
 mod sampling;
 pub(crate) mod schema;
+mod settings;
 mod shorthand;
 mod slip;
+mod solid;
 mod spelling;
 mod types;
 mod whole;
@@ -53,9 +57,10 @@ pub use constants::{
     OfferedConstant,
 };
 pub use contact::FirstContact;
+pub use coupling::{Coupling, Wall, WallStart};
 pub use droplet::{
-    Arrival, Coupling, Droplet, DropletMethod, DropletSymmetry, Governing, Placement, Precision,
-    PressureAdvance, ReleaseBy, ViscousAdvance, Wall, WallStart, velocity,
+    Arrival, Droplet, DropletMethod, DropletSymmetry, Governing, Placement, Precision,
+    PressureAdvance, ReleaseBy, ViscousAdvance, velocity,
 };
 pub use error::{Problem, SceneError};
 pub use filament::{
@@ -68,12 +73,11 @@ pub use grid::{Grid, lateral_extents};
 pub use kinds::Drawn;
 pub use large_strain::{
     HeldFace, KernelIntegration, KernelSettings, LargeStrain, LoadComponent, Mechanics,
-    MotionSteps, SmallStrain, SolidShape,
+    MotionSteps, Quadrilateral, SmallStrain, SolidShape,
 };
 pub use lattice::{Lattice, LatticeArrangement, LatticeControl, LatticeNotch, LatticeSupport};
 pub use lookup::{BodyInput, Place};
 pub use materials::{MaterialChoice, Stratum};
-pub use quadrilateral::Quadrilateral;
 pub use recording::Recording;
 pub use reduction::footprints_along;
 pub use refinement::MeshFactors;
@@ -143,7 +147,7 @@ pub fn parse(text: &str, file: &str) -> Result<Scene, SceneError> {
 pub(crate) fn parse_located(source: &mut Source, schema: &Schema) -> Result<Scene, SceneError> {
     let misread = shorthand::expand(source, schema);
     let decoded =
-        large_strain_kind::with_names(source, |source| decode::decode(source, schema, misread));
+        large_strain::with_names(source, |source| decode::decode(source, schema, misread));
     let mut scene = decoded?;
     scene.substances = source.substances().to_vec();
     scene.store_surfaces_below();

@@ -2,7 +2,8 @@
 //! momentum, or the top of a solid with the bottom of another.
 
 use super::{Checker, fits, number};
-use crate::scene::droplet::{Coupling, Droplet};
+use crate::scene::coupling::Coupling;
+use crate::scene::droplet::Droplet;
 use crate::scene::filament::Filament;
 use crate::scene::grid::lateral_extents;
 use crate::scene::large_strain::LargeStrain;

@@ -3,10 +3,14 @@
 
 use std::borrow::Cow;
 
+use schemars::Schema;
+use serde_json::json;
 use toml::de::DeValue;
 
-use super::large_strain::KIND;
-use super::locate::{Path, Source};
+use crate::scene::locate::{Path, Source};
+
+/// Name of the kind within the program.
+pub const KIND: &str = "solid of large strain";
 
 /// Gives solids with `strain = "finite"` the name of their own kind while `work` reads the scene.
 pub fn with_names<R>(source: &mut Source, work: impl FnOnce(&Source) -> R) -> R {
@@ -26,4 +30,25 @@ pub fn with_names<R>(source: &mut Source, work: impl FnOnce(&Source) -> R) -> R 
     let result = work(source);
     own.iter().for_each(|path| source.replace(path, DeValue::String(Cow::Borrowed("solid"))));
     result
+}
+
+/// Names the kind of solids of large strain in the schema as scenes do, `kind = "solid"`; both kinds of solids differ by
+/// their measure of `strain`.
+pub fn name_kind(schema: &mut Schema) {
+    let kinds = schema.get_mut("oneOf").and_then(serde_json::Value::as_array_mut);
+    for kind in kinds.into_iter().flatten() {
+        let keys = &mut kind["properties"];
+        let strain = match keys["kind"]["const"].as_str() {
+            Some(KIND) => "finite",
+            Some("solid") => "small",
+            _ => continue,
+        };
+        keys["kind"]["const"] = json!("solid");
+        if let Some(table) = keys["strain"].as_object_mut() {
+            table.remove("$ref");
+            table.remove("anyOf");
+            table.insert("type".to_owned(), json!("string"));
+            table.insert("const".to_owned(), json!(strain));
+        }
+    }
 }

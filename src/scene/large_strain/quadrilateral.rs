@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::types::FaceName;
 use crate::limits::{length, plausible, signed};
+use crate::scene::types::FaceName;
 
 /// A body whose section in x and z has four corners; its coordinates are those of the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
