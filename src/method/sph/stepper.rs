@@ -6,28 +6,26 @@
 //! 2012, J. Comput. Phys. 231, 7057–7075, doi 10.1016/j.jcp.2012.05.005). Surface tension, which changes
 //! slowly, acts as impulses between rounds of steps.
 
+mod densities;
 mod frozen;
+mod shift;
 mod wall;
 
-use super::arrest::note_arrest;
+use self::densities::drift;
 use super::cloud::{Cloud, Ledger, Part, UNKNOWNS};
-use super::continuity::Continuity;
 use super::failure::Failure;
 use super::free_surface::FreeSurface;
 use super::frozen::{Moved, Pieces};
 use super::images::copies;
 use super::kick::{DENSITIES, FARTHEST, FASTEST, Motion, Times, kick};
-use super::loops::{PART, PairSum, for_all, for_parts};
-use super::method::{Method, Push};
-use super::moment::least_eigenvalue;
+use super::loops::{PART, PairSum, for_all};
+use super::method::Method;
 use super::momentum::Momentum;
 use super::neighbours::{Displacements, Neighbours};
 use super::order::space_order;
 use super::pulls::{Bounded, balanced};
-use super::shifting::{Crowding, displacement};
 use super::units::pressure;
 use super::viscous;
-use super::wall_heat::Touching;
 use super::wall_points::WallPoints;
 use crate::runtime::allowance::Allowance;
 use crate::runtime::parallel::Team;
@@ -349,58 +347,6 @@ impl<'a, 'p> Stepper<'a, 'p> {
         Motion::of(self.team.map_each(&mut self.cloud.parts(PART), kick))
     }
 
-    /// Advances densities and temperatures over a step, and moves the particles from its middle to its end.
-    fn change_density_and_heat(&mut self, dt: f64) {
-        let moved = self.frozen_moved(0.5 * dt);
-        match (self.heats, self.method.needs_moments()) {
-            (false, false) => self.change_density::<false, false>(dt),
-            (false, true) => self.change_density::<false, true>(dt),
-            (true, false) => self.change_density::<true, false>(dt),
-            (true, true) => self.change_density::<true, true>(dt),
-        }
-        self.place_frozen(&moved);
-    }
-
-    /// Advances densities and temperatures over a step from the records at its middle, and moves
-    /// the particles to its end.
-    fn change_density<const HEAT: bool, const MOMENTS: bool>(&mut self, dt: f64) {
-        let method = self.method;
-        let pass = Continuity::<HEAT, MOMENTS> {
-            images: &method.images,
-            records: &self.records,
-            densities: &self.densities,
-            annexes: &self.annexes,
-            normalisation: method.normalisation,
-            diffusion: method.diffusion(dt),
-            tension_dimension: method.surface.as_ref().map(|_| method.dimension),
-            conduction: method.conduction / conducting::<MOMENTS>(method, &self.cloud.moment),
-        };
-        let parts = self.cloud.parts(PART);
-        let mut parts: Vec<_> = parts.into_iter().map(|part| (part, Vec::new())).collect();
-        for_parts(
-            &pass,
-            &self.neighbours.blocks,
-            method.pairs(),
-            self.team,
-            &mut parts,
-            |(part, pushes), rates| {
-                for (k, rate) in rates.iter().enumerate() {
-                    method.change::<MOMENTS>(part, k, rate, dt);
-                }
-                drift(part, 0.5 * dt);
-                method.rebound(part, pushes);
-            },
-        );
-        let pushes: Vec<Push> = parts.into_iter().flat_map(|(_, pushes)| pushes).collect();
-        if let Some(points) = &mut self.points {
-            pushes.into_iter().for_each(|(at, impulse)| points.push(at, impulse));
-            if HEAT {
-                let touching = exchange_heat(method, self.cloud, points, dt, self.team);
-                note_arrest(self.ledger, self.cloud, &touching, method);
-            }
-        }
-    }
-
     /// Computes accelerations for velocities extrapolated over some times with the accelerations of
     /// the step before.
     fn accelerate(&mut self, times: Times) {
@@ -458,41 +404,6 @@ impl<'a, 'p> Stepper<'a, 'p> {
         for_all(pass, &self.neighbours.blocks, self.method.pairs(), self.team, memory)
     }
 
-    /// Shifts particles from crowded to sparse regions.
-    fn shift(&mut self) -> Result<(), Failure> {
-        let way = std::mem::take(&mut self.ledger.way);
-        if !self.method.shifts {
-            return Ok(());
-        }
-        let (method, team) = (self.method, self.team);
-        // At the beginning and after sorting there are no lists yet.
-        self.list(&Displacements::none(self.cloud.len()))?;
-        let cloud = &*self.cloud;
-        let fullness = team.map(cloud.len(), |i| least_eigenvalue(&cloud.moment[i]));
-        let mut records = std::mem::take(&mut self.records);
-        fill(&mut records, cloud.len(), team, |i| record(cloud, i, [0.0; 3], fullness[i]));
-        let value = |q: f64| method.kernel.value(q, 1.0, method.dimension) / method.normalisation;
-        let pass = Crowding {
-            images: &method.images,
-            records: &records,
-            normalisation: method.normalisation,
-            reference: 1.0 / value(method.spacing),
-        };
-        let sums = self.over_pairs(&pass, Vec::new());
-        let frozen = &self.frozen;
-        let shifts = team.map(sums.len(), |i| match frozen.bond(i).is_rigid() {
-            true => [0.0; 3],
-            false => displacement(&sums[i], fullness[i], way),
-        });
-        self.records = records;
-        self.list(&Displacements::along(&shifts, f64::INFINITY, team))?;
-        team.for_each(&mut self.cloud.position, |i, x| {
-            (0..3).for_each(|a| x[a] += shifts[i][a]);
-            method.images.reflect_back(x);
-        });
-        Ok(())
-    }
-
     fn check(&self) -> Result<(), Failure> {
         let time = self.ledger.time;
         for i in 0..self.cloud.len() {
@@ -521,62 +432,6 @@ impl<'a, 'p> Stepper<'a, 'p> {
     fn not_finite(&self, quantity: &'static str) -> Failure {
         Failure::NotFinite { quantity, time: self.ledger.time }
     }
-}
-
-/// Moves particles along their velocities.
-fn drift(part: &mut Part, dt: f64) {
-    for (x, v) in part.position.iter_mut().zip(&*part.velocity) {
-        (0..3).for_each(|a| x[a] += dt * v[a]);
-    }
-}
-
-/// Lower bound on the moment's trace, over its full value, of particles well inside the fluid.
-const INSIDE: f64 = 0.85;
-
-/// Effective over nominal conductivity of the plain sums, as a mean over all particles well inside
-/// the fluid: 1 on a lattice, 0.95 once particles have settled. For a linear temperature, the sum
-/// of fluxes is the moment matrix.
-fn conducting<const MOMENTS: bool>(method: &Method, moments: &[[f64; 6]]) -> f64 {
-    if !MOMENTS {
-        return 1.0;
-    }
-    let trace = |moment: &[f64; 6]| moment[..3].iter().sum::<f64>() / 3.0;
-    let flat = if method.dimension == 2 { 1.0 } else { 0.0 };
-    let of_axes = |trace: f64| (3.0 * trace - flat) / method.dimension as f64;
-    let inside = moments.iter().map(trace).map(of_axes).filter(|&part| part > INSIDE);
-    let (sum, count) = inside.fold((0.0, 0.0), |(sum, count), part| (sum + part, count + 1.0));
-    if count > 0.0 { sum / count } else { 1.0 }
-}
-
-/// Exchanges heat with the wall for a time; returns the particles that touch it.
-fn exchange_heat(
-    method: &Method,
-    cloud: &mut Cloud,
-    points: &mut WallPoints,
-    dt: f64,
-    team: &Team,
-) -> Vec<Touching> {
-    let Some(heat) = &method.wall_heat else { return Vec::new() };
-    let near = |part: &mut Part| {
-        let touching = |k: usize| {
-            let share = heat.share(part.position[k][2]);
-            (share > 0.0).then(|| Touching {
-                particle: part.first + k,
-                at: method.place(part.position[k]),
-                share,
-                mass: part.mass[k],
-                content: part.content.as_ref().map_or(part.temperature[k], |content| content[k]),
-                initial: part.initial[k],
-            })
-        };
-        (0..part.mass.len()).filter_map(touching).collect::<Vec<_>>()
-    };
-    let touching = team.map_each(&mut cloud.parts(PART), near).concat();
-    let changes = heat.exchange(&touching, points, dt, team);
-    for (touching, change) in touching.iter().zip(changes) {
-        cloud.heat(touching.particle, change, method.phases.as_ref());
-    }
-    touching
 }
 
 /// Fills a list with one value per particle.
