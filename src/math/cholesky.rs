@@ -77,7 +77,7 @@ impl SparseCholesky {
         );
     }
 
-    /// Returns the factor in single precision, which preconditions as well and solves in half of the time.
+    /// Returns the factor in single precision, which is enough for a preconditioner and needs half of the memory.
     pub fn rounded(&self) -> RoundedCholesky {
         let scale = self.values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let values = self.values.iter().map(|value| (value / scale) as f32).collect();

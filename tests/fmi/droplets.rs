@@ -69,8 +69,8 @@ pub fn started(scene: &str) -> Unit {
     unit
 }
 
-/// A drop above narrow rings that are held over a step: what it is told of them after the first heat, as a half space
-/// of an effusivity would answer to a flux that is held as long.
+/// Warnings of a drop above narrow rings whose temperatures, constant over a step, are then set to the response of a
+/// half space of an effusivity to the flux of that step.
 fn told_of_an_answer(effusivity: f64) -> Vec<String> {
     let rings = WALL
         .replace(

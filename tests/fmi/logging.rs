@@ -274,7 +274,7 @@ fn what_is_hardly_meant_is_told_once() {
     assert!(found.len() == 1 && found[0].contains("density"), "{found:?}");
 }
 
-/// Steps that are far shorter than those that a mesh was chosen for tell too little of what a jump does: a rise of 20 %
+/// Steps that are far shorter than those that a mesh was chosen for underestimate the effect of a jump: a rise of 20 %
 /// of the closed form after 1e-11 s on the mesh for 1e-8 s, of 99 % after one of these.
 #[test]
 fn steps_too_short_for_the_mesh_are_warned_of_once() {

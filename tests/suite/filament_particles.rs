@@ -87,7 +87,7 @@ fn states_continue_to_the_bit() {
     }
 }
 
-/// What a step cannot follow is refused, and leaves the state as it was.
+/// Motions that a step cannot follow are refused, and leave the state unchanged.
 #[test]
 fn steps_beyond_the_nozzle_are_refused() {
     let path = "{ time = [0.0, 0.1], x = [-1e-3, 1e-3], y = [0.0, 0.0] }";

@@ -289,7 +289,7 @@ fn drops_on_demand_are_those_of_arrivals() {
                 asked.step(STEP);
             });
         }
-        // The time of the release is a sum of steps. Films are known at more speeds where inputs tell these, and then
+        // The time of the release is a sum of steps. Films have records at more speeds where inputs set these, and then
         // on other rings.
         let bound = if method == "record" { 1e-9 } else { 1e-3 };
         for name in ["drop.heat", "drop.impulse_z", "drop.mass", "drop.active"] {

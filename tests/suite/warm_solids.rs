@@ -43,7 +43,7 @@ fn balances(trial: &mut Trial, tolerance: f64) {
 }
 
 #[test]
-fn a_rod_with_a_hot_tip_lengthens_as_danilovskaya_says() {
+fn quasi_static_danilovskaya_rod() {
     // Tip displacement over that in the end, without inertia: 1 − Σ 8/((2n−1)²π²) e^{−(2n−1)²π²τ/4}.
     let table =
         [(0.01, 0.112838), (0.1, 0.356823), (0.2, 0.504088), (0.5, 0.763950), (1.0, 0.931260)];
@@ -72,7 +72,7 @@ fn a_rod_with_a_hot_tip_lengthens_as_danilovskaya_says() {
 }
 
 #[test]
-fn a_rod_with_inertia_swings_as_danilovskaya_says() {
+fn danilovskaya_rod_with_inertia() {
     // A free rod of two halves, each a rod that is held at its base; R = c h/κ = 10. Poisson's ratio is 0, so sides are
     // free.
     let keys = "shape = { box = [0.05, 1.0, 2.0] }\ndimension = 2\ninertia = true\nmesh = { spacing = 0.025 }\nstart = { height = 1.0 }\n\
@@ -179,7 +179,7 @@ fn free_bodies_warm_without_stress() {
 }
 
 #[test]
-fn a_strip_between_two_temperatures_bends() {
+fn curvature_of_a_strip_between_two_temperatures() {
     let faces = "faces = { left = { clamped = true }, top = { temperature = 310.0 }, bottom = { temperature = 290.0 } }";
     for (method, tolerance) in
         [("", 0.02), ("mechanics = \"rkpm\"", 2e-3), ("mechanics = \"efg\"", 2e-3)]
@@ -316,7 +316,7 @@ fn warm_states_continue_bit_for_bit() {
 }
 
 #[test]
-fn what_cools_below_absolute_zero_is_refused() {
+fn temperatures_below_absolute_zero_are_refused() {
     let faces = "faces = { bottom = { clamped = true }, top = { flux = -1e6 } }";
     let keys = format!("shape = {{ box = [1.0, 1.0, 1.0] }}\nmesh = {{ spacing = 0.25 }}\n{faces}");
     let mut trial = Trial::new(&scene(&format!("{UNIT}, young = 1.0, poisson = 0.25"), &keys));
@@ -390,7 +390,7 @@ fn fields_have_the_values_of_probes() {
 }
 
 /// A gel that is warmer than its plate without a conductance passes no heat, and one whose elements are thicker than
-/// what heat penetrates passes too much: both are told.
+/// what heat penetrates passes too much: `check` warns of both.
 #[test]
 fn heat_that_does_not_pass_or_is_not_resolved_is_warned_of() {
     let told = |conductance: &str, stop: f64| -> Vec<&'static str> {

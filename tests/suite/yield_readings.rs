@@ -322,7 +322,7 @@ fn coarse_meshes_read_what_a_held_plate_bears() {
     }
 }
 
-/// Where nothing has yielded, stress is that of the same body with a yield stress out of reach, to the rounding of
+/// Stress where nothing has yielded is that of the same body with a yield stress out of reach, to the rounding of
 /// steps that are cut elsewhere.
 #[test]
 fn a_yield_stress_above_all_that_a_body_bears_changes_nothing() {

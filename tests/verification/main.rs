@@ -30,6 +30,7 @@ mod particles;
 mod random_scenes;
 mod reproducing;
 mod spread;
+mod strand_particles;
 mod study;
 mod tension;
 mod thermal_stress;

@@ -17,7 +17,7 @@ use crate::state::{Field, Layout, Per};
 /// Stress before anything is noted [Pa].
 const NOTHING: f64 = f64::MIN;
 /// Error of the depth in a step, relative to it.
-const TOLERANCE: f64 = 1e-7;
+const TOLERANCE: f64 = 1e-8;
 /// Shortest steps, relative to all the time and to what has passed of it.
 const SHORTEST: f64 = 1e-12;
 const SHORTEST_OF_PAST: f64 = 1e-5;
@@ -263,40 +263,43 @@ mod tests {
         growth.grown(DEPTH)
     }
 
-    /// `a^(1 − n/2)` falls by `(n/2 − 1) v₀ (Y/K_Ic)^n ∫σ^n dt` in uniform stress, where `K = Yσ√a` (A. G. Evans & S.
-    /// M. Wiederhorn 1974, doi 10.1007/BF00035405); `None` after the crack has become unstable.
-    fn closed_form(law: CrackGrowth, powers: f64) -> Option<f64> {
+    /// Time in which a flaw grows to a depth, `a^(1 − n/2)` falls by `(n/2 − 1) v₀ t ⟨(Yσ/K_Ic)^n⟩` in uniform stress,
+    /// where `K = Yσ√a` (A. G. Evans & S. M. Wiederhorn 1974, doi 10.1007/BF00035405): stress is linear in time between
+    /// two values [Pa].
+    fn time_to(depth: f64, law: CrackGrowth, [first, last]: [f64; 2]) -> f64 {
         let shape = closed_form::edge_crack::edge(1.0, |_| 1.0);
+        // Powers of K/K_Ic at the start: stresses overflow.
+        let ratio = |stress: f64| shape * stress.max(0.0) * DEPTH.sqrt() / TOUGHNESS;
+        let [from, to] = [first, last].map(ratio);
+        let power = |ratio: f64| ratio.powf(law.exponent + 1.0);
+        let mean = match first == last {
+            true => from.powf(law.exponent),
+            // Where the stress turns to pressure the flaw rests.
+            false => {
+                let slope = (last - first) / first.max(last) * from.max(to);
+                (power(to) - power(from)) / ((law.exponent + 1.0) * slope)
+            }
+        };
         let half = 0.5 * law.exponent - 1.0;
-        let fall = half * law.speed * (shape / TOUGHNESS).powf(law.exponent) * powers;
-        let left = DEPTH.powf(-half) - fall;
-        (left > 0.0).then(|| left.powf(-1.0 / half))
+        (1.0 - (depth / DEPTH).powf(-half)) * DEPTH / (half * law.speed * mean)
     }
 
     #[test]
     fn steady_and_changing_uniform_stress_have_the_closed_form() {
-        for exponent in [3.0, 16.0, 30.0] {
+        for exponent in [3.0, 16.0, 50.0] {
             let law = CrackGrowth { exponent, ..GLASS };
-            for [first, last] in [[40e6, 40e6], [0.0, 60e6], [55e6, -20e6]] {
-                let power = |stress: f64| stress.max(0.0).powf(exponent + 1.0);
-                let mean = match first == last {
-                    true => f64::powf(first, exponent),
-                    false => (power(last) - power(first)) / ((exponent + 1.0) * (last - first)),
-                };
-                // Times in which the depth grows by a tenth, and by half.
+            for stress in [[40e6, 40e6], [0.0, 60e6], [55e6, -20e6]] {
+                // Growth by a tenth, and by half.
                 for wanted in [1.1 * DEPTH, 1.5 * DEPTH] {
-                    let half = 0.5 * exponent - 1.0;
-                    let shape = closed_form::edge_crack::edge(1.0, |_| 1.0);
-                    let fall = DEPTH.powf(-half) - wanted.powf(-half);
-                    let rate = half * law.speed * (shape / TOUGHNESS).powf(exponent) * mean;
-                    let duration = fall / rate;
-                    let exact = closed_form(law, mean * duration).unwrap();
+                    let [first, last] = stress;
+                    let duration = time_to(wanted, law, stress);
                     let found = grown(law, [&|_| first, &|_| last], duration);
-                    assert!((exact / wanted - 1.0).abs() < 1e-6);
-                    assert!(
-                        (found / wanted - 1.0).abs() < 5e-4,
-                        "{exponent} {first} {last}: {found}"
-                    );
+                    // Near failure the depth follows rounding; the time in which it is reached does not.
+                    let error = match wanted < 1.2 * DEPTH {
+                        true => found / wanted - 1.0,
+                        false => time_to(found, law, stress) / duration - 1.0,
+                    };
+                    assert!(error.abs() < 1e-5, "{exponent} {stress:?}: {found} {error}");
                 }
             }
         }

@@ -2,7 +2,7 @@
 //!
 //! Each linear system is solved by conjugate gradients, preconditioned by the factor of an earlier stiffness: from one
 //! system to the next few elements break, and each costs few iterations. The stiffness is factored anew where they
-//! become many. Factors are in single precision, with which solving takes half of the time. The stiffness is that of
+//! become many. Factors are in single precision, which needs half of the memory. The stiffness is that of
 //! the intact section, in which damaged elements are corrected.
 
 use super::DamageError;

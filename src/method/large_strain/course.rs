@@ -2,7 +2,7 @@
 
 use super::Deformable;
 
-/// What acts on a point of a body over a step beside its displacements.
+/// Time, thermal stretch and its rate at a point over a step, which act besides displacements.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Course {
     /// Time in which the body relaxes, the reduced one where the temperature changes its pace [s].

@@ -35,7 +35,7 @@ const STEPS: &str = "time steps of a solid of large strain";
 /// Numbers that a time step updates for each point of the volume, or as many as take as long.
 const WORK: usize = 60;
 
-/// What acts on a body over an advance, beside gravity and contact.
+/// Loads and thermal strain that act on a body over an advance, besides gravity and contact.
 pub struct Acting<'a> {
     /// Loads on faces at a time [s] after its beginning.
     pub loads: &'a dyn Fn(f64) -> Vec<FaceLoad>,

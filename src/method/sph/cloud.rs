@@ -52,7 +52,7 @@ pub struct Cloud {
 pub struct Origin {
     /// Number of the layer in the order of their coming.
     pub layer: Vec<f64>,
-    /// What holds the particle, see [`feed`](super::feed).
+    /// Number of the hold on the particle, see [`feed`](super::feed).
     pub hold: Vec<f64>,
 }
 

@@ -16,7 +16,7 @@ use super::plan::{DropletPlan, Feed};
 use super::units::Units;
 use crate::state::{Field, Per};
 
-/// What holds a particle, as a number of its state.
+/// Holds on a particle, as numbers of its state: none, that of the nozzle, that of sleep.
 pub const FREE: f64 = 0.0;
 pub const BY_NOZZLE: f64 = 1.0;
 pub const ASLEEP: f64 = 2.0;
@@ -133,8 +133,8 @@ impl Fed {
 mod tests {
     use super::*;
 
-    /// Rings fill the section: shares are those of equal areas to 6 %, their sum 1 and their second moment that of a
-    /// disc to half of a distance over the diameter.
+    /// Rings fill the section: shares are those of equal areas to 6 %, and their sum is 1. Their second moment is that
+    /// of a disc, less what the width Δ of rings about their middle has, `Δ²/4`.
     #[test]
     fn rings_fill_the_outlet() {
         for across in [4.0, 6.0, 9.0, 12.0, 20.0] {
@@ -144,7 +144,8 @@ mod tests {
             let mean = 1.0 / places.len() as f64;
             assert!(places.iter().all(|place| (place.1 / mean - 1.0).abs() < 0.06), "{across}");
             let moment: f64 = places.iter().map(|([x, y], share)| share * (x * x + y * y)).sum();
-            assert!((moment / 0.125 - 1.0).abs() < 0.6 / across, "{across}: {moment}");
+            let width = 0.5 / (0.5 * across).round();
+            assert!((moment - 0.125 + 0.25 * width * width).abs() < 1e-12, "{across}: {moment}");
             let nearest = places.iter().enumerate().flat_map(|(n, (a, _))| {
                 places[..n].iter().map(move |(b, _)| (a[0] - b[0]).hypot(a[1] - b[1]))
             });

@@ -14,7 +14,7 @@
 //! both sums, exact for `X` everywhere, the mean of `Σ_K w_LK |X_K − X_L|²` over the body is 0, so that they do not
 //! smooth.
 //!
-//! What gradients vary within a cell stays as it is. Source of two levels: D. Wang & L. Li 2013, Int. J. Damage Mech.
+//! Variations of gradients within a cell remain. Source of two levels: D. Wang & L. Li 2013, Int. J. Damage Mech.
 //! 22; of the regularisation: J.-S. Chen, X. Zhang & T. Belytschko 2004, doi 10.1016/j.cma.2003.12.057; the weights are
 //! this project's.
 

@@ -151,7 +151,7 @@ fn films_flows_and_held_nodes_balance() {
 }
 
 #[test]
-fn a_film_cools_a_small_body_exponentially() {
+fn exponential_cooling_of_a_small_body_by_a_film() {
     let own = body(finite_elements(&mesh(4)), &[]);
     let still = vec![[0.0; 3]; own.0.nodes()];
     let total: f64 = own.1.capacity.iter().sum();

@@ -18,7 +18,7 @@ const EVEN: f64 = 0.5;
 /// Part of a volume that counts as rounding.
 const SLACK: f64 = 1e-9;
 
-/// Where the particles of a nozzle come from and what they do.
+/// Particles that have left a nozzle, and the state of that.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Laid {
     pub fed: Fed,

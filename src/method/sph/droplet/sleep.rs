@@ -5,8 +5,8 @@
 //! rest: awake ones see all of their neighbours, and sound pressures and fits besides. The others leave the cloud of a
 //! step, so that its cost follows what moves. Their weight passes to the wall below them.
 //!
-//! Which particles sleep follows from places and speeds alone, at the beginning of each part of a step, so that fluid
-//! which arrives beside a sleeping strand wakes it.
+//! Places and speeds at the beginning of each part of a step decide which particles sleep, so that fluid which arrives
+//! beside a sleeping strand wakes it.
 
 use std::collections::HashSet;
 

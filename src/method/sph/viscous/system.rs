@@ -39,7 +39,7 @@ impl Moduli {
 /// Forces on a particle per volume, by fluid and by the wall.
 pub type Forces = [[f64; 3]; 2];
 
-/// What bounds the fluid in a step.
+/// Reactions of wall and nozzle to the fluid in a step.
 pub struct Reactions {
     /// Accelerations by the wall; empty without one.
     pub by_wall: Vec<[f64; 3]>,
@@ -238,7 +238,7 @@ impl<'a> System<'a> {
         self.bodies.project(velocities, self.team);
     }
 
-    /// What wall and nozzle did, under which velocities have changed by this much. The wall balances the forces of
+    /// Computes the reactions of wall and nozzle that go with changes of velocities. The wall balances the forces of
     /// fluid on pieces that it holds, the nozzle all forces on the particles in it.
     pub fn reactions(&self, forces: &[Forces], changes: &[f64]) -> Reactions {
         let mut reactions = Reactions { by_wall: Vec::new(), by_nozzle: [0.0; 3] };

@@ -262,7 +262,7 @@ fn compaction_follows_its_table_and_unloads_elastically() {
 }
 
 #[test]
-fn the_law_is_objective_and_dissipates() {
+fn objectivity_and_dissipation() {
     let law = law(concrete(0.5));
     let (s, c) = 0.7_f64.sin_cos();
     let turn = [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]];
