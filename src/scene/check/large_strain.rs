@@ -205,8 +205,12 @@ fn check_law(checker: &mut Checker, path: &Path, material: &Material, temperatur
         let message = "cracks run in bodies of small strain";
         checker.refuse(&path.key("fracture"), message, "no `fracture`");
     }
+    let constants = path.key("kcc");
     if let Some((message, allowed)) = material.law.deformation().obstacle(temperature) {
-        checker.refuse(&path.key("kcc"), message, allowed);
+        // A number beyond its own bounds is reason enough.
+        if checker.is_fine(&constants) {
+            checker.refuse(&constants, message, allowed);
+        }
     } else if material.law.deformation().large_strain(temperature).is_none() {
         let message = "a solid of large strain cannot be made of this material";
         let allowed = "`model = \"neo_hookean\"` with `young` and `poisson`; `\"concrete\"` with `kcc`, too; \
