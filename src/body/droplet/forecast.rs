@@ -97,12 +97,13 @@ fn note_on_solved_pressure(
     droplet: &Droplet,
     run_time: f64,
 ) -> Option<String> {
-    if droplet.pressure == PressureAdvance::Implicit || !may_be_solved(droplet) {
+    let is_solved = droplet.pressure == PressureAdvance::Implicit;
+    if run_time <= SHORT || is_solved || !may_be_solved(droplet) {
         return None;
     }
     let solved = Droplet { pressure: PressureAdvance::Implicit, ..droplet.clone() };
     let solved = DropletForecast::of(scene, name, &solved).run_time;
-    (run_time > WORTH * solved && run_time > SHORT).then(|| {
+    (run_time > WORTH * solved).then(|| {
         let [times, from, to] = [run_time / solved, run_time, solved].map(two_digits);
         format!(
             "`pressure = \"implicit\"` would shorten this run some {times} times, from {from} to {to} s: sound limits the \
