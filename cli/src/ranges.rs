@@ -29,7 +29,7 @@ struct Range {
     last: f64,
 }
 
-/// Ranges of probes, of fields and of the extremes of solids.
+/// Ranges of probes, fields, flaws and the extremes of solids.
 pub struct Ranges {
     ranges: Vec<Range>,
     /// Range of each column of a run's table, if it has one.
@@ -109,7 +109,7 @@ fn followed(scene: &Scene, variable: &Variable) -> Option<(usize, Quantity)> {
     let Slot::Output(output) = &variable.slot else { return None };
     let quantity = variable.quantity?;
     let is_followed = match output.reading {
-        Reading::Point { .. } | Reading::Mean { .. } => true,
+        Reading::Point { .. } | Reading::Mean { .. } | Reading::Flaw { .. } => true,
         Reading::Total(_) => {
             let body = scene.body.keys().nth(output.body);
             matches!(quantity, Quantity::Temperature | Quantity::Stress)

@@ -13,7 +13,7 @@ const BALANCED: f64 = 1e-9;
 const BALANCED_BY_PARTICLES: f64 = 5e-2;
 
 /// Totals of a body with a history of deformation.
-const IS_FLOW: [&str; 11] = [
+const IS_FLOW: [&str; 12] = [
     ".max_plastic_strain",
     ".plastic_work",
     ".dissipated",
@@ -22,6 +22,7 @@ const IS_FLOW: [&str; 11] = [
     ".failure_risk",
     ".max_damage",
     ".crack_area",
+    ".first_crack_time",
     ".crack_length",
     ".crack_count",
     ".crack_depth",

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::plan;
 use crate::body::threads_for;
-use crate::laws::solid::large_strain::{Concrete, Thermal};
+use crate::laws::solid::large_strain::{LargeStrainLaw, Thermal};
 use crate::scene::{Coupling, LargeStrain, Mechanics, MotionSteps, Scene};
 use crate::space::{Form, Integration, Mesh};
 
@@ -195,7 +195,7 @@ pub fn notes(solid: &LargeStrain) -> Vec<String> {
     });
     let layers = plan::layers(solid);
     let hardly_changes = layers.iter().any(|own| own.law.is_nearly_incompressible());
-    notes.extend(layers.iter().filter_map(|own| own.law.concrete()).map(note_on_concrete));
+    notes.extend(layers.iter().filter_map(|own| note_on_concrete(&own.law)));
     if matches!(solid.mechanics, Mechanics::Rkpm | Mechanics::Efg) && hardly_changes {
         notes.push(NOTE_ON_LOCKING.to_owned());
     }
@@ -203,15 +203,24 @@ pub fn notes(solid: &LargeStrain) -> Vec<String> {
 }
 
 /// Note on what follows from the constants of concrete.
-fn note_on_concrete(law: &Concrete) -> String {
-    format!(
-        "the concrete bears {:.3e} Pa in uniaxial compression; beyond the peak uniaxial tension takes {:.3e} J/m³, with the \
-         exponent {:.3} and {:.3} of damage by opening",
-        law.surfaces.compressive,
-        law.energy_of_tension(),
-        law.exponents[1],
-        law.opening
-    )
+fn note_on_concrete(law: &LargeStrainLaw) -> Option<String> {
+    let concrete = law.concrete()?;
+    let brittleness = concrete.brittleness_in_compression(law.young());
+    let breaks = match brittleness < 1.0 {
+        true => "",
+        false => {
+            ", so without inertia it has no equilibrium on its way down; a longer `lambda` of `damage` helps"
+        }
+    };
+    Some(format!(
+        "the concrete bears {:.3e} Pa in uniaxial compression, and softens there at most {brittleness:.2} times as fast as \
+         elastic strain recovers{breaks}; beyond the peak uniaxial tension takes {:.3e} J/m³, with the exponent {:.3} and \
+         {:.3} of damage by opening",
+        concrete.surfaces.compressive,
+        concrete.energy_of_tension(),
+        concrete.exponents[1],
+        concrete.opening
+    ))
 }
 
 fn note_on_temperature(solid: &LargeStrain) -> Option<&'static str> {

@@ -58,6 +58,11 @@ impl LargeStrainLaw {
         Self { bulk, shear, deviator: Deviator::Relaxing(Relaxing::default()) }
     }
 
+    /// Young's modulus of small strains [Pa].
+    pub fn young(&self) -> f64 {
+        9.0 * self.bulk * self.shear / (3.0 * self.bulk + self.shear)
+    }
+
     /// Numbers of history of a point, which begin as zeros.
     pub fn history(&self) -> usize {
         match &self.deviator {

@@ -57,10 +57,42 @@ impl Concrete {
         };
         self.function.falls().map(steepest).fold(0.0, f64::max)
     }
+
+    /// The same in uniaxial compression: from 1 on, a body without inertia has no equilibrium on its way down.
+    pub fn brittleness_in_compression(&self, young: f64) -> f64 {
+        let steepest = |(fall, [start, end]): (f64, [f64; 2])| {
+            // By parts, as the slope over η may jump.
+            let width = (start - end) / PARTS as f64;
+            let of_part = |n: usize| {
+                let [eta, next] = [n, n + 1].map(|n| start - width * n as f64);
+                let [stress, left] = [eta, next].map(|eta| self.crushing_stress(eta));
+                let (eta, p) = (0.5 * (eta + next), (stress + left) / 6.0);
+                let growth = self.dilatancy * self.slope(p, |p| self.softened(p, eta));
+                let whole = (1.0 + 2.0 / 9.0 * growth * growth).sqrt();
+                let shortening = (1.0 - growth / 3.0) / whole;
+                (stress - left) / width * fall * self.damaging(p) / shortening / young
+            };
+            (0..PARTS).map(of_part).fold(0.0, f64::max)
+        };
+        self.function.falls().map(steepest).fold(0.0, f64::max)
+    }
+
+    /// Stress of uniaxial compression beyond the peak at an η [Pa].
+    fn crushing_stress(&self, eta: f64) -> f64 {
+        let excess = |stress: f64| self.softened(stress / 3.0, eta) - stress;
+        let (mut low, mut high) = (0.0, self.surfaces.compressive);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            *(if excess(middle) > 0.0 { &mut low } else { &mut high }) = middle;
+        }
+        low
+    }
 }
 
 /// Largest magnitude of b₂.
 pub const MOST: f64 = 20.0;
+/// Parts of a segment of η over λ in which slopes are sought.
+const PARTS: usize = 32;
 const HALVINGS: usize = 60;
 
 /// σ at an η.

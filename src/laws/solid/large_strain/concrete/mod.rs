@@ -7,7 +7,7 @@
 //! - Strength: `q ≤ r(θ, p) Δσ(p, λ)`, `Δσ = η Δσ_m + (1 − η) Δσ_y` up to the peak λ_m of the damage function η(λ),
 //!   beyond it `η Δσ_m + (1 − η) Δσ_r` ([`Surfaces`], [`DamageFunction`]).
 //! - Flow: the deviator returns radially, and the volume grows by `ω r Δσ′` per `Δε̄`, with the dilatancy ω: 0 keeps
-//!   the volume, 1 flows along the normal.
+//!   the volume, 1 flows along the normal. Δσ′ is a mean slope ([`Concrete::slope`]).
 //! - Damage: `dλ = dε̄ᵖ/(1 + p/f_t)^b`, b = b₁ in compression and b₂ in tension, with `ε̄ᵖ = ∫ √(⅔ ε̇ᵖ:ε̇ᵖ)`.
 //! - Opening: `p ≥ −f_t`, beyond the peak `p ≥ −η f_t`; volume that opens there damages, `dλ = b₃ dε_v`. The source
 //!   does so only close to the axis of pressure, where it is needed.
@@ -143,16 +143,25 @@ impl Concrete {
         tangent
     }
 
-    /// Δσ and its slope over the pressure.
-    fn strength(&self, p: f64, lambda: f64) -> [f64; 2] {
+    /// Δσ.
+    fn strength(&self, p: f64, lambda: f64) -> f64 {
         let eta = self.function.value(lambda);
-        let most = self.surfaces.strength(p);
-        let other = if lambda <= self.function.peak {
-            self.surfaces.yielding(p)
-        } else {
-            self.surfaces.residual(p)
-        };
-        [0, 1].map(|n| eta * most[n] + (1.0 - eta) * other[n])
+        if lambda > self.function.peak {
+            return self.softened(p, eta);
+        }
+        eta * self.surfaces.strength(p) + (1.0 - eta) * self.surfaces.yielding(p)
+    }
+
+    /// Δσ beyond the peak.
+    fn softened(&self, p: f64, eta: f64) -> f64 {
+        eta * self.surfaces.strength(p) + (1.0 - eta) * self.surfaces.residual(p)
+    }
+
+    /// Δσ′, the slope of a surface over the pressure: in compression its mean over the last f_t, as a slope that jumped
+    /// where parts of a surface meet would have stress jump over strain. In tension surfaces are straight.
+    fn slope(&self, p: f64, surface: impl Fn(f64) -> f64) -> f64 {
+        let (p, tensile) = (p.max(0.0), self.surfaces.tensile);
+        (surface(p) - surface(p - tensile)) / tensile
     }
 
     /// Tension that the material bears from all sides.
@@ -172,10 +181,10 @@ impl Concrete {
     fn returned(&self, moduli: [f64; 2], cosine: f64, trial: Point) -> Point {
         let mut point = trial;
         self.compact(moduli[0], &mut point);
+        // Flow that dilates closes what would open, so it comes first.
         for _ in 0..PASSES {
-            let opens = self.open(moduli[0], &mut point);
-            let flows = self.flow(moduli, cosine, &mut point);
-            if !(opens && flows) {
+            self.flow(moduli, cosine, &mut point);
+            if !self.open(moduli[0], &mut point) {
                 break;
             }
         }
@@ -208,22 +217,21 @@ impl Concrete {
         true
     }
 
-    /// Lets a point flow beyond its strength; returns true if it flowed.
-    fn flow(&self, [bulk, shear]: [f64; 2], cosine: f64, point: &mut Point) -> bool {
-        let section = |p: f64| Surfaces::section(self.surfaces.ratio(p)[0], cosine);
+    /// Lets a point flow beyond its strength.
+    fn flow(&self, [bulk, shear]: [f64; 2], cosine: f64, point: &mut Point) {
+        let section = |p: f64| Surfaces::section(self.surfaces.ratio(p), cosine);
         let (p, q, lambda) = (point.p, point.q, point.lambda);
-        let [strength, slope] = self.strength(p, lambda);
-        if q <= (1.0 + ROUNDING) * section(p) * strength {
-            return false;
+        if q <= (1.0 + ROUNDING) * section(p) * self.strength(p, lambda) {
+            return;
         }
-        let growth = self.dilatancy * section(p) * slope;
+        let growth = self.dilatancy * section(p) * self.slope(p, |p| self.strength(p, lambda));
         // ε̄ᵖ of a flow with this growth of the volume, per flow of the deviator.
         let whole = (1.0 + 2.0 / 9.0 * growth * growth).sqrt();
         let pressed = |flow: f64| p + bulk * growth * flow;
         let damaged = |flow: f64| lambda + self.damaging(pressed(flow)) * whole * flow;
         let excess = |flow: f64| {
             let pressure = pressed(flow);
-            let bound = section(pressure) * self.strength(pressure, damaged(flow))[0];
+            let bound = section(pressure) * self.strength(pressure, damaged(flow));
             q - 3.0 * shear * flow - bound
         };
         let flow = root(&excess, q / (3.0 * shear));
@@ -231,7 +239,6 @@ impl Concrete {
         point.p = pressed(flow);
         point.q = (q - 3.0 * shear * flow).max(0.0);
         point.strain += whole * flow;
-        true
     }
 }
 

@@ -29,9 +29,6 @@ pub struct Surfaces {
     ratios: Vec<[f64; 2]>,
 }
 
-/// A value and its slope over the pressure.
-pub type Slope = [f64; 2];
-
 impl Surfaces {
     /// Creates the surfaces of coefficients and of f_t; `biaxial` is the strength in equal biaxial compression over
     /// f_c, and `meridians` has ψ at pressures over f_c. `None` unless uniaxial compression has a strength, and yields
@@ -49,7 +46,7 @@ impl Surfaces {
         let mut ratios = vec![
             [0.0, HALF],
             [compressive / 3.0, HALF + 1.5 * tensile / compressive],
-            [at_biaxial, biaxial * compressive / hyperbola(strength, at_biaxial)[0]],
+            [at_biaxial, biaxial * compressive / hyperbola(strength, at_biaxial)],
         ];
         ratios.extend(meridians.iter().map(|[p, ratio]| [p * compressive, *ratio]));
         let ascend = ratios.windows(2).all(|pair| pair[0][0] < pair[1][0]);
@@ -67,53 +64,47 @@ impl Surfaces {
     }
 
     /// ψ.
-    pub fn ratio(&self, p: f64) -> Slope {
-        let [first, .., last] = &self.ratios[..] else { return [HALF, 0.0] };
+    pub fn ratio(&self, p: f64) -> f64 {
+        let [first, .., last] = &self.ratios[..] else { return HALF };
         if p <= first[0] {
-            return [first[1], 0.0];
+            return first[1];
         }
         let segment = self.ratios.windows(2).find(|pair| p <= pair[1][0]);
-        segment.map_or([last[1], 0.0], |pair| {
+        segment.map_or(last[1], |pair| {
             let slope = (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]);
-            [pair[0][1] + slope * (p - pair[0][0]), slope]
+            pair[0][1] + slope * (p - pair[0][0])
         })
     }
 
     /// Δσ_m.
-    pub fn strength(&self, p: f64) -> Slope {
+    pub fn strength(&self, p: f64) -> f64 {
         if p >= self.compressive / 3.0 {
-            return hyperbola(self.strength, p);
+            hyperbola(self.strength, p)
+        } else {
+            1.5 * (p + self.tensile).max(0.0) / self.ratio(p)
         }
-        if p <= -self.tensile {
-            return [0.0, 0.0];
-        }
-        let [ratio, slope] = self.ratio(p);
-        let value = 1.5 * (p + self.tensile) / ratio;
-        [value, 1.5 / ratio - value * slope / ratio]
     }
 
     /// Δσ_y.
-    pub fn yielding(&self, p: f64) -> Slope {
+    pub fn yielding(&self, p: f64) -> f64 {
         let part = 3.0 * self.onset / self.compressive;
         let at_zero = 3.0 * part * self.tensile;
         if p >= self.onset {
             hyperbola(self.yielding, p)
         } else if p >= 0.0 {
-            let slope = (3.0 * self.onset - at_zero) / self.onset;
-            [at_zero + slope * p, slope]
+            at_zero + (3.0 * self.onset - at_zero) / self.onset * p
         } else {
-            self.strength(p).map(|own| part * own)
+            part * self.strength(p)
         }
     }
 
     /// Δσ_r, nowhere above Δσ_m.
-    pub fn residual(&self, p: f64) -> Slope {
+    pub fn residual(&self, p: f64) -> f64 {
         if p <= 0.0 {
-            return [0.0, 0.0];
+            return 0.0;
         }
         let [linear, quadratic] = self.residual;
-        let (own, most) = (hyperbola([0.0, linear, quadratic], p), self.strength(p));
-        if own[0] < most[0] { own } else { most }
+        hyperbola([0.0, linear, quadratic], p).min(self.strength(p))
     }
 
     /// Strength at a Lode angle over that in triaxial compression, at ψ: 1 at 60° and ψ at 0°, where one principal
@@ -129,9 +120,8 @@ impl Surfaces {
 const HALF: f64 = 0.5;
 
 /// `a₀ + p/(a₁ + a₂ p)`.
-fn hyperbola([a0, a1, a2]: [f64; 3], p: f64) -> Slope {
-    let below = a1 + a2 * p;
-    [a0 + p / below, a1 / (below * below)]
+fn hyperbola([a0, a1, a2]: [f64; 3], p: f64) -> f64 {
+    a0 + p / (a1 + a2 * p)
 }
 
 /// p at which a hyperbola is 3 p; `None` if there is none.

@@ -144,7 +144,7 @@ fn triaxial_strengths_lie_on_the_surface() {
         let (mut low, mut high) = (0.0, 1e9);
         for _ in 0..60 {
             let q = 0.5 * (low + high);
-            let below = surfaces.strength(confinement + q / 3.0)[0] > q;
+            let below = surfaces.strength(confinement + q / 3.0) > q;
             *(if below { &mut low } else { &mut high }) = q;
         }
         assert!((most / low - 1.0).abs() < 2e-3, "{confinement}: {most} {low}");
@@ -175,10 +175,10 @@ fn points_end_on_the_surface_of_their_angle() {
                 std::array::from_fn(|b| stress[a][b] + if a == b { p } else { 0.0 })
             });
             let q = (1.5 * contraction(&s, &s)).sqrt();
-            let ratio = concrete.surfaces.ratio(p)[0];
+            let ratio = concrete.surfaces.ratio(p);
             let lambda = history[Concrete::LAMBDA];
             let most =
-                Surfaces::section(ratio, cosine(&eigen(&s).0)) * concrete.strength(p, lambda)[0];
+                Surfaces::section(ratio, cosine(&eigen(&s).0)) * concrete.strength(p, lambda);
             assert!(q <= most + 1e-9 * TENSILE, "{n} {q} {most}");
             assert!(-p <= concrete.cut_off(lambda) + 1e-9 * TENSILE, "{n} {p}");
             let largest = eigen(&stress).0.into_iter().fold(f64::NEG_INFINITY, f64::max);
@@ -241,6 +241,41 @@ fn dilation_follows_its_constant() {
     });
     assert!(volumes[0].abs() < 1e-9, "{volumes:?}");
     assert!(volumes[1] > 1e-3 && volumes[2] > 1.5 * volumes[1], "{volumes:?}");
+}
+
+#[test]
+fn compression_softens_as_its_brittleness_says() {
+    for dilatancy in [0.0, 0.5] {
+        let concrete = concrete(dilatancy);
+        let (peak, wanted) = (concrete.function.peak, concrete.brittleness_in_compression(YOUNG));
+        let mut driver = Driver::new(concrete);
+        let mut steepest: f64 = 0.0;
+        for n in 1..=2000 {
+            let (stress, strain) = (driver.stress[1], driver.strains[1]);
+            driver.moved(-4e-6 * f64::from(n), 0.0);
+            let fall = driver.stress[1] - stress;
+            let plastic = strain - driver.strains[1] + fall / YOUNG;
+            if driver.lambda() > peak {
+                steepest = steepest.max(fall / plastic / YOUNG);
+            }
+        }
+        assert!((steepest / wanted - 1.0).abs() < 0.05, "{dilatancy}: {steepest} {wanted}");
+    }
+}
+
+/// Where parts of surfaces meet, stress does not jump over strain.
+#[test]
+fn stress_is_continuous() {
+    let mut driver = Driver::new(concrete(0.9));
+    driver.drive(-1.6e-3, 400, -2e6);
+    let [across, along] = driver.strains;
+    let stresses: Vec<[f64; 2]> = (0..=20_000)
+        .map(|n| driver.tried([across + 1e-7 * f64::from(n - 10_000), along - 1e-5]).1)
+        .collect();
+    let steps = stresses.windows(2).map(|pair| (pair[1][0] - pair[0][0]).abs());
+    let most = steps.fold(0.0, f64::max);
+    // Elastic moduli bound the change.
+    assert!(most < 3.0 * YOUNG * 1e-7, "{most}");
 }
 
 #[test]
