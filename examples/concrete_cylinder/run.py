@@ -13,7 +13,7 @@ from impinge import Unit  # noqa: E402
 NAME = "concrete_cylinder"
 RADIUS, HEIGHT = 50e-3, 50e-3  # m
 PRESSURES = [0.0, 1e6, 5e6, 10e6, 20e6]  # Pa
-STRAINS = [2.8e-3, 8e-3, 15e-3, 20e-3, 20e-3]  # at the end of each test
+STRAINS = [10e-3, 15e-3, 25e-3, 40e-3, 40e-3]  # at the end of each test
 PRESSED = 0.1  # s, at which the lateral pressure is whole and the platen starts
 STEP, STOP = 2e-3, 1.0  # s
 A0, A1, A2 = 8.868e6, 0.4463, 2.693e-9  # of `strength` in the scene: Pa, 1, 1/Pa
@@ -24,7 +24,7 @@ OUTPUTS = ["cylinder.top.force_z", "cylinder.width", "cylinder.max_damage"]
 class Test:
     pressure: float  # Pa
     strains: np.ndarray  # axial, compression positive
-    stresses: np.ndarray  # Pa, of the platen on the area before the test
+    stresses: np.ndarray  # Pa, of the platen on the present area
     dilations: np.ndarray  # change of volume over the volume
     damages: np.ndarray
 
@@ -44,7 +44,7 @@ def press(unit: Unit, pressure: float, most: float) -> Test:
     strains, forces, widths, damages = np.array(rows).T
     dilations = (widths / (2 * RADIUS)) ** 2 * (1 - strains) - 1
     started = round(PRESSED / STEP) - 1
-    rows = [strains, -forces / (np.pi * RADIUS**2), dilations, damages]
+    rows = [strains, -forces / (np.pi * (widths / 2) ** 2), dilations, damages]
     return Test(pressure, *[row[started:] for row in rows])
 
 
@@ -90,7 +90,7 @@ def draw(tests: list[Test], folder: Path) -> Path:
         axes[1, 1].plot(percent, test.damages, **named)
     axes[0, 0].set(xlabel="axial strain / %", ylabel="axial stress / MPa", ylim=(0, None))
     axes[0, 0].set_title("Pressure makes concrete strong and tough")
-    axes[0, 0].legend(title="lateral pressure", loc="upper right")
+    axes[0, 0].legend(title="lateral pressure", loc="lower right")
     draw_strengths(axes[0, 1], tests)
     axes[1, 0].axhline(0, color="0.7", linewidth=1)
     axes[1, 0].set(xlabel="axial strain / %", ylabel="change of volume / %")
