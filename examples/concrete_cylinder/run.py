@@ -57,7 +57,7 @@ def simulate(fmu: Path) -> list[Test]:
 
 
 def strength(lateral: np.ndarray) -> np.ndarray:
-    """Axial stress at which concrete fails under a lateral pressure, by the surface of the law [Pa]."""
+    """Axial stress at which the surface of the law is reached under a lateral pressure [Pa]."""
     low, high = np.array(lateral, float), np.array(lateral, float) + 1e9
     for _ in range(80):
         middle = (low + high) / 2
