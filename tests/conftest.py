@@ -50,6 +50,7 @@ COARSE = {
         "depth_spacing = 2e-5, growth = 2.0"
     },
     "notched_beam": {"\nspacing = 9.525e-3": "\nspacing = 19.05e-3"},
+    "paste_bead": {"\nspacing = 0.2e-3": "\nspacing = 0.25e-3"},
     "printed_line": {
         "\nspacing = 3e-6": "\nspacing = 8e-6",
         "spacing = 3e-5, depth_spacing = 5e-6": "spacing = 6e-5, depth_spacing = 1e-5",

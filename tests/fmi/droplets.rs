@@ -359,6 +359,95 @@ fn strands_that_cannot_be_laid_are_refused_and_change_nothing() {
     }
 }
 
+/// A strand of particles, four across the nozzle, of a fluid that conducts heat to a plate.
+const WARM_PARTICLES: &str = r#"
+name = "Strand"
+stop_time = 2e-6
+step = 1e-7
+[body.ink]
+kind = "filament"
+method = "particles"
+fluid = { density = 1000.0, viscosity = 0.05, specific_heat = 2000.0, conductivity = 0.2 }
+nozzle = { diameter = 2e-5, height = 1.5e-5, temperature = 340.0, flow = 2e-9 }
+path = { time = [0.0, 2e-6, 4e-6], x = [-1e-5, 0.0, 0.0], y = [0.0, 0.0, 1e-5] }
+most = 1e-13
+spacing = 5e-6
+[body.plate]
+kind = "solid"
+shape = { box = [3e-4, 3e-4, 1e-4] }
+material = { model = "thermoelastic", density = 2500.0, specific_heat = 800.0, conductivity = 1.0, young = 7e10, poisson = 0.2, expansion = 9e-6 }
+initial_temperature = 293.15
+mesh = { spacing = 2e-5, depth_spacing = 2e-5, order = 1 }
+faces = { bottom = { clamped = true } }
+[[coupling]]
+from = "ink"
+to = "plate.top"
+[[target]]
+of = "ink"
+line = [[-1e-5, 0.0], [0.0, 0.0], [0.0, 1e-5]]
+"#;
+
+/// A strand of a paste, above a plane, whose nozzle inputs move.
+const RESTING_PARTICLES: &str = r#"
+name = "Strand"
+stop_time = 2e-6
+step = 1e-7
+[body.ink]
+kind = "filament"
+method = "particles"
+fluid = { density = 1000.0, viscosity = { law = "bingham", yield_stress = 1e5, plastic_viscosity = 0.05 }, specific_heat = 2000.0, conductivity = 0.0 }
+nozzle = { diameter = 2e-5, height = 2e-5, temperature = 293.15, flow = 1.5e-9 }
+path = "input"
+most = 2e-13
+spacing = 5e-6
+"#;
+
+#[test]
+fn strands_of_particles_go_on_from_a_state_to_the_bit() {
+    repeats_to_the_bit(WARM_PARTICLES, "ink.nozzle_temperature", 340.0);
+}
+
+/// Moves the nozzle by some diameters, so that what it laid first rests.
+pub fn strand_at_rest() -> Unit {
+    let unit = started(RESTING_PARTICLES);
+    for _ in 0..30 {
+        assert_eq!(unit.set_derivative("ink.nozzle_x", 1, 5.0), OK);
+        assert_eq!(unit.step(unit.time(), 1e-6), OK, "{:?}", unit.messages.take());
+    }
+    let [resting, particles] = ["ink.resting", "ink.particles"].map(|name| unit.get(name));
+    assert!(resting > 0.0 && resting < particles, "{resting} of {particles}");
+    unit
+}
+
+/// What rests is part of a state, and is woken alike.
+#[test]
+fn strands_at_rest_go_on_from_a_state_to_the_bit() {
+    go_on_from(strand_at_rest(), RESTING_PARTICLES, "ink.nozzle_temperature", 293.15);
+}
+
+/// A step that cannot be taken leaves the state as it was, and the next goes on from there.
+#[test]
+fn strands_of_particles_that_cannot_be_laid_are_refused_and_change_nothing() {
+    let unit = started(RESTING_PARTICLES);
+    for _ in 0..3 {
+        assert_eq!(unit.step(unit.time(), STEP), OK, "{:?}", unit.messages.take());
+    }
+    for (name, value, words) in
+        [("ink.flow", 1.0, "more than `most`"), ("ink.nozzle_z", 1e-6, "above the plate")]
+    {
+        let (before, state) = (unit.snapshot(), unit.save());
+        let usual = unit.get(name);
+        assert_eq!(unit.set(name, value), OK);
+        unit.messages.take();
+        assert_eq!(unit.step(unit.time(), STEP), DISCARD, "{name}");
+        unit.expect_message(DISCARD, &[words]);
+        assert_eq!(unit.restore(state), OK);
+        assert_eq!(unit.set(name, usual), OK);
+        assert_eq!(unit.snapshot().0, before.0);
+    }
+    assert_eq!(unit.step(unit.time(), STEP), OK, "{:?}", unit.messages.take());
+}
+
 /// A notched beam of concrete that breaks.
 const BEAM: &str = r#"
 name = "Beam"

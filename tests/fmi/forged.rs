@@ -330,6 +330,81 @@ fn a_unit_can_be_reset_and_freed_in_every_phase_that_is_taken() {
     free(reused);
 }
 
+/// Places of the numbers of a nozzle in the state of a strand above a plane: volume, outlet, impulse, jump, flow and
+/// lateness stand before those of its particles.
+struct StrandNumbers {
+    /// Before the first particle.
+    head: usize,
+    particles: usize,
+    /// Of a particle.
+    width: usize,
+}
+
+const OF_A_NOZZLE: usize = 1 + 3 + 3 + 1 + 1 + 1;
+/// Position, velocity, mass, density, temperature twice, acceleration, tension, potential, gradient, moment, stress,
+/// layer and hold.
+const NUMBERS_OF_PASTE: usize = 3 + 3 + 1 + 1 + 1 + 1 + 6 + 4 + 1 + 3 + 6 + 6 + 1 + 1;
+
+impl StrandNumbers {
+    fn of(unit: &Unit, state: &Forged) -> Self {
+        let particles = unit.get("ink.particles") as usize;
+        let all = state.bodies[0].len();
+        Self { head: all - particles * NUMBERS_OF_PASTE, particles, width: NUMBERS_OF_PASTE }
+    }
+
+    /// Place of a number of the nozzle.
+    fn nozzle(&self, n: usize) -> usize {
+        self.head - OF_A_NOZZLE + n
+    }
+
+    /// Place of the number of a particle in the n-th list from the end: 1 holds, 2 layers.
+    fn from_end(&self, n: usize, particle: usize) -> usize {
+        self.head + self.particles * (self.width - n) + particle
+    }
+}
+
+/// A strand that rests in part, whose state is damaged number by number.
+#[test]
+fn strands_of_particles_that_no_nozzle_lays_are_refused() {
+    let unit = crate::droplets::strand_at_rest();
+    let state = Forged::of(&unit.serialize(unit.save()));
+    unit.messages.take();
+    assert_eq!(unit.restore(unit.deserialize(&state.bytes())), OK);
+    let at = StrandNumbers::of(&unit, &state);
+    let holds: Vec<f64> = (0..at.particles).map(|i| state.bodies[0][at.from_end(1, i)]).collect();
+    let held_at = |hold: f64| holds.iter().position(|own| *own == hold).unwrap();
+    let [free, in_nozzle, asleep] = [0.0, 1.0, 2.0].map(held_at);
+    let cases = [
+        (at.nozzle(0), -1e-15, "m³ have come"),
+        (at.nozzle(0), 1.0, "m³ have come"),
+        (at.nozzle(0), 0.0, "layers of fluid"),
+        (at.nozzle(1), 1e9, "a nozzle at"),
+        (at.nozzle(2), f64::NAN, "not finite"),
+        (at.nozzle(7), -1.0, "a flag or a jump"),
+        (at.nozzle(8), 0.5, "a flag or a jump"),
+        (at.nozzle(9), 2.0, "a flag or a jump"),
+        (at.from_end(1, free), 1.0, "with the hold 1"),
+        (at.from_end(1, in_nozzle), 0.0, "with the hold 0"),
+        (at.from_end(1, in_nozzle), 2.0, "with the hold 2"),
+        (at.from_end(1, asleep), 3.0, "with the hold 3"),
+        (at.from_end(2, free), -1.0, "of layer -1"),
+        (at.from_end(2, free), 0.5, "of layer 0.5"),
+        (at.from_end(2, free), 1e6, "of layer 1000000"),
+        (at.from_end(2, in_nozzle), 0.0, "with the hold 1 in layer 0"),
+        (at.head + 2, -0.1, "which no run reaches"),
+        (at.head + 3 * (at.particles + asleep), 1e-3, "with the hold 2"),
+        (1, 3.0, "layers of fluid"),
+    ];
+    for (place, value, words) in cases {
+        let mut state = state.clone();
+        state.bodies[0][place] = value;
+        refused(&unit, &state, words);
+    }
+    let mut fewer = state.clone();
+    fewer.bodies[0].truncate(state.bodies[0].len() - at.width);
+    refused(&unit, &fewer, "particles, where");
+}
+
 /// Whatever is changed, a state is refused, or goes on without an internal error.
 #[test]
 fn no_change_of_numbers_leads_to_an_internal_error() {

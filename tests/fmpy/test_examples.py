@@ -15,6 +15,7 @@ FEWER = {
     "moving_spot": ["--frames", "8"],
     "printer_control": ["--drops", "1", "--after", "0.15"],
     "notched_beam": ["--points", "20"],
+    "paste_bead": ["--steps", "12"],
     "quench_cracks": ["--steps", "6"],
     "thermal_fatigue": ["--drops", "2"],
     "stress_study": ["--samples", "4", "--levels", "3"],

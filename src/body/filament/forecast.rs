@@ -32,7 +32,7 @@ const SEGMENT: f64 = 1000.0;
 const STEP: f64 = 4e-6;
 /// Time of a particle in a time step with solved pressure [s], measured on strands of 10 Pa s with 280 to 1800
 /// particles.
-const PARTICLE_STEP: f64 = 40e-6;
+const PARTICLE_STEP: f64 = 35e-6;
 
 impl FilamentForecast {
     pub fn of(scene: &Scene, name: &str, filament: &Filament) -> Self {
@@ -113,6 +113,9 @@ fn contact(scene: &Scene, name: &str, filament: &Filament) -> Option<(f64, Plan)
 /// Viscosity [Pa s] and kinetic pressure over that of viscosity or surface tension above which inertia throws strands.
 const INERTIAL: f64 = 1.0;
 
+/// Number of particles between outlet and plate below which the flow there is not resolved.
+const LEAST_BETWEEN: f64 = 3.0;
+
 /// Returns notes on choices and simplifications, with reasons: one sentence each.
 pub fn notes(scene: &Scene, (name, filament): (&str, &Filament)) -> Vec<String> {
     if filament.method == FilamentMethod::Particles {
@@ -157,7 +160,13 @@ fn notes_on_particles(scene: &Scene, (name, filament): (&str, &Filament)) -> Vec
              conducts no heat comes to rest"
         }
     };
-    vec![
+    let splash = jet(scene, filament).map(|[reynolds, weber]| {
+        format!(
+            "the fluid leaves the nozzle as a jet (Re {reynolds:.1}, We {weber:.1}): it splashes, and what is faster than \
+             half of its flow does not count as laid, so that lengths and widths are those of slow fluid alone"
+        )
+    });
+    let mut notes = vec![
         format!(
             "{across:.1} particles across the nozzle, {:.2e} m apart, leave it in layers, with the mean speed of the flow; \
              {advance}, and sound passes at {:.2e} m/s",
@@ -165,11 +174,29 @@ fn notes_on_particles(scene: &Scene, (name, filament): (&str, &Filament)) -> Vec
         ),
         cost.to_owned(),
         "the nozzle has no rim: fluid that it presses into a gap below its diameter may rise beside it".to_owned(),
-    ]
+    ];
+    let between = filament.nozzle.height / plan.spacing;
+    notes.extend((between < LEAST_BETWEEN).then(|| {
+        format!(
+            "{between:.1} particles lie between outlet and plate, which resolve no flow there: three and more do"
+        )
+    }));
+    notes.extend(splash);
+    notes
 }
 
-/// Notes a fluid that leaves the nozzle so fast that its inertia matters, which the model leaves out.
+/// Notes a fluid that leaves the nozzle so fast that its inertia matters, which lines leave out.
 fn inertia(scene: &Scene, filament: &Filament) -> Option<String> {
+    jet(scene, filament).map(|[reynolds, weber]| {
+        format!(
+            "the fluid leaves the nozzle as a jet (Re {reynolds:.1}, We {weber:.1}), whose inertia the model leaves out: a \
+             real strand overshoots bends"
+        )
+    })
+}
+
+/// Reynolds and Weber number of a fluid that leaves the nozzle so fast that its inertia matters.
+fn jet(scene: &Scene, filament: &Filament) -> Option<[f64; 2]> {
     let speed = filament.nozzle.flow / filament.outlet();
     let fluid = &filament.fluid;
     let diameter = filament.nozzle.diameter;
@@ -177,10 +204,5 @@ fn inertia(scene: &Scene, filament: &Filament) -> Option<String> {
     let reynolds = fluid.density * speed * diameter / viscosity;
     let weber = fluid.density * speed * speed * diameter / fluid.surface_tension;
     let is_jet = reynolds > INERTIAL && weber > INERTIAL && speed > 0.0 && scene.stop_time > 0.0;
-    is_jet.then(|| {
-        format!(
-            "the fluid leaves the nozzle as a jet (Re {reynolds:.1}, We {weber:.1}), whose inertia the model leaves out: a \
-             real strand overshoots bends"
-        )
-    })
+    is_jet.then_some([reynolds, weber])
 }

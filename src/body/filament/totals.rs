@@ -63,7 +63,7 @@ impl Seen {
     }
 }
 
-const TOTALS: [Total; 36] = [
+const TOTALS: [Total; 37] = [
     total("volume", "volume that has come so far", Quantity::Volume, |seen| seen.volume),
     total(
         "volume_drift",
@@ -242,6 +242,12 @@ const TOTALS: [Total; 36] = [
     particles("steps", "time steps made inside the unit", Quantity::Ratio, |seen| {
         seen.particles.steps
     }),
+    particles(
+        "pressure_iterations",
+        "iterations of pressure and viscosity in a time step, mean since the start",
+        Quantity::Count,
+        |seen| seen.particles.iterations / seen.particles.steps.max(1.0),
+    ),
     particles("max_speed", "highest speed of a particle", Quantity::Velocity, |seen| {
         seen.particles.max_speed
     }),

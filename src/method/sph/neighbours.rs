@@ -35,6 +35,9 @@ pub struct Block {
     places: Vec<u16>,
     /// For each particle the ends of its runs: neighbours, and images at the wall.
     ends: Vec<[u32; 2]>,
+    /// Runs of those places that are nearer than a radius, and their ends; empty where none was given.
+    near: Vec<u16>,
+    near_ends: Vec<[u32; 2]>,
     /// Blocks that contain all sources, with the codes of their images.
     surroundings: Vec<(usize, u8)>,
     /// Remaining relative motion of neighbours before the lists expire.
@@ -102,6 +105,8 @@ impl Block {
             sources: Vec::new(),
             places: Vec::new(),
             ends: Vec::with_capacity(count),
+            near: Vec::new(),
+            near_ends: Vec::new(),
             surroundings: Vec::new(),
             slack: f64::NAN,
             clearance: f64::NAN,
@@ -116,9 +121,44 @@ impl Block {
     /// Places of the neighbours of the k-th particle of the block: fluid, and images at the wall.
     #[inline(always)]
     pub fn neighbours(&self, k: usize) -> [&[[u16; WIDTH]]; 2] {
-        let start = if k == 0 { 0 } else { self.ends[k - 1][1] as usize };
-        let [middle, end] = self.ends[k].map(|end| end as usize);
-        [start..middle, middle..end].map(|range| self.places[range].as_chunks().0)
+        runs(&self.places, &self.ends, k)
+    }
+
+    /// Same, of the neighbours nearer than the radius of [`Neighbours::narrow`]; all where that was not called.
+    #[inline(always)]
+    pub fn near_neighbours(&self, k: usize) -> [&[[u16; WIDTH]]; 2] {
+        match self.near_ends.is_empty() {
+            true => self.neighbours(k),
+            false => runs(&self.near, &self.near_ends, k),
+        }
+    }
+
+    /// Lists the neighbours nearer than a radius.
+    fn narrow(&mut self, points: &[[f64; 3]], images: &Images, radius: f64) {
+        let away = |x: [f64; 3]| [0, 1, 2].map(|a| (x[a] - self.centre[a]) as f32);
+        let place = |source: &Source| images.get(source.code()).place(points[source.particle()]);
+        let sources: Vec<_> = self.sources.iter().map(|source| away(place(source))).collect();
+        let (mut near, mut ends) = (std::mem::take(&mut self.near), Vec::with_capacity(self.count));
+        near.clear();
+        let square = (radius * radius) as f32;
+        for k in 0..self.count {
+            let at = away(points[self.first + k]);
+            ends.push(self.neighbours(k).map(|run| {
+                let start = near.len();
+                near.resize(start + run.len() * WIDTH, 0);
+                let mut found = start;
+                for &place in run.as_flattened() {
+                    let Some(source) = usize::from(place).checked_sub(1) else { continue };
+                    let d = [0, 1, 2].map(|a| sources[source][a] - at[a]);
+                    near[found] = place;
+                    found += usize::from(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < square);
+                }
+                near.truncate(found);
+                near.resize(found.next_multiple_of(WIDTH), 0);
+                near.len() as u32
+            }));
+        }
+        (self.near, self.near_ends) = (near, ends);
     }
 
     /// Finds the neighbours of the block's particles among its surroundings, of which those from
@@ -175,6 +215,14 @@ impl Block {
     }
 }
 
+/// Runs of places of the k-th particle: fluid, and images at the wall.
+#[inline(always)]
+fn runs<'a>(places: &'a [u16], ends: &[[u32; 2]], k: usize) -> [&'a [[u16; WIDTH]]; 2] {
+    let start = if k == 0 { 0 } else { ends[k - 1][1] as usize };
+    let [middle, end] = ends[k].map(|end| end as usize);
+    [start..middle, middle..end].map(|range| places[range].as_chunks().0)
+}
+
 impl Neighbours {
     /// Neighbours of particles sorted into blocks; the lists are made when first needed.
     ///
@@ -186,6 +234,11 @@ impl Neighbours {
         let block = |b: usize| Block::empty(b * BLOCK, BLOCK.min(count - b * BLOCK));
         let blocks = (0..count.div_ceil(BLOCK)).map(block).collect();
         Self { blocks, tree: BlockTree::over(points, team) }
+    }
+
+    /// Lists the neighbours nearer than a radius at these positions, for the sums that reach no farther.
+    pub fn narrow(&mut self, points: &[[f64; 3]], images: &Images, radius: f64, team: &Team) {
+        team.for_each(&mut self.blocks, |_, block| block.narrow(points, images, radius));
     }
 
     /// Volume of the blocks' surroundings when lists were last made, summed over blocks.
@@ -312,6 +365,7 @@ impl Search<'_> {
             }
         }
         block.is_crowded = false;
+        block.near_ends.clear();
         match block.sources.len() < usize::from(u16::MAX) {
             true => block.find_places(own, wall, reach, buffers),
             false => block.discard_lists(),

@@ -263,7 +263,12 @@ impl<'a, 'p> Stepper<'a, 'p> {
     /// Changes velocities by viscosity over a step, and by pressure where it is solved; the velocities `before` are
     /// then a first guess of those after it.
     fn apply_viscosity(&mut self, dt: f64, before: &[[f64; 3]]) -> Result<(), Failure> {
-        let (method, team, blocks) = (self.method, self.team, &self.neighbours.blocks);
+        let (method, team) = (self.method, self.team);
+        if method.fed {
+            let radius = viscous::reach(method);
+            self.neighbours.narrow(&self.cloud.position, &method.images, radius, team);
+        }
+        let blocks = &self.neighbours.blocks;
         let step = viscous::advance(method, self.cloud, &self.frozen, blocks, (dt, before), team)
             .map_err(|reason| Failure::Viscosity { reason, time: self.ledger.time })?;
         team.for_each(&mut self.cloud.velocity, |i, velocity| {

@@ -51,6 +51,7 @@ pub use curves::FlowCurves;
 pub use flow::AT_YIELD;
 use system::{Moduli, Reactions, System};
 use tensor::Products;
+use weights::Weights;
 
 /// Residual of a linear step over the change of velocities by viscosity.
 const TOLERANCE: f64 = 1e-4;
@@ -58,6 +59,11 @@ const TOLERANCE: f64 = 1e-4;
 const DRIVEN: f64 = 3e-3;
 /// The same over momenta: what moves on without a change needs no better solution.
 const CARRIED: f64 = 3e-5;
+
+/// Radius over H beyond which no pairs count in viscosity.
+pub fn reach(method: &Method) -> f64 {
+    Weights::of(method.dimension, method.spacing).reach()
+}
 
 /// Viscous changes of all particles over a step.
 pub struct ViscousStep {

@@ -48,7 +48,7 @@ impl PairSum for Moments<'_> {
             centre: L::constant(block.centre[0]),
         };
         let mut sums = [L::constant(0.0); 15];
-        for list in block.neighbours(k) {
+        for list in block.near_neighbours(k) {
             for places in list {
                 add_all::<L, S, F>(&mut sums, &here, local.gather(places));
             }

@@ -71,7 +71,7 @@ impl PairSum for Strain<'_> {
             narrowing: L::constant(self.weights.narrowing),
             centre: L::constant(block.centre[0]),
         };
-        let [fluid, wall] = block.neighbours(k);
+        let [fluid, wall] = block.near_neighbours(k);
         let (mut by_fluid, mut by_wall) = (Sums::<L>::zero(), Sums::<L>::zero());
         by_fluid.add_all::<S, F>(&here, fluid, local);
         by_wall.add_all::<S, F>(&here, wall, local);

@@ -74,7 +74,7 @@ impl PairSum for Stress<'_> {
             narrowing: L::constant(self.weights.narrowing),
             centre: L::constant(block.centre[0]),
         };
-        let [fluid, wall] = block.neighbours(k);
+        let [fluid, wall] = block.near_neighbours(k);
         [
             flat::<F>(scaled(total::<L, S, F>(&here, fluid, local), self.weights.normalisation)),
             flat::<F>(scaled(total::<L, S, F>(&here, wall, local), self.weights.normalisation)),

@@ -32,4 +32,9 @@ impl Weights {
             moment: moment / narrowing.powi(dimension as i32 + 4),
         }
     }
+
+    /// Radius over H from which on weights are zero.
+    pub fn reach(&self) -> f64 {
+        1.0 / self.narrowing
+    }
 }
