@@ -39,12 +39,12 @@ pub fn with_files(text: String, path: &path::Path, file: &str) -> Result<String,
     Ok(format!("{text}\n{HEADING}{added}"))
 }
 
-/// Places of the names of files: the G-code of filaments.
+/// Places of the names of files: the G-code of filaments, and the parts of solids.
 fn places(source: &Source) -> Vec<Path> {
     let bodies = Path::default().key("body");
     let Some(DeValue::Table(table)) = source.value(&bodies) else { return Vec::new() };
-    let file = |name: &str| bodies.key(name).key("path").key("file");
-    let places = table.keys().map(|name| file(name.get_ref()));
+    let files = |name: &str| ["path.file", "shape.part.file"].map(|key| bodies.key(name).at(key));
+    let places = table.keys().flat_map(|name| files(name.get_ref()));
     places
         .filter(|place| source.value(place).is_some_and(|value| value.as_str().is_some()))
         .collect()

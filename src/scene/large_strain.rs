@@ -13,7 +13,8 @@ use serde::{Deserialize, Serialize};
 
 use super::lookup::BodyInput;
 use super::materials::{MaterialChoice, heights};
-use super::types::{Disc, FaceName, Layer, Shape};
+use super::part::Part;
+use super::types::{Disc, FaceName, Layer, PlaneSection, Shape};
 pub use discretisation::{
     KernelIntegration, KernelSettings, LargeStrainMesh, Mechanics, ParticleSettings,
 };
@@ -28,6 +29,7 @@ use crate::laws::solid::SolidLaw;
 use crate::laws::solid::large_strain::Thermal;
 use crate::limits::{Keys, own_temperature, plausible, signed, traction, whole, within};
 use crate::quantity::Quantity;
+use crate::space::Form;
 
 /// A solid of large strain.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -35,8 +37,8 @@ use crate::quantity::Quantity;
 pub struct LargeStrain {
     /// Measure of deformation.
     pub strain: FiniteStrain,
-    /// `{ ball = { radius = R } }`, `{ disc = { radius = R, thickness = T } }`, `{ box = [LX, LY, LZ] }` or
-    /// `{ quadrilateral = { corners = [[X, Z], …] } }`.
+    /// `{ ball = { radius = R } }`, `{ disc = { radius = R, thickness = T } }`, `{ box = [LX, LY, LZ] }`,
+    /// `{ quadrilateral = { corners = [[X, Z], …] } }` or `{ part = { file = "NAME" } }`.
     pub shape: SolidShape,
     /// Material of the body: a table, or the name of a `[material.NAME]`.
     #[schemars(extend(
@@ -53,10 +55,16 @@ pub struct LargeStrain {
     /// Uniform temperature, at which constants are taken [K].
     #[schemars(transform = own_temperature())]
     pub initial_temperature: f64,
-    /// 3, or 2 for a plane model in x and z of plane strain, whose totals are per metre of depth.
+    /// 3, or 2 for a plane model in x and z, whose totals are per metre of depth.
     #[serde(default = "crate::scene::defaults::three")]
     #[schemars(transform = whole(2, 3, "no model of this dimension", "3, 2 (plane)"))]
     pub dimension: usize,
+    /// State of a plane model along y.
+    #[schemars(extend(
+        "otherwise" = "plane strain",
+        "condition" = "with `dimension = 2`; `plane_stress` without heat, concrete and `pressure`"
+    ))]
+    pub section: Option<PlaneSection>,
     /// Part of the body that is modelled.
     #[serde(default)]
     #[schemars(extend("condition" = "a box is not `axisymmetric`, a disc is"))]
@@ -170,13 +178,26 @@ const ACROSS: f64 = 10.0;
 impl LargeStrain {
     /// Extents along x, y and z [m].
     pub fn extents(&self) -> [f64; 3] {
-        match self.shape {
-            SolidShape::Box(extents) => extents,
-            SolidShape::Disc(Disc { radius, thickness }) => [2.0 * radius, 2.0 * radius, thickness],
+        match &self.shape {
+            SolidShape::Box(extents) => *extents,
+            SolidShape::Disc(Disc { radius, thickness }) => {
+                [2.0 * radius, 2.0 * radius, *thickness]
+            }
             SolidShape::Ball(Ball { radius }) => [2.0 * radius; 3],
             SolidShape::Quadrilateral(own) => {
                 let [x, z] = own.ranges().map(|[low, high]| high - low);
                 [x, own.depth.unwrap_or(1.0), z]
+            }
+            SolidShape::Part(part) => {
+                let [x, y, z] = part.ranges().map(|[low, high]| high - low);
+                match self.form() {
+                    Form::Solid => [x, y, z],
+                    Form::Plane => [x, if x > 0.0 { 1.0 } else { 0.0 }, z],
+                    Form::Axisymmetric => {
+                        let [[_, radius], ..] = part.ranges();
+                        [2.0 * radius, 2.0 * radius, z]
+                    }
+                }
             }
         }
     }
@@ -191,10 +212,27 @@ impl LargeStrain {
         matches!(self.shape, SolidShape::Quadrilateral(_))
     }
 
+    /// The part that a file describes, if the shape is one.
+    pub fn part(&self) -> Option<&Part> {
+        match &self.shape {
+            SolidShape::Part(part) => Some(part),
+            _ => None,
+        }
+    }
+
+    /// Coordinates of the model.
+    pub fn form(&self) -> Form {
+        match (self.is_axisymmetric(), self.dimension) {
+            (true, _) => Form::Axisymmetric,
+            (false, 2) => Form::Plane,
+            (false, _) => Form::Solid,
+        }
+    }
+
     /// Smallest extent of the model, of a quadrilateral its shortest edge [m].
     pub fn smallest(&self) -> f64 {
         let [x, y, z] = self.extents();
-        let in_plane = match self.shape {
+        let in_plane = match &self.shape {
             SolidShape::Quadrilateral(own) => own.edges().into_iter().fold(x.min(z), f64::min),
             _ => x.min(z),
         };
@@ -203,6 +241,9 @@ impl LargeStrain {
 
     /// Distance of nodes [m].
     pub fn spacing(&self) -> f64 {
+        if let Some(part) = self.part() {
+            return part.spacing();
+        }
         self.mesh.spacing.unwrap_or(self.smallest() / ACROSS)
     }
 
@@ -269,6 +310,7 @@ impl LargeStrain {
             _ if self.is_axisymmetric() => [false; 2],
             LargeStrainSymmetry::Quarter => [true, self.dimension == 3],
             LargeStrainSymmetry::Auto if self.smoothing().is_some() => [false; 2],
+            LargeStrainSymmetry::Auto if self.part().is_some() => [false; 2],
             LargeStrainSymmetry::Auto => [
                 u == 0.0 && x && right && straight && !self.is_quadrilateral(),
                 v == 0.0 && y && back && straight && self.dimension == 3,
@@ -282,7 +324,7 @@ impl LargeStrain {
         match self.shape {
             SolidShape::Box(extents) => Some(Shape::Box(extents)),
             SolidShape::Disc(disc) => Some(Shape::Disc(disc)),
-            SolidShape::Ball(_) | SolidShape::Quadrilateral(_) => None,
+            SolidShape::Ball(_) | SolidShape::Quadrilateral(_) | SolidShape::Part(_) => None,
         }
     }
 
@@ -290,6 +332,11 @@ impl LargeStrain {
     pub fn materials_of_layers(&self) -> Vec<&Material> {
         let layers = self.layers.iter().flatten().map(|layer| &layer.material);
         self.material.iter().chain(layers).map(MaterialChoice::material).collect()
+    }
+
+    /// Returns true if the body is a thin sheet, without stress across its section.
+    pub fn is_sheet(&self) -> bool {
+        self.section == Some(PlaneSection::PlaneStress)
     }
 
     /// Returns true if part of the body yields.

@@ -3,7 +3,7 @@
 use super::coupling::Coupling;
 use super::droplet::{Droplet, SOUND_OVER_FLOW};
 use super::filament::{Filament, Target};
-use super::large_strain::LargeStrain;
+use super::large_strain::{LargeStrain, SolidShape};
 use super::lattice::Lattice;
 use super::reservoir::Reservoir;
 use super::route::{Leg, Route};
@@ -222,6 +222,19 @@ impl Scene {
         for coupling in &self.coupling {
             if let Some(Body::LargeStrain(solid)) = self.body.get_mut(&coupling.from) {
                 solid.conductance_below = coupling.conductance;
+            }
+        }
+    }
+
+    /// Reads the parts of solids of large strain from the texts of the scene's files.
+    pub(super) fn store_parts(&mut self) {
+        for body in self.body.values_mut() {
+            let Body::LargeStrain(solid) = body else { continue };
+            let form = solid.form();
+            if let SolidShape::Part(part) = &mut solid.shape
+                && let Some(text) = self.files.get(&part.file)
+            {
+                part.read(text, form);
             }
         }
     }

@@ -31,6 +31,7 @@ mod load;
 pub(crate) mod locate;
 mod lookup;
 mod materials;
+mod part;
 mod reading;
 mod recording;
 mod reduction;
@@ -78,6 +79,7 @@ pub use large_strain::{
 pub use lattice::{Lattice, LatticeArrangement, LatticeControl, LatticeNotch, LatticeSupport};
 pub use lookup::{BodyInput, Place};
 pub use materials::{MaterialChoice, Stratum};
+pub use part::{Part, PartBody};
 pub use recording::Recording;
 pub use reduction::footprints_along;
 pub use refinement::MeshFactors;
@@ -151,6 +153,7 @@ pub(crate) fn parse_located(source: &mut Source, schema: &Schema) -> Result<Scen
     let mut scene = decoded?;
     scene.substances = source.substances().to_vec();
     scene.store_surfaces_below();
+    scene.store_parts();
     check::check(&scene, source, schema)?;
     Ok(scene)
 }

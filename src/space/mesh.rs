@@ -15,10 +15,12 @@ pub enum Side {
     Top,
     /// The surface of a round shape.
     Round,
+    /// A surface without a name, on which no condition acts.
+    Free,
 }
 
 /// A mesh. Cells list their corners with the first coordinate changing fastest.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
     pub form: Form,
     pub nodes: Vec<[f64; 3]>,

@@ -2,18 +2,22 @@
 //! not ask how it was made. Finite elements, reproducing kernels and smoothed particles fill the same [`Space`].
 
 mod bins;
+mod cloud;
 mod factor;
 mod finite_elements;
+mod given;
 mod mesh;
 mod particles;
 mod places;
 mod reproducing;
 mod samples;
 
+pub use cloud::{BadCloud, Cloud, Patch};
 pub use finite_elements::finite_elements;
+pub use given::BadMesh;
 pub use mesh::{Mesh, Side};
-pub use particles::particles;
-pub use places::{fit, linear_row};
+pub use particles::{particles, particles_of_cloud};
+pub use places::{contains, fit, linear_row};
 pub use reproducing::{
     Functions, Integration, Kernel, Refused, Reproducing, Row, Shape, Sides, reproducing,
 };
@@ -24,7 +28,7 @@ use std::ops::Range;
 /// Number of coordinates of a model, and what the missing ones mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Form {
-    /// x and z; plane strain, a metre deep.
+    /// x and z, a metre deep; plane strain, or a sheet.
     Plane,
     /// The radius x and z.
     Axisymmetric,
@@ -68,6 +72,14 @@ pub struct Space {
     pub shares: Vec<f64>,
     /// Nodes that share an edge of the mesh, each pair once or more.
     pub links: Vec<[u32; 2]>,
+}
+
+impl Space {
+    /// The same with a dilatation of its own at each point.
+    pub fn with_points_alone(mut self) -> Self {
+        self.groups = (0..self.volume.len()).map(|point| point..point + 1).collect();
+        self
+    }
 }
 
 /// Points of a boundary; their weights are areas.

@@ -13,13 +13,13 @@
 
 mod consistent;
 
-use consistent::balance;
+use consistent::{balance, whole_surface};
 
 use super::bins::Bins;
 use super::factor::Factor;
 use super::finite_elements::{boundary, sample};
 use super::reproducing::{Refused, Shape, spacings};
-use super::{Form, Mesh, Samples, Space, Value};
+use super::{Boundary, Cloud, Form, Mesh, Samples, Space, Value};
 use crate::kernel::{CubicSpline, Shape as Kernel};
 
 /// A point at which the stress is taken.
@@ -42,17 +42,34 @@ const HALVES: [f64; 2] = [0.25, 0.75];
 /// exact, and the nodal forces of a constant stress are its tractions.
 pub fn particles(mesh: &Mesh, support: f64) -> Result<Space, Refused> {
     let parts = parts(mesh);
-    let around = Around::new(mesh, &parts, support);
-    let rows_of = |(node, parts): (usize, &Vec<Part>)| match mesh.form {
-        Form::Solid => around.rows::<3, 6>([0, 1, 2], node, parts),
-        Form::Plane | Form::Axisymmetric => around.rows::<2, 3>([0, 2], node, parts),
-    };
-    let mut points: Vec<Vec<Point>> =
-        parts.iter().enumerate().map(rows_of).collect::<Result<_, _>>()?;
-    match mesh.form {
-        Form::Solid => balance::<4>(mesh, &mut points)?,
-        Form::Plane | Form::Axisymmetric => balance::<3>(mesh, &mut points)?,
-    }
+    let widest = |spacing: [f64; 3]| spacing.into_iter().fold(0.0, f64::max);
+    let reach = spacings(mesh, Shape::Box).into_iter().map(|s| support * widest(s)).collect();
+    let flat = |part: &Part| part.weight / mesh.form.depth(part.at);
+    let volumes = parts.iter().map(|parts| parts.iter().map(flat).sum()).collect();
+    let around = Around::new(mesh.form, &mesh.nodes, reach, volumes);
+    let points = around.points(&parts, &whole_surface(mesh))?;
+    let shares = parts.iter().map(|parts| parts.iter().map(|part| part.weight).sum()).collect();
+    Ok(space((mesh.form, &mesh.nodes), points, boundary(mesh), shares, mesh.edges()))
+}
+
+/// Creates the space of particles at given points; see [`particles`]. The surface is that of the points' patches, and
+/// the cell of a point on it lies behind these.
+pub fn particles_of_cloud(cloud: &Cloud, support: f64) -> Result<Space, Refused> {
+    let reach = cloud.spacings().into_iter().map(|spacing| support * spacing).collect();
+    let around = Around::new(cloud.form, &cloud.nodes, reach, cloud.volumes.clone());
+    let boundary = around.boundary(cloud)?;
+    let points = around.points(&parts_of_cloud(cloud), &boundary)?;
+    let nodes = (cloud.form, &cloud.nodes[..]);
+    Ok(space(nodes, points, boundary, cloud.volumes.clone(), cloud.neighbours()))
+}
+
+fn space(
+    (form, nodes): (Form, &[[f64; 3]]),
+    points: Vec<Vec<Point>>,
+    boundary: Boundary,
+    shares: Vec<f64>,
+    links: Vec<[u32; 2]>,
+) -> Space {
     let mut volume = Samples::default();
     let mut groups = Vec::new();
     for points in points {
@@ -60,17 +77,25 @@ pub fn particles(mesh: &Mesh, support: f64) -> Result<Space, Refused> {
         points.into_iter().for_each(|point| volume.push(point.at, point.weight, point.row));
         groups.push(first..volume.len());
     }
-    let shares = parts.iter().map(|parts| parts.iter().map(|part| part.weight).sum()).collect();
-    Ok(Space {
-        form: mesh.form,
-        nodes: mesh.nodes.clone(),
-        volume,
-        groups,
-        boundary: boundary(mesh),
-        at_nodes: None,
-        shares,
-        links: mesh.edges(),
-    })
+    Space { form, nodes: nodes.to_vec(), volume, groups, boundary, at_nodes: None, shares, links }
+}
+
+/// The quarters or eighths of a square or cube of each point's volume, about the centre of the point's cell.
+fn parts_of_cloud(cloud: &Cloud) -> Vec<Vec<Part>> {
+    let axes = cloud.form.axes();
+    let count = 1 << axes.len();
+    let of_point = |(volume, centre): (&f64, [f64; 3])| {
+        let quarter = 0.25 * volume.powf(1.0 / axes.len() as f64);
+        let part = |corner: usize| {
+            let mut at = centre;
+            for (bit, &axis) in axes.iter().enumerate() {
+                at[axis] += if corner >> bit & 1 == 1 { quarter } else { -quarter };
+            }
+            Part { at, weight: volume / count as f64 }
+        };
+        (0..count).map(part).collect()
+    };
+    cloud.volumes.iter().zip(cloud.centres()).map(of_point).collect()
 }
 
 /// The parts of each node's cell: of every cell of the mesh the quarter or eighth next to it.
@@ -91,6 +116,7 @@ fn parts(mesh: &Mesh) -> Vec<Vec<Part>> {
 
 /// Particles with the supports of all.
 struct Around<'a> {
+    form: Form,
     nodes: &'a [[f64; 3]],
     /// Radii of supports [m].
     reach: Vec<f64>,
@@ -109,19 +135,48 @@ struct Neighbour<const D: usize> {
 }
 
 impl<'a> Around<'a> {
-    fn new(mesh: &'a Mesh, parts: &[Vec<Part>], support: f64) -> Self {
-        let widest = |spacing: [f64; 3]| spacing.into_iter().fold(0.0, f64::max);
-        let reach: Vec<f64> =
-            spacings(mesh, Shape::Box).into_iter().map(|s| support * widest(s)).collect();
+    fn new(form: Form, nodes: &'a [[f64; 3]], reach: Vec<f64>, volumes: Vec<f64>) -> Self {
         // Supports differ in their radii: a place is near to all nodes that the widest support would reach.
         let most = reach.iter().copied().fold(0.0, f64::max);
         let supports: Vec<[[f64; 3]; 2]> =
-            mesh.nodes.iter().map(|at| [at.map(|x| x - most), at.map(|x| x + most)]).collect();
+            nodes.iter().map(|at| [at.map(|x| x - most), at.map(|x| x + most)]).collect();
         let mean = reach.iter().sum::<f64>() / reach.len() as f64;
-        let bins = Bins::new(mesh.form.axes(), &supports, [mean; 3]);
-        let flat = |part: &Part| part.weight / mesh.form.depth(part.at);
-        let volumes = parts.iter().map(|parts| parts.iter().map(flat).sum()).collect();
-        Self { nodes: &mesh.nodes, reach, volumes, bins }
+        let bins = Bins::new(form.axes(), &supports, [mean; 3]);
+        Self { form, nodes, reach, volumes, bins }
+    }
+
+    /// Points at the parts of each particle's cell, whose forces balance with a surface.
+    fn points(&self, parts: &[Vec<Part>], surface: &Boundary) -> Result<Vec<Vec<Point>>, Refused> {
+        let rows_of = |(node, parts): (usize, &Vec<Part>)| self.rows_of(node, parts);
+        let mut points: Vec<Vec<Point>> =
+            parts.iter().enumerate().map(rows_of).collect::<Result<_, _>>()?;
+        let nodes = (self.form, self.nodes);
+        match self.form {
+            Form::Solid => balance::<4>(nodes, surface, &mut points)?,
+            Form::Plane | Form::Axisymmetric => balance::<3>(nodes, surface, &mut points)?,
+        }
+        Ok(points)
+    }
+
+    /// The patches of a cloud's surface: at each the function of its point, with the gradient of all around.
+    fn boundary(&self, cloud: &Cloud) -> Result<Boundary, Refused> {
+        let mut boundary = Boundary::default();
+        for patch in &cloud.patches {
+            let node = patch.node as usize;
+            let at = Part { at: self.nodes[node], weight: patch.area() };
+            let row = self.rows_of(node, &[at])?.remove(0).row;
+            boundary.samples.push(self.nodes[node], patch.area(), row);
+            boundary.normals.push(patch.normal());
+            boundary.sides.push(patch.side);
+        }
+        Ok(boundary)
+    }
+
+    fn rows_of(&self, node: usize, parts: &[Part]) -> Result<Vec<Point>, Refused> {
+        match self.form {
+            Form::Solid => self.rows::<3, 6>([0, 1, 2], node, parts),
+            Form::Plane | Form::Axisymmetric => self.rows::<2, 3>([0, 2], node, parts),
+        }
     }
 
     fn neighbours<const D: usize>(&self, axes: [usize; D], node: usize) -> Vec<Neighbour<D>> {
@@ -262,6 +317,7 @@ fn moments<const D: usize, const N: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::space::Patch;
 
     fn number(n: usize) -> f64 {
         (n as f64 * 0.618_033_988_749_895).fract() - 0.5
@@ -278,6 +334,83 @@ mod tests {
             }
         }
         mesh
+    }
+
+    /// A box of points with shaken inner ones, its surface in patches, one or more a point.
+    fn cloud(form: Form, part: f64) -> Cloud {
+        let mesh = uneven(form, part);
+        let elements = crate::space::finite_elements(&mesh);
+        let boundary = &elements.boundary;
+        let mut vectors = std::collections::BTreeMap::new();
+        for (point, (side, normal)) in boundary.sides.iter().zip(&boundary.normals).enumerate() {
+            for own in boundary.samples.row(point) {
+                let vector = vectors.entry((own.node, *side)).or_insert([0.0; 3]);
+                let share = own.value * boundary.samples.weights[point];
+                (0..3).for_each(|a| vector[a] += share * normal[a]);
+            }
+        }
+        let patch = |((node, side), vector)| Patch { node, side, vector };
+        let patches = vectors.into_iter().map(patch).collect();
+        Cloud::new(form, mesh.nodes, elements.shares, patches).unwrap()
+    }
+
+    /// Affine motion of points without cells is exact, and a constant stress balances with the patches of the surface.
+    #[test]
+    fn points_without_cells_pass_the_patch_test() {
+        for form in [Form::Plane, Form::Solid] {
+            let cloud = cloud(form, 0.5);
+            let space = particles_of_cloud(&cloud, 2.5).unwrap();
+            let slope = [-0.2, if form == Form::Solid { 0.5 } else { 0.0 }, 0.7];
+            let field = |at: [f64; 3]| 0.3 + (0..3).map(|a| slope[a] * at[a]).sum::<f64>();
+            let mut forces = vec![[0.0; 3]; space.nodes.len()];
+            for point in 0..space.volume.len() {
+                let mut gradient = [0.0; 3];
+                for own in space.volume.row(point) {
+                    let u = field(space.nodes[own.node as usize]);
+                    let force = &mut forces[own.node as usize];
+                    for a in 0..3 {
+                        gradient[a] += own.gradient[a] * u;
+                        force[a] -= space.volume.weights[point] * own.gradient[a];
+                    }
+                }
+                assert!((0..3).all(|a| (gradient[a] - slope[a]).abs() < 1e-11), "{gradient:?}");
+            }
+            for (n, normal) in space.boundary.normals.iter().enumerate() {
+                for own in space.boundary.samples.row(n) {
+                    let part = space.boundary.samples.weights[n] * own.value;
+                    (0..3).for_each(|a| forces[own.node as usize][a] += part * normal[a]);
+                }
+            }
+            let most = forces.iter().flatten().fold(0.0, |most: f64, f| most.max(f.abs()));
+            assert!(most < 1e-10, "{form:?} {most:e}");
+            let whole: f64 = space.volume.weights.iter().sum();
+            let wanted = if form == Form::Solid { 12.0 } else { 6.0 };
+            assert!((whole / wanted - 1.0).abs() < 1e-12 && space.shares == cloud.volumes);
+        }
+    }
+
+    /// Patches that miss the volume by little are closed: `Σ a = 0`, `Σ X ⊗ a = V 1`.
+    #[test]
+    fn surfaces_that_are_nearly_closed_are_closed() {
+        let exact = cloud(Form::Solid, 0.5);
+        let shake = |(n, patch): (usize, &Patch)| {
+            let vector = patch.vector.map(|x| x * (1.0 + 0.02 * number(n)));
+            Patch { vector, ..*patch }
+        };
+        let patches: Vec<Patch> = exact.patches.iter().enumerate().map(shake).collect();
+        let (nodes, volumes) = (exact.nodes.clone(), exact.volumes.clone());
+        let closed = Cloud::new(Form::Solid, nodes, volumes, patches).unwrap();
+        let whole: f64 = closed.volumes.iter().sum();
+        for a in 0..3 {
+            let sum: f64 = closed.patches.iter().map(|patch| patch.vector[a]).sum();
+            assert!(sum.abs() < 1e-12, "{sum:e}");
+            for b in 0..3 {
+                let at = |patch: &Patch| closed.nodes[patch.node as usize][b];
+                let sum: f64 = closed.patches.iter().map(|own| own.vector[a] * at(own)).sum();
+                let wanted = if a == b { whole } else { 0.0 };
+                assert!((sum - wanted).abs() < 1e-11, "{a} {b} {sum}");
+            }
+        }
     }
 
     #[test]

@@ -35,6 +35,21 @@ pub fn linear_row(mesh: &Mesh, at: [f64; 3]) -> Vec<Value> {
     cell.iter().enumerate().map(value).collect()
 }
 
+/// Returns true if a place lies in a cell of a mesh, to rounding.
+pub fn contains(mesh: &Mesh, at: [f64; 3]) -> bool {
+    let inside = |cell: &Vec<u32>| {
+        bounds(mesh, cell, at)
+            && local(mesh, cell, at).is_some_and(|local| {
+                let within = |&a: &usize| (-WITHIN..=1.0 + WITHIN).contains(&local[a]);
+                mesh.form.axes().iter().all(within)
+            })
+    };
+    mesh.cells.iter().any(inside)
+}
+
+/// Rounding of a coordinate of a cell.
+const WITHIN: f64 = 1e-6;
+
 /// Returns true if a place lies between the extreme coordinates of a cell's corners.
 fn bounds(mesh: &Mesh, cell: &[u32], at: [f64; 3]) -> bool {
     mesh.form.axes().iter().all(|&a| {

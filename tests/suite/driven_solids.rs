@@ -321,6 +321,130 @@ fn bodies_of_four_corners_deform_as_in_other_codes() {
     }
 }
 
+/// Cook's membrane in plane stress of small strain with E 1, ν 1/3 and the force 1: the middle of its right edge rises by
+/// 23.957 to 23.967 in finer and finer meshes of the literature.
+#[test]
+fn sheets_of_four_corners_deform_as_in_the_literature() {
+    for (keys, tolerance) in [
+        ("mesh = { spacing = 0.75e-3 }", 3e-3),
+        ("mechanics = \"rkpm\"\nrkpm = { basis = 2 }\nmesh = { spacing = 2e-3 }", 1e-3),
+        ("mechanics = \"sph\"\nmesh = { spacing = 1.5e-3 }", 3e-2),
+    ] {
+        let middle = probe("middle", [48e-3, 0.0, 52e-3], "\"displacement\", \"stress\"");
+        let text = cook(&format!("section = \"plane_stress\"\n{keys}")) + &middle;
+        let mut trial = Trial::new(&text.replace("6.25e3", "6.25"));
+        trial.step(1.0);
+        // The force over the modulus is a tenth of a newton a metre over 70 MPa.
+        let rise = trial.get("middle.displacement_z") / (0.1 / 7e7);
+        println!("{keys}: {rise}");
+        assert!((rise / 23.962 - 1.0).abs() < tolerance, "{keys}: {rise}");
+        assert!(trial.get("middle.stress_yy").abs() < 1e-6 * trial.get("pad.max_von_mises"));
+    }
+}
+
+/// Sheets under tension along one axis and both follow the closed form of a bar and of an inflated skin, at rest and in
+/// the mean of slow motion.
+#[test]
+fn sheets_follow_their_closed_forms() {
+    let law = Rubber::of_young(1e6, 0.4);
+    let keys = "dimension = 2\nsection = \"plane_stress\"\nshape = { box = [10e-3, 1.0, 12e-3] }\nmesh = { spacing = 2e-3 }\n\
+                symmetry = \"none\"\nfaces = { bottom = { roller = true }, left = { roller = true }, top = { traction = [0.0, 0.0, 0.0] }, \
+                right = { traction = [0.0, 0.0, 0.0] } }";
+    for method in METHODS {
+        let inside = probe("inside", [-1e-3, 0.0, -2e-3], "\"stress\"");
+        let mut trial = Trial::new(&(rubber(&format!("{keys}\n{method}")) + &inside));
+        for traction in [4e5, -2e5] {
+            trial.set("pad.top.traction_z", traction);
+            trial.set("pad.right.traction_x", 0.0);
+            trial.step(1.0);
+            let stretch = trial.get("pad.height") / 12e-3;
+            let lateral = law.lateral(stretch, Sides::Free);
+            assert!(off(law.force(stretch, Sides::Free), traction) < 1e-9, "{method}");
+            assert!(off(trial.get("pad.width"), 10e-3 * lateral) < 1e-10, "{method}");
+            assert!(off(trial.get("inside.stress_zz"), traction / (lateral * lateral)) < 1e-9);
+            assert!(
+                off(trial.get("pad.max_von_mises"), traction.abs() / (lateral * lateral)) < 1e-9
+            );
+            trial.set("pad.right.traction_x", traction);
+            trial.step(1.0);
+            // The thickness t of a skin drawn to s along both axes has no stress: a bar pressed to t has that force zero.
+            let stretch = trial.get("pad.height") / 12e-3;
+            let shear = law.shear;
+            let stress = |own: [f64; 3], n: usize| {
+                let j: f64 = own.iter().product();
+                let third = own.iter().map(|l| l * l).sum::<f64>() / 3.0;
+                shear * j.powf(-2.0 / 3.0) * (own[n] * own[n] - third)
+                    + 0.5 * law.bulk * (j * j - 1.0)
+            };
+            let (mut low, mut high) = (0.1, 10.0);
+            for _ in 0..100 {
+                let middle = 0.5 * (low + high);
+                let is_low = stress([stretch, middle, stretch], 1) < 0.0;
+                if is_low { low = middle } else { high = middle }
+            }
+            let force = stress([stretch, low, stretch], 0) / stretch;
+            assert!(off(force, traction) < 1e-9, "{method}: {force}");
+        }
+    }
+}
+
+/// A sheet that flows bears its yield stress along its axis: the force falls with the section as it is drawn.
+#[test]
+fn drawn_sheets_bear_their_yield_stress() {
+    let keys = "dimension = 2\nsection = \"plane_stress\"\nshape = { box = [20e-3, 1.0, 5e-3] }\nmesh = { spacing = 2.5e-3 }\n\
+                faces = { left = { roller = true }, bottom = { roller = true }, right = { roller = true, displacement = [0.0, 0.0, 0.0] } }";
+    let text = rubber(keys)
+        .replace("model = \"neo_hookean\"", "model = \"elastoplastic\", yield_stress = 1e4");
+    // Without hardening the section that is drawn first draws on alone: each stretch is the first step of its own.
+    for drawn in [0.5e-3, 1e-3, 2e-3] {
+        let mut trial = Trial::new(&text);
+        trial.set("pad.right.displacement_x", drawn);
+        trial.step(1.0);
+        let force = trial.get("pad.right.force_x");
+        let limit = 1e4 * 5e-3 / (1.0 + drawn / 20e-3);
+        println!("{drawn}: {force} {limit}");
+        assert!(off(force, limit) < 1e-8, "{drawn}: {force} {limit}");
+    }
+}
+
+/// Implicit steps of a sheet conserve what those of other bodies do.
+#[test]
+fn sheets_move_and_keep_their_energy() {
+    let keys = "dimension = 2\nsection = \"plane_stress\"\nshape = { box = [10e-3, 1.0, 6e-3] }\nmesh = { spacing = 2e-3 }\n\
+                inertia = true\nmotion = \"implicit\"\nfaces = { left = { clamped = true }, right = { traction = [0.0, 0.0, 2e4] } }";
+    let mut trial = Trial::new(&rubber(keys));
+    for _ in 0..20 {
+        trial.step(1e-3);
+    }
+    let [kinetic, stored, dissipated, work] = ["kinetic", "stored", "dissipated", "load_work"]
+        .map(|name| trial.get(&format!("pad.{name}")));
+    let balance = kinetic + stored + dissipated;
+    assert!(work > 0.0 && off(balance, work) < 1e-9, "{balance} {work}");
+    // That of the two points of the path.
+    assert!(dissipated.abs() < 1e-3 * work, "{dissipated} {work}");
+}
+
+/// A section needs a plane model, and a sheet nothing that acts across it.
+#[test]
+fn sections_that_cannot_be_modelled_are_refused() {
+    let box_of = "shape = { box = [10e-3, 1.0, 6e-3] }\nmesh = { spacing = 2e-3 }\nfaces.bottom = { clamped = true }";
+    for (keys, message) in [
+        ("section = \"plane_stress\"", "no section"),
+        (
+            "dimension = 2\nsection = \"plane_stress\"\nfaces.top = { pressure = 1.0 }",
+            "present thickness",
+        ),
+        (
+            "dimension = 2\nsection = \"plane_stress\"\nfaces.top = { temperature = 300.0 }",
+            "depends on its thickness",
+        ),
+    ] {
+        let text = rubber(&format!("{box_of}\n{keys}"));
+        let found = impinge::scene::parse(&text, "s.toml").unwrap_err().to_string();
+        assert!(found.contains(message), "{found}");
+    }
+}
+
 /// In space a body of four corners is that of the plane, extruded: under uniform tension of its straight sides.
 #[test]
 fn bodies_of_four_corners_have_a_depth() {

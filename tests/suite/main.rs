@@ -54,6 +54,7 @@ mod oblique;
 mod output;
 mod overlap;
 mod particles;
+mod parts;
 mod peaks;
 mod plausibility;
 mod phases;

@@ -29,12 +29,13 @@ pub fn large_strains(scene: &Scene) -> String {
         .map(|(name, solid)| {
             [
                 name.to_owned(),
-                match (solid.shape, solid.plate()) {
+                match (&solid.shape, solid.plate()) {
                     (SolidShape::Ball(ball), _) => format!("ball, radius {}", metres(ball.radius)),
                     (SolidShape::Quadrilateral(own), _) => {
                         let [bottom, right, top, left] = own.edges().map(metres);
                         format!("quadrilateral, edges {bottom}, {right}, {top}, {left}")
                     }
+                    (SolidShape::Part(part), _) => format!("part of {}", part.file),
                     (_, Some(plate)) => shape(&plate),
                     (_, None) => String::new(),
                 },

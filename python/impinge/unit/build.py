@@ -108,7 +108,7 @@ def build(scene: str | Path, *, fmi: int | None = None, text: str | None = None)
 
 
 def files_of(content: bytes, folder: Path) -> dict[str, bytes]:
-    """The files that a scene names and has not in its text, by name: the G-code of filaments.
+    """The files that a scene names and has not in its text, by name: G-code of filaments, parts.
 
     Those that `build-fmu` refuses are left out.
     """
@@ -117,8 +117,11 @@ def files_of(content: bytes, folder: Path) -> dict[str, bytes]:
         bodies = list(scene.get("body", {}).values())
     except (ValueError, AttributeError):
         return {}
-    paths = [body.get("path") for body in bodies if isinstance(body, dict)]
-    names = [path.get("file") for path in paths if isinstance(path, dict)]
+    bodies = [body for body in bodies if isinstance(body, dict)]
+    shapes = [body.get("shape") for body in bodies]
+    tables = [body.get("path") for body in bodies]
+    tables += [shape.get("part") for shape in shapes if isinstance(shape, dict)]
+    names = [table.get("file") for table in tables if isinstance(table, dict)]
     found = {}
     for name in names:
         if not isinstance(name, str) or "files" in scene or ".." in Path(name).parts:

@@ -66,7 +66,7 @@ impl LargeStrainForecast {
             (true, _) => points as f64 * (MOVING[0] + MOVING[1] * functions),
             (false, inertia) => {
                 let assembly = points as f64 * (RESTING[0] + RESTING[1] * functions * functions);
-                let resting = assembly + 5.0 * factor_time(plan::form(solid), nodes as f64);
+                let resting = assembly + 5.0 * factor_time(solid.form(), nodes as f64);
                 if inertia { IMPLICIT * resting } else { resting }
             }
         };
@@ -74,7 +74,7 @@ impl LargeStrainForecast {
             true => {
                 PARTS
                     * (points as f64 * HEAT * functions * functions
-                        + factor_time(plan::form(solid), nodes as f64) / 9.0)
+                        + factor_time(solid.form(), nodes as f64) / 9.0)
             }
             false => 0.0,
         };
@@ -110,7 +110,7 @@ fn points(solid: &LargeStrain, mesh: &Mesh) -> (usize, f64) {
         (Mechanics::Sph, _) => {
             let support = solid.sph.unwrap_or_default().support;
             let ball = if axes == 3 { 4.0 / 3.0 * PI } else { PI };
-            (mesh.cells.len() * corners, ball * support.powi(axes as i32))
+            (plan::cells(mesh) * corners, ball * support.powi(axes as i32))
         }
         (_, integration) => {
             // Averaged gradients have the functions of all cells within the radius.
@@ -133,7 +133,7 @@ fn points(solid: &LargeStrain, mesh: &Mesh) -> (usize, f64) {
 fn solver_memory(mesh: &Mesh, functions: f64) -> f64 {
     let axes = mesh.form.axes().len() as f64;
     let unknowns = axes * mesh.nodes.len() as f64;
-    let blocks = mesh.cells.len() as f64 * (axes * functions).powi(2);
+    let blocks = plan::cells(mesh) as f64 * (axes * functions).powi(2);
     let fill = match mesh.form {
         Form::Solid => unknowns.powf(4.0 / 3.0),
         Form::Plane | Form::Axisymmetric => unknowns * unknowns.max(2.0).log2(),

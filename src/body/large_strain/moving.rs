@@ -52,7 +52,7 @@ impl MovingBody {
     ) -> Result<Self, BodyError> {
         let named = |failure| named(name, failure);
         let mesh = plan::mesh(solid);
-        let threads = threads(is_large(mesh.cells.len() * 8));
+        let threads = threads(is_large(plan::cells(&mesh) * 8));
         let body = plan::deformable(solid, threads).map_err(named)?;
         let plane = plan::plane(solid, &body);
         let columns = columns(&body.space, solid.is_box());

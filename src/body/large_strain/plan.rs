@@ -6,12 +6,12 @@ use crate::laws::Material;
 use crate::method::fem::Refinement;
 use crate::method::large_strain::{Deformable, Failure, LayerOfBody, Plane};
 use crate::scene::{
-    Coupling, FaceName, HeldFace, KernelIntegration, KernelSettings, LargeStrain, Mechanics,
-    SolidShape,
+    Coupling, FaceName, HeldFace, KernelIntegration, KernelSettings, LargeStrain, Mechanics, Part,
+    PartBody, SolidShape,
 };
 use crate::space::{
     Form, Integration, Kernel, Mesh, Reproducing, Shape, Side, Sides, Space, finite_elements,
-    particles, reproducing,
+    particles, particles_of_cloud, reproducing,
 };
 
 /// Stiffness of the plane over that of a layer of the body one spacing thick.
@@ -22,19 +22,12 @@ const INNER: f64 = 0.55;
 /// Width of a body that has spread over its own.
 const SPREAD: f64 = 1.3;
 
-pub fn form(solid: &LargeStrain) -> Form {
-    match (solid.is_axisymmetric(), solid.dimension) {
-        (true, _) => Form::Axisymmetric,
-        (false, 2) => Form::Plane,
-        (false, _) => Form::Solid,
-    }
-}
-
+/// The mesh of a solid; that of points has no cells.
 pub fn mesh(solid: &LargeStrain) -> Mesh {
-    let (form, mirrors, spacing) = (form(solid), solid.mirrors(), solid.spacing());
+    let (form, mirrors, spacing) = (solid.form(), solid.mirrors(), solid.spacing());
     let [x, y, z] = solid.extents();
     let count = |length: f64| (length / spacing).round().max(1.0) as usize;
-    match solid.shape {
+    match &solid.shape {
         SolidShape::Ball(ball) => {
             let [inner, outer] = [INNER, OUTER].map(|part| count(part * ball.radius));
             Mesh::of_ball(form, ball.radius, inner, outer, mirrors)
@@ -58,6 +51,10 @@ pub fn mesh(solid: &LargeStrain) -> Mesh {
                 [x, y, z]
             })
         }
+        SolidShape::Part(part) => match part.body().expect(CHECKED) {
+            PartBody::Cells(mesh) => mesh.clone(),
+            PartBody::Points(cloud) => cloud.surface(),
+        },
         SolidShape::Box(_) | SolidShape::Disc(_) => {
             let halved = [mirrors[0] || form == Form::Axisymmetric, mirrors[1]];
             let low = |a: usize, length: f64| if halved[a] { 0.0 } else { -0.5 * length };
@@ -69,6 +66,13 @@ pub fn mesh(solid: &LargeStrain) -> Mesh {
             mesh.without_cuts(halved)
         }
     }
+}
+
+const CHECKED: &str = "a checked scene has read its parts";
+
+/// Number of cells of a mesh, or of the points that stand for them.
+pub fn cells(mesh: &Mesh) -> usize {
+    if mesh.cells.is_empty() { mesh.nodes.len() } else { mesh.cells.len() }
 }
 
 /// The layers, from the top.
@@ -86,18 +90,27 @@ pub fn layers(solid: &LargeStrain) -> Vec<LayerOfBody> {
 pub fn deformable(solid: &LargeStrain, threads: usize) -> Result<Deformable, Failure> {
     let mesh = mesh(solid);
     let layers = layers(solid);
+    let alone = |space: Space| if solid.is_sheet() { space.with_points_alone() } else { space };
+    let sheet = |body: Deformable| if solid.is_sheet() { body.of_sheet() } else { body };
     if solid.layers.is_some() {
-        let space = finite_elements(&mesh);
+        let space = alone(finite_elements(&mesh));
         let of_groups = layers_of_groups(solid, &space);
-        return Ok(Deformable::layered(space, (layers, of_groups), solid.mirrors(), threads));
+        let body = Deformable::layered(space, (layers, of_groups), solid.mirrors(), threads);
+        return Ok(sheet(body));
     }
     let LayerOfBody { law, density } = layers.into_iter().next().expect("a body has a material");
     let space = match solid.mechanics {
         Mechanics::Fem => finite_elements(&mesh),
         Mechanics::Rkpm | Mechanics::Efg => reproducing(&mesh, kernels(solid, &mesh))?,
-        Mechanics::Sph => particles(&mesh, solid.sph.unwrap_or_default().support)?,
+        Mechanics::Sph => {
+            let support = solid.sph.unwrap_or_default().support;
+            match solid.part().and_then(Part::body) {
+                Some(PartBody::Points(cloud)) => particles_of_cloud(cloud, support)?,
+                _ => particles(&mesh, support)?,
+            }
+        }
     };
-    Ok(Deformable::new(space, law, density, solid.mirrors(), threads))
+    Ok(sheet(Deformable::new(alone(space), law, density, solid.mirrors(), threads)))
 }
 
 /// Layer of each group of points, all of which lie in it.
@@ -177,7 +190,7 @@ pub fn refinement(coupling: &Coupling, solid: &LargeStrain) -> Refinement {
 /// Axis normal to a side; rollers on round sides are those of sections.
 pub fn normal(side: Side) -> usize {
     match side {
-        Side::Left | Side::Right | Side::Round => 0,
+        Side::Left | Side::Right | Side::Round | Side::Free => 0,
         Side::Front | Side::Back => 1,
         Side::Bottom | Side::Top => 2,
     }
@@ -194,6 +207,8 @@ pub fn is_on(solid: &LargeStrain, face: FaceName, side: Side) -> bool {
         Side::Bottom => FaceName::Bottom,
         Side::Top => FaceName::Top,
         Side::Round => FaceName::Sides,
+        Side::Free => return false,
     };
-    own == face || face == FaceName::Sides && own.is_one_of_four_sides()
+    // Each face of a part has a name of its own.
+    own == face || solid.part().is_none() && face == FaceName::Sides && own.is_one_of_four_sides()
 }

@@ -9,7 +9,7 @@ use crate::laws::solid::stress::von_mises;
 use crate::math::matrix3::{IDENTITY, Matrix3, packed, product, transposed};
 use crate::method::large_strain::{Deformable, Stresses};
 use crate::scene::{LargeStrain, Mechanics, Sampling, Scene};
-use crate::space::{Form, Functions, Mesh, Refused, Row, Value, fit, linear_row};
+use crate::space::{Form, Functions, Mesh, Refused, Row, Samples, Value, fit, linear_row};
 
 /// The points of a body.
 pub struct Probes(Vec<Probe>);
@@ -87,6 +87,9 @@ impl Probe {
                 functions.evaluate(place, false, &mut row)?;
                 row.values().collect()
             }
+            Mechanics::Fem | Mechanics::Sph if mesh.cells.is_empty() => {
+                among_points(body, place, REACH * solid.spacing())
+            }
             Mechanics::Fem | Mechanics::Sph => linear_row(mesh, place),
         };
         let layer = solid.layer_at(place[2]);
@@ -135,6 +138,15 @@ impl Probe {
             temperature: temperatures.at(&self.row),
         }
     }
+}
+
+/// Row at a place among points without cells: the linear fit to the points around it.
+fn among_points(body: &Deformable, place: [f64; 3], distance: f64) -> Vec<Value> {
+    let space = &body.space;
+    let mut nodes = Samples::default();
+    space.nodes.iter().zip(&space.shares).for_each(|(at, share)| nodes.push(*at, *share, []));
+    let fitted = fit(&nodes, space.form, place, distance, |_| true).into_iter();
+    fitted.map(|(node, value)| Value { node, value, gradient: [0.0; 3] }).collect()
 }
 
 impl Probed {

@@ -104,7 +104,7 @@ impl RestingBody {
     ) -> Result<Self, BodyError> {
         let mesh = plan::mesh(solid);
         let named = |failure| named(name, failure);
-        let threads = threads(is_large(mesh.cells.len() * 8));
+        let threads = threads(is_large(plan::cells(&mesh) * 8));
         let body = plan::deformable(solid, threads).map_err(named)?;
         let weight = body.mass.iter().map(|m| [0.0, 0.0, -m * solid.gravity]).collect();
         let faces = Faces::new(layout, (name, solid), &mesh, &body);

@@ -203,7 +203,8 @@ impl Seen<'_> {
     /// Density [kg/m³] and pressure of the dilatation [Pa] at each node: means over the points around it.
     fn swelling(&self) -> Vec<[f64; 2]> {
         let body = self.body;
-        let (deformed, dilatations) = body.deformations(self.displacement, self.over, &body.team());
+        let (deformed, dilatations) =
+            body.deformations(self.displacement, (self.over, self.history), &body.team());
         let mut sums = vec![[0.0; 3]; body.nodes()];
         for (number, (group, &mean)) in body.space.groups.iter().zip(&dilatations).enumerate() {
             let layer = body.layer_of_group[number];

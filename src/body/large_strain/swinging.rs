@@ -83,7 +83,7 @@ impl SwingingBody {
     ) -> Result<Self, BodyError> {
         let mesh = plan::mesh(solid);
         let named = |failure| named(name, failure);
-        let threads = threads(is_large(mesh.cells.len() * 8));
+        let threads = threads(is_large(plan::cells(&mesh) * 8));
         let body = plan::deformable(solid, threads).map_err(named)?;
         let columns = columns(&body.space, solid.is_box());
         let faces = Faces::new(layout, (name, solid), &mesh, &body);

@@ -24,6 +24,8 @@ pub struct Deformable {
     uses: Vec<Vec<Use>>,
     /// Number of threads of its loops.
     pub threads: usize,
+    /// True for a plane section without stress across it, where each point has a dilatation of its own.
+    pub is_sheet: bool,
 }
 
 /// A layer's law and reference density ρ₀ [kg/m³].
@@ -47,6 +49,8 @@ struct Use {
 pub struct Stresses {
     /// Volume times P of each point [N m].
     pub loads: Vec<Matrix3>,
+    /// Stretch across a sheet at each point; empty for other bodies.
+    pub across: Vec<f64>,
     /// Stored energy [J].
     pub energy: f64,
     /// Power with which thermal stretches change it [W].
@@ -65,6 +69,7 @@ struct Chunk<'a> {
     groups: Range<usize>,
     history: &'a mut [f64],
     loads: &'a mut [Matrix3],
+    across: &'a mut [f64],
     energy: f64,
     swelling: f64,
     stiffening: f64,
@@ -98,6 +103,17 @@ impl Deformable {
         Self::with(space, layers, mass, mirrors, threads)
     }
 
+    /// Makes a plane body a sheet, without stress across it.
+    ///
+    /// # Panics
+    /// If points share dilatations; see [`Space::with_points_alone`].
+    pub fn of_sheet(mut self) -> Self {
+        let is_alone = self.space.groups.iter().all(|group| group.len() == 1);
+        assert!(is_alone && self.space.form == Form::Plane, "a sheet is plane, its points alone");
+        self.is_sheet = true;
+        self
+    }
+
     /// Integrals over the shares of the nodes of a value of each layer per reference volume.
     pub fn lumped(&self, of_layers: &[f64]) -> Vec<f64> {
         match of_layers {
@@ -128,7 +144,8 @@ impl Deformable {
                 uses[value.node as usize].push(Use { point: point as u32, gradient, hoop });
             }
         }
-        Self { space, layers, layer_of_group, histories, mass, fixed, uses, threads }
+        let is_sheet = false;
+        Self { space, layers, layer_of_group, histories, mass, fixed, uses, threads, is_sheet }
     }
 
     /// Starts the threads of its loops, which end with the value.
@@ -259,11 +276,25 @@ impl Deformable {
         f
     }
 
-    /// Elastic deformation of the points of a group over a thermal stretch, and its mean dilatation.
-    fn group(&self, points: &Range<usize>, u: &[[f64; 3]], stretch: f64) -> (Vec<Deformed>, f64) {
-        let volume = &self.space.volume;
+    /// Elastic deformation of the points of a group over the thermal stretch of a step from a history, and its mean
+    /// dilatation.
+    fn group(
+        &self,
+        number: usize,
+        u: &[[f64; 3]],
+        over: Course,
+        before: &[f64],
+    ) -> (Vec<Deformed>, f64) {
+        let (points, volume) = (&self.space.groups[number], &self.space.volume);
+        let Course { time, stretch, .. } = over;
         let elastic = |f: Matrix3| f.map(|row| row.map(|value| value / stretch));
-        let at = |point| Deformed::of(elastic(self.gradient(volume, point, u)));
+        let at = |point| {
+            let gradient = elastic(self.gradient(volume, point, u));
+            match self.is_sheet {
+                true => self.law_of(number).thinned(gradient, time, before),
+                false => Deformed::of(gradient),
+            }
+        };
         let all: Vec<Deformed> = points.clone().map(at).collect();
         let weights = &volume.weights[points.clone()];
         let whole: f64 = weights.iter().sum();
@@ -271,16 +302,18 @@ impl Deformable {
         (all, swollen / whole)
     }
 
-    /// Elastic deformation of all points over their thermal stretches, and the mean dilatation of each group.
+    /// Elastic deformation of all points over their thermal stretches in a step from a history, and the mean dilatation
+    /// of each group.
     pub fn deformations(
         &self,
         u: &[[f64; 3]],
-        over: &Courses,
+        (over, before): (&Courses, &[f64]),
         team: &Team,
     ) -> (Vec<Deformed>, Vec<f64>) {
-        let groups = &self.space.groups;
-        let of_group = |group: usize| self.group(&groups[group], u, over.at(self, group).stretch);
-        let all = team.map(groups.len(), of_group);
+        let of_group = |group: usize| {
+            self.group(group, u, over.at(self, group), &before[self.history_of(group)])
+        };
+        let all = team.map(self.space.groups.len(), of_group);
         let (points, dilatations): (Vec<_>, Vec<_>) = all.into_iter().unzip();
         (points.concat(), dilatations)
     }
@@ -297,6 +330,7 @@ impl Deformable {
         let count = self.space.volume.len();
         let mut stresses = Stresses {
             loads: vec![[[0.0; 3]; 3]; count],
+            across: if self.is_sheet { vec![1.0; count] } else { Vec::new() },
             least: f64::INFINITY,
             ..Stresses::default()
         };
@@ -327,7 +361,7 @@ impl Deformable {
     /// Cuts history and results into chunks.
     fn chunks<'a>(&self, history: &'a mut [f64], stresses: &'a mut Stresses) -> Vec<Chunk<'a>> {
         let groups = &self.space.groups;
-        let mut rest = (history, &mut stresses.loads[..]);
+        let mut rest = (history, &mut stresses.loads[..], &mut stresses.across[..]);
         let mut chunks = Vec::new();
         for first in (0..groups.len()).step_by(CHUNK) {
             let last = (first + CHUNK).min(groups.len());
@@ -335,11 +369,14 @@ impl Deformable {
             let own = self.histories[last] - self.histories[first];
             let (history, after) = rest.0.split_at_mut(own);
             let (loads, later) = rest.1.split_at_mut(points);
-            rest = (after, later);
+            let sheets = if self.is_sheet { points } else { 0 };
+            let (across, others) = rest.2.split_at_mut(sheets);
+            rest = (after, later, others);
             chunks.push(Chunk {
                 groups: first..last,
                 history,
                 loads,
+                across,
                 energy: 0.0,
                 swelling: 0.0,
                 stiffening: 0.0,
@@ -352,11 +389,13 @@ impl Deformable {
     fn respond_in(&self, chunk: &mut Chunk, u: &[[f64; 3]], over: &Courses) {
         let (mut place, mut history) = (0, &mut chunk.history[..]);
         for number in chunk.groups.clone() {
-            let Course { time, stretch, growth } = over.at(self, number);
+            let course = over.at(self, number);
+            let Course { time, stretch, growth } = course;
             let (area, volume) = (stretch * stretch, stretch * stretch * stretch);
             let (group, law) = (&self.space.groups[number], self.law_of(number));
             let (length, modulus) = (law.history(), law.wave_modulus());
-            let (deformed, mean) = self.group(group, u, stretch);
+            let own = if self.is_sheet { &history[..length] } else { &[] };
+            let (deformed, mean) = self.group(number, u, course, own);
             let [pressure, _] = law.pressure(mean);
             let mut whole = 0.0;
             for (point, at) in group.clone().zip(&deformed) {
@@ -376,6 +415,9 @@ impl Deformable {
                     // ∂W/∂ϑ = (3 W − P : F)/ϑ.
                     let stored = 3.0 * area * weight * response.energy;
                     chunk.swelling += growth * (stored - contraction(load, &at.gradient));
+                }
+                if let Some(across) = chunk.across.get_mut(place) {
+                    *across = stretch * at.gradient[1][1];
                 }
                 let dilatation = volume * at.dilatation;
                 if dilatation.is_nan() || dilatation < chunk.least.0 {
@@ -425,7 +467,11 @@ impl Deformable {
 
     /// Cauchy stress of a point [Pa].
     pub fn cauchy(&self, u: &[[f64; 3]], stresses: &Stresses, point: usize) -> Matrix3 {
-        let at = Deformed::of(self.gradient(&self.space.volume, point, u));
+        let mut gradient = self.gradient(&self.space.volume, point, u);
+        if let Some(across) = stresses.across.get(point) {
+            gradient[1][1] = *across;
+        }
+        let at = Deformed::of(gradient);
         let scale = 1.0 / (at.dilatation * self.space.volume.weights[point]);
         let load = &stresses.loads[point];
         let entry = |a: usize, b: usize| {

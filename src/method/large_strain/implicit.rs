@@ -237,6 +237,9 @@ impl ImplicitDynamics {
                 size += (mass * before.abs().max(after.abs())).powi(2);
             }
         }
+        if !norm.is_finite() {
+            return Err(Failure::NotFinite);
+        }
         let scale = scale.sqrt().max(f64::MIN_POSITIVE);
         let rounding = self.rounding + ROUNDING * 2.0 / (dt * dt) * size.sqrt();
         Ok(Trial { path, internal, loads, residual, norm: norm.sqrt(), scale, rounding })

@@ -99,7 +99,11 @@ impl Path<'_> {
             let mean = self.mean(&stations, place);
             let laws = [0, 1].map(|n| {
                 let Station { deformed, pressure: [pressure, _], .. } = &stations[n];
-                law.tangent(&deformed[place], STATIONS[n] * duration, before, *pressure)
+                let (at, time) = (&deformed[place], STATIONS[n] * duration);
+                match body.is_sheet {
+                    true => law.condensed_tangent(at, time, before),
+                    false => law.tangent(at, time, before, *pressure),
+                }
             });
             // δP for δF₁ = e_k ⊗ e_l.
             let columns: [Matrix3; 9] = std::array::from_fn(|column| {
@@ -124,7 +128,10 @@ impl Path<'_> {
         };
         GroupTangent {
             points: points.enumerate().map(of_point).collect(),
-            swellings: (0..2).map(|n| self.swelling(group, STATIONS[n], &stations[n])).collect(),
+            swellings: match body.is_sheet {
+                true => Vec::new(),
+                false => (0..2).map(|n| self.swelling(group, STATIONS[n], &stations[n])).collect(),
+            },
             scale: 1.0,
         }
     }
@@ -153,7 +160,11 @@ impl Path<'_> {
         let (length, history) = (law.history(), &self.before[body.history_of(group)]);
         let points = body.space.groups[group].clone();
         let weights = &body.space.volume.weights[points.clone()];
-        let deformed: Vec<Deformed> = points.map(|point| self.stretched(point, s)).collect();
+        let of_point = |point: usize| {
+            let at = self.stretched(point, s);
+            if body.is_sheet { law.thinned(at.gradient, s * duration, history) } else { at }
+        };
+        let deformed: Vec<Deformed> = points.map(of_point).collect();
         let swollen: f64 = weights.iter().zip(&deformed).map(|(w, at)| w * at.dilatation).sum();
         let pressure = law.pressure(swollen / weights.iter().sum::<f64>());
         let stress = |(place, at): (usize, &Deformed)| {

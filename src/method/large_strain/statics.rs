@@ -150,7 +150,8 @@ impl Equilibrium {
     fn work(&self, step: &Step, end: &Linearised) -> f64 {
         let body = &self.body;
         let gradients = |all: &[Deformed]| all.iter().map(|at| at.gradient).collect::<Vec<_>>();
-        let (start, _) = body.deformations(&step.from.displacement, step.over, step.team);
+        let (start, _) =
+            body.deformations(&step.from.displacement, (step.over, &step.from.history), step.team);
         let path = Path {
             body,
             start: &gradients(&start),
@@ -225,7 +226,8 @@ impl Equilibrium {
         step.allowance.spend(1.0, STEPS, WORK * body.space.volume.len())?;
         let mut history = step.from.history.clone();
         let stresses = body.respond(u, step.over, &mut history, step.team)?;
-        let (deformations, dilatations) = body.deformations(u, step.over, step.team);
+        let course = (step.over, &step.from.history[..]);
+        let (deformations, dilatations) = body.deformations(u, course, step.team);
         let internal = body.forces(&stresses, step.team);
         let mut external = step.to.forces.clone();
         self.loaded.add_forces(body, u, &step.to.loads, &mut external);

@@ -224,15 +224,21 @@ impl Linearised<'_> {
         let deformed = &self.deformations[points];
         let of_point = |(place, at): (usize, &Deformed)| {
             let before = &history[length * place..length * (place + 1)];
-            law.tangent(at, time, before, pressure)
+            match body.is_sheet {
+                true => law.condensed_tangent(at, time, before),
+                false => law.tangent(at, time, before, pressure),
+            }
         };
         let cofactor =
             |at: &Deformed| at.inverse_transposed.map(|row| row.map(|g| at.dilatation * g));
-        let forces: Vec<Matrix3> = deformed.iter().map(cofactor).collect();
-        let changes = forces.clone();
+        let swelling = || {
+            let forces: Vec<Matrix3> = deformed.iter().map(cofactor).collect();
+            let changes = forces.clone();
+            Swelling { stiffness, forces, changes }
+        };
         GroupTangent {
             points: deformed.iter().enumerate().map(of_point).collect(),
-            swellings: vec![Swelling { stiffness, forces, changes }],
+            swellings: if body.is_sheet { Vec::new() } else { vec![swelling()] },
             scale: stretch,
         }
     }

@@ -21,7 +21,10 @@ pub(super) fn bodies() -> Vec<Deformable> {
         Mesh::of_box(Form::Solid, [-1.0, -1.0, -1.0], [1.0, 1.0, 0.0], [3, 2, 2]),
     ];
     let body = |mesh| Deformable::new(finite_elements(&mesh), law(), 1.0, [false; 2], 1);
-    meshes.into_iter().map(body).collect()
+    let section = Mesh::of_ball(Form::Plane, 1.0, 2, 2, [false; 2]);
+    let alone = finite_elements(&section).with_points_alone();
+    let sheet = Deformable::new(alone, law(), 1.0, [false; 2], 1).of_sheet();
+    meshes.into_iter().map(body).chain([sheet]).collect()
 }
 
 /// Displacements under which the deformation gradient is uniform.
@@ -119,7 +122,7 @@ fn the_stiffness_is_the_derivative_of_the_forces() {
             let stresses = body.respond(u, over, &mut history, team).unwrap();
             body.forces(&stresses, team)
         };
-        let (deformations, dilatations) = body.deformations(&u, over, team);
+        let (deformations, dilatations) = body.deformations(&u, (over, &before), team);
         let state = Linearised { deformations, dilatations, before: &before, over };
         // Held, so that the stiffness has an inverse.
         let mut held = body.fixed.clone();

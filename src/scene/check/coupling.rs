@@ -67,8 +67,12 @@ fn check_large_strain(
         let message = "a plane body does not fit a solid of three dimensions";
         checker.refuse(&from, message, "a body of `dimension = 3`");
     }
-    if solid.is_quadrilateral() {
-        let message = "a quadrilateral moves above the plane z = 0 and no other body";
+    let kind = match solid.part() {
+        _ if solid.is_quadrilateral() => Some("a quadrilateral"),
+        part => part.map(|_| "a part of a file"),
+    };
+    if let Some(kind) = kind {
+        let message = format!("{kind} moves above the plane z = 0 and no other body");
         checker.refuse(&from, message, "a box, a disc or a ball");
     }
     let Some((_, below)) = face else { return };

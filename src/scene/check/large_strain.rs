@@ -1,5 +1,7 @@
 //! Checks that solids of large strain can be modelled.
 
+mod part;
+
 use super::layers::Materials;
 use super::{Checker, fits, layers, material};
 use crate::laws::Material;
@@ -9,7 +11,7 @@ use crate::scene::large_strain::{
 };
 use crate::scene::locate::Path;
 use crate::scene::types::FaceName;
-use crate::scene::{LoadComponent, Quadrilateral};
+use crate::scene::{LoadComponent, Part, Quadrilateral};
 
 /// Most nodes of a body.
 const MOST_NODES: f64 = 2e6;
@@ -24,6 +26,7 @@ pub fn check(checker: &mut Checker) {
         layers::materials(checker, &path, own, thickness);
         check_material(checker, &path, solid);
         check_kernels(checker, &path, solid);
+        check_section(checker, &path, solid);
         check_heat(checker, &path, solid);
         check_faces(checker, &path, solid);
         match (solid.inertia, solid.motion) {
@@ -59,6 +62,11 @@ fn check_shape(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
     {
         return;
     }
+    if let Some(own) = solid.part()
+        && !part::check(checker, path, solid, own)
+    {
+        return;
+    }
     let smallest = solid.smallest();
     let spacing = solid.spacing();
     let path_of_spacing = path.at("mesh.spacing");
@@ -70,8 +78,9 @@ fn check_shape(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
         // Refused as numbers.
         return;
     }
+    let is_thick = solid.part().is_some() || fits(spacing, smallest);
     checker.require(
-        fits(spacing, smallest),
+        is_thick,
         &path_of_spacing,
         "the body is thinner than an element",
         format!("up to {smallest} m, a tenth of it or less for results"),
@@ -90,13 +99,19 @@ fn check_shape(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
         checker.refuse(&path.key("dimension"), message, "3; or a box, or a ball");
     }
     let is_round = matches!(solid.shape, SolidShape::Ball(_) | SolidShape::Disc(_));
-    if solid.symmetry == LargeStrainSymmetry::Axisymmetric && (!is_round || is_flat) {
-        let message = "only a disc and a ball in three dimensions are round about z";
+    let may_be_round = is_round || solid.part().is_some();
+    if solid.symmetry == LargeStrainSymmetry::Axisymmetric && (!may_be_round || is_flat) {
+        let message = "only a disc, a ball and a part in three dimensions are round about z";
         checker.refuse(&path.key("symmetry"), message, "auto, none, quarter");
     }
     if solid.symmetry == LargeStrainSymmetry::Quarter && solid.is_quadrilateral() {
         let message = "a quadrilateral does not mirror itself in x = 0";
         checker.refuse(&path.key("symmetry"), message, "auto, none");
+    }
+    if solid.symmetry == LargeStrainSymmetry::Quarter && solid.part().is_some() {
+        let message = "a part is modelled as the file has it";
+        let allowed = "auto, none, axisymmetric; a quarter in the file, with rollers";
+        checker.refuse(&path.key("symmetry"), message, allowed);
     }
 }
 
@@ -125,6 +140,27 @@ fn quadrilateral(checker: &mut Checker, path: &Path, own: &Quadrilateral, is_fla
     let fine = !is_flat || own.depth.is_none();
     checker.require(fine, &path.key("depth"), message, "no `depth`, or `dimension = 3`");
     corners && depth
+}
+
+/// Refuses sections of bodies that are not plane, and sheets of which something needs the stress across them.
+fn check_section(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
+    let at = path.key("section");
+    let message = "a body in three dimensions is no section";
+    let fine = solid.section.is_none() || solid.dimension == 2;
+    checker.require(fine, &at, message, "`dimension = 2`, or no `section`");
+    if !solid.is_sheet() {
+        return;
+    }
+    let message = "the law of concrete does not find the strain across a sheet where it softens";
+    checker.require(!solid.is_of_concrete(), &at, message, "plane_strain, or another law");
+    let message = "the heat that a sheet conducts depends on its thickness, which is not modelled";
+    let allowed = "plane_strain, or no thermal conditions";
+    checker.require(!solid.conducts(), &at, message, allowed);
+    for (&name, _) in solid.faces.iter().filter(|(_, face)| face.pressure.is_some()) {
+        let path = path.key("faces").key(name.as_str()).key("pressure");
+        let message = "the pressure on an edge of a sheet acts on its present thickness";
+        checker.refuse(&path, message, "`traction`, or `section = \"plane_strain\"`");
+    }
 }
 
 fn check_kernels(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
@@ -252,6 +288,10 @@ fn check_heat(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
 }
 
 fn check_faces(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
+    // What is wrong with the file of a part is reason enough.
+    if solid.part().is_some_and(|part| part.body().is_none()) {
+        return;
+    }
     let is_flat = solid.dimension == 2;
     for (&name, face) in &solid.faces {
         let at = path.key("faces").key(name.as_str());
@@ -262,6 +302,7 @@ fn check_faces(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
                 let own = shape.faces().iter().copied().chain(sides);
                 own.filter(|&face| is_there(solid, face)).collect()
             }
+            None if solid.part().is_some() => solid.part().map(Part::faces).unwrap_or_default(),
             None if solid.is_quadrilateral() => {
                 FaceName::ALL.into_iter().filter(|&face| is_there(solid, face)).collect()
             }
@@ -286,6 +327,7 @@ fn check_faces(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
         let allowed = "one of temperature, flux, convection";
         checker.require(thermal.len() < 2, &at, message, allowed);
         let is_twice = name.is_one_of_four_sides()
+            && solid.part().is_none()
             && solid
                 .faces
                 .get(&FaceName::Sides)
@@ -293,14 +335,19 @@ fn check_faces(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
         let message = "`sides` has a thermal condition for this face, too";
         let allowed = "a thermal condition on `sides` or on this face";
         checker.require(thermal.is_empty() || !is_twice, &at, message, allowed);
-        let is_along = match solid.shape {
+        let is_along = match &solid.shape {
+            SolidShape::Part(part) if part.is_of_points() => name.normal().is_some(),
+            SolidShape::Part(part) => {
+                name.normal().is_some_and(|axis| part.axis_of(name) == Some(axis))
+            }
             SolidShape::Disc(_) => name != FaceName::Sides || solid.is_axisymmetric(),
             SolidShape::Quadrilateral(own) => own.is_straight(name),
             SolidShape::Box(_) | SolidShape::Ball(_) => true,
         };
         let is_of_kernels = matches!(solid.mechanics, Mechanics::Rkpm | Mechanics::Efg);
         let is_held = !face.is_loaded() && !conditions.is_empty() || face.temperature.is_some();
-        if is_of_kernels && solid.is_quadrilateral() && is_held && !is_along {
+        let may_slip = solid.is_quadrilateral() || solid.part().is_some();
+        if is_of_kernels && may_slip && is_held && !is_along {
             let message =
                 "kernels hold faces along the axes alone: a slanted one would slip between nodes";
             let allowed = "`mechanics = \"fem\"` or `\"sph\"`, or a load";

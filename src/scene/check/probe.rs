@@ -4,7 +4,8 @@ use super::{Checker, fits, is_in_depth, number};
 use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
 use crate::scene::types::{Disc, Gives, Probe, Shape, Solid};
-use crate::scene::{LargeStrain, SolidShape};
+use crate::scene::{LargeStrain, PartBody, SolidShape};
+use crate::space::{Form, contains as contains_place};
 
 pub fn check(checker: &mut Checker) {
     for (i, probe) in checker.scene.probe.iter().enumerate() {
@@ -28,7 +29,7 @@ fn large_strain(checker: &mut Checker, path: &Path, probe: &Probe, solid: &Large
     if solid.extents().iter().all(|extent| *extent > 0.0) {
         let message = format!("the point lies outside of `{}`", probe.body);
         let at = path.at("at");
-        match (solid.plate(), solid.shape) {
+        match (solid.plate(), &solid.shape) {
             (Some(shape), _) => {
                 checker.require(contains(&shape, probe.at), &at, message, inside(&shape));
             }
@@ -43,6 +44,20 @@ fn large_strain(checker: &mut Checker, path: &Path, probe: &Probe, solid: &Large
                 let deep = own.depth.is_none_or(|depth| fits(y.abs(), 0.5 * depth));
                 let fine = !own.is_convex() || own.contains([x, z]) && deep;
                 checker.require(fine, &at, message, "x and z between the corners, |y| <= depth/2");
+            }
+            (None, SolidShape::Part(part)) => {
+                let [x, y, z] = probe.at;
+                let place = match solid.form() {
+                    Form::Solid => probe.at,
+                    Form::Plane => [x, 0.0, z],
+                    Form::Axisymmetric => [x.hypot(y), 0.0, z],
+                };
+                let fine = match part.body() {
+                    Some(PartBody::Cells(mesh)) => contains_place(mesh, place),
+                    Some(PartBody::Points(cloud)) => cloud.contains(place),
+                    None => true,
+                };
+                checker.require(fine, &at, message, "a place in a cell or about a point");
             }
             (None, _) => {}
         }

@@ -5,11 +5,12 @@ use serde::{Deserialize, Serialize};
 
 use super::Quadrilateral;
 use crate::limits::{length, plausible};
+use crate::scene::part::Part;
 use crate::scene::types::Disc;
 
 /// The shape of a solid of large strain. The origin of a box and of a disc is the centre of their top, that of a ball
 /// its centre.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum SolidShape {
     /// Extents along x, y and z [m].
@@ -23,6 +24,8 @@ pub enum SolidShape {
     Ball(Ball),
     /// Four corners in x and z; its faces are those of a box, `left` and `right` between the corners there.
     Quadrilateral(Quadrilateral),
+    /// Cells or points from a file.
+    Part(Part),
 }
 
 /// A ball.

@@ -66,9 +66,12 @@ impl<const N: usize> Operator for Balance<'_, N> {
 }
 
 /// Changes the gradients of points, those of one particle together.
-pub fn balance<const N: usize>(mesh: &Mesh, particles: &mut [Vec<Point>]) -> Result<(), Refused> {
-    let (form, nodes, axes) = (mesh.form, &mesh.nodes, mesh.form.axes());
-    let boundary = &whole_surface(mesh);
+pub fn balance<const N: usize>(
+    (form, nodes): (Form, &[[f64; 3]]),
+    boundary: &Boundary,
+    particles: &mut [Vec<Point>],
+) -> Result<(), Refused> {
+    let axes = form.axes();
     let patches =
         particles.iter().enumerate().map(|(node, points)| patch(form, nodes, node, points));
     let patches: Vec<Patch<N>> = patches.collect::<Result<_, _>>()?;
@@ -131,7 +134,7 @@ fn moments<const N: usize>(terms: &[[f64; N]]) -> [[f64; N]; N] {
 }
 
 /// The surface of the model, planes of symmetry included.
-fn whole_surface(mesh: &Mesh) -> Boundary {
+pub fn whole_surface(mesh: &Mesh) -> Boundary {
     let outer = surface(mesh);
     let faces = mesh.cells.iter().zip(&outer).flat_map(|(cell, facets)| {
         let face = |facet: &Facet| corners(mesh.form, cell, facet.axis, facet.upper);

@@ -4,7 +4,7 @@ use impinge::limits::keyword;
 use serde_json::Value;
 
 /// Headings of `docs/scene.md` with a table, and where in the schema the table that they describe stands.
-pub const SECTIONS: [(&str, &str); 67] = [
+pub const SECTIONS: [(&str, &str); 68] = [
     ("The whole", ""),
     ("`fidelity`", "/$defs/Fidelity"),
     ("`solver`", "/$defs/Solver"),
@@ -43,6 +43,7 @@ pub const SECTIONS: [(&str, &str); 67] = [
     ("`sph` of a solid of large strain", "/$defs/ParticleSettings"),
     ("`shape.ball`", "/$defs/Ball"),
     ("`shape.quadrilateral`", "/$defs/Quadrilateral"),
+    ("`shape.part`", "/$defs/Part"),
     ("`faces.FACE` of a solid of large strain", "/$defs/HeldFace"),
     ("`[body.NAME]` of a droplet", "/$defs/Body/oneOf/1"),
     ("`fluid` of a droplet", "/$defs/Fluid"),

@@ -3,13 +3,14 @@
 //! The energy of the dilatation `J = det F` per reference volume is `U(J) = ½ κ (½ (J² − 1) − ln J)`, source: J. C.
 //! Simo and T. J. R. Hughes, *Computational Inelasticity*, Springer 1998, eq. 9.2.3. Deviators have no part in the
 //! volume: [`relaxing`] is neo-Hooke with Maxwell branches, [`plastic`] multiplicative J₂ plasticity. [`concrete`] has
-//! the whole stress, and U is 0. [`thermal`] adds expansion.
+//! the whole stress, and U is 0. [`thermal`] adds expansion, and [`thin`] sections without stress across them.
 
 pub mod concrete;
 mod deformed;
 mod plastic;
 mod relaxing;
 mod thermal;
+mod thin;
 
 pub use concrete::Concrete;
 pub use deformed::Deformed;
