@@ -31,5 +31,7 @@ fn coarse(solid: &LargeStrain) -> Option<(usize, f64)> {
     let largest = extents.into_iter().fold(0.0, f64::max);
     let across = (smallest / solid.spacing()).round().max(1.0) as usize;
     let is_coarse = across <= ERRORS.len() && largest >= SLENDER * smallest;
-    (is_coarse && solid.mechanics == Mechanics::Fem).then_some((across, smallest))
+    // The extents of a part are not its thickness.
+    let is_known = solid.mechanics == Mechanics::Fem && solid.part().is_none();
+    (is_coarse && is_known).then_some((across, smallest))
 }
