@@ -256,6 +256,27 @@ def test_scenes_are_built_once_for_each_content(pack, folder, tmp_path):
         Unit(first, fmi=3)
 
 
+def test_files_that_a_scene_names_belong_to_it(tmp_path):
+    """G-code and parts in the scene's folder or below it; others are refused by `build-fmu`."""
+    files_of = sys.modules["impinge.unit.build"].files_of
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "parts/ring.vtu").write_bytes(b"cells")
+    (tmp_path / "square.gcode").write_bytes(b"G1")
+    content = """
+    [body.ring]
+    shape = { part = { file = "parts/ring.vtu" } }
+    [body.ink]
+    path = { file = "square.gcode" }
+    [body.other]
+    shape = { part = { file = "../ring.vtu" } }
+    [body.box]
+    shape = { box = [1.0, 1.0, 1.0] }
+    """
+    found = files_of(content.encode(), tmp_path)
+    assert found == {"parts/ring.vtu": b"cells", "square.gcode": b"G1"}
+    assert files_of(f"{content}\n[files]\na = 'b'".encode(), tmp_path) == {}
+
+
 def test_units_of_others(folder):
     file = make(folder, "decay", [[-3.0]], [1.0], [2.0], d=0.5, x=[1.0], u_unit="K")
     with Unit(file) as unit:
