@@ -4,27 +4,40 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// Largest number of earlier iterates used.
+/// Largest number of earlier iterates used by default.
 const DEPTH: usize = 40;
 /// Threshold of singular values, relative to the largest.
 const SINGULAR: f64 = 1e-12;
 
 /// History of the iteration.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Anderson {
+    /// Largest number of earlier iterates used.
+    depth: usize,
     /// Differences of iterates and of their corrections, the oldest first.
     steps: Vec<DVector<f64>>,
     changes: Vec<DVector<f64>>,
     last: Option<(DVector<f64>, DVector<f64>)>,
 }
 
+impl Default for Anderson {
+    fn default() -> Self {
+        Self::of_depth(DEPTH)
+    }
+}
+
 impl Anderson {
+    /// Uses so many earlier iterates at most.
+    pub fn of_depth(depth: usize) -> Self {
+        Self { depth, steps: Vec::new(), changes: Vec::new(), last: None }
+    }
+
     /// Returns the next iterate after `x`; the plain iteration would continue with
     /// `x + correction`.
     pub fn next(&mut self, x: &[f64], correction: &[f64]) -> Vec<f64> {
         let (x, f) = (DVector::from_column_slice(x), DVector::from_column_slice(correction));
         if let Some((last_x, last_f)) = &self.last {
-            if self.steps.len() == DEPTH {
+            if self.steps.len() == self.depth {
                 self.steps.remove(0);
                 self.changes.remove(0);
             }

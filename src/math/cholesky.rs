@@ -13,6 +13,7 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
 
 use super::conjugate_gradients::NotConverged;
+use super::panel_solve;
 use super::supernodes::{self, Columns};
 use crate::runtime::address_space::TooLittle;
 use crate::runtime::parallel::Team;
@@ -107,13 +108,26 @@ impl RoundedCholesky {
             return;
         }
         let mut rounded: Vec<f32> = b.iter().map(|value| (value / size) as f32).collect();
-        let mut buffer = MemBuffer::new(self.symbolic.solve_in_place_scratch::<f32>(1, Par::Seq));
-        LltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
-            Conj::No,
-            MatMut::from_column_major_slice_mut(&mut rounded, unknowns, 1),
-            Par::Seq,
-            MemStack::new(&mut buffer),
-        );
+        match self.symbolic.raw() {
+            SymbolicCholeskyRaw::Supernodal(panels) => {
+                let place = self.symbolic.perm().map(|order| order.arrays().1);
+                let place = |i: usize| place.map_or(i, |place| place[i]);
+                let mut ordered = vec![0.0; unknowns];
+                rounded.iter().enumerate().for_each(|(i, value)| ordered[place(i)] = *value);
+                panel_solve::solve(panels, &self.values, &mut ordered);
+                rounded.iter_mut().enumerate().for_each(|(i, value)| *value = ordered[place(i)]);
+            }
+            SymbolicCholeskyRaw::Simplicial(_) => {
+                let need = self.symbolic.solve_in_place_scratch::<f32>(1, Par::Seq);
+                let mut buffer = MemBuffer::new(need);
+                LltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
+                    Conj::No,
+                    MatMut::from_column_major_slice_mut(&mut rounded, unknowns, 1),
+                    Par::Seq,
+                    MemStack::new(&mut buffer),
+                );
+            }
+        }
         let back = size / self.scale / self.scale;
         b.iter_mut().zip(rounded).for_each(|(value, own)| *value = back * f64::from(own));
     }
@@ -286,6 +300,23 @@ mod tests {
         let sequential = solve(1);
         for threads in [2, 3, 7] {
             assert!(sequential == solve(threads), "{threads} threads");
+        }
+    }
+
+    #[test]
+    fn rounded_factor_solves_to_single_precision() {
+        let n = 24;
+        let matrix = cube(n);
+        let order = crate::math::nested_dissection::nested_dissection([n - 1; 3], 1);
+        let factor = SparseCholesky::factor(&matrix, &order, 1).unwrap();
+        assert!(matches!(factor.symbolic.raw(), SymbolicCholeskyRaw::Supernodal(_)));
+        let load: Vec<f64> = (0..n * n * n).map(|i| 1e9 * (i as f64).sin()).collect();
+        let (mut exact, mut rounded) = (load.clone(), load);
+        factor.solve_in_place(&mut exact);
+        factor.rounded().solve_in_place(&mut rounded);
+        let size = exact.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        for (rounded, exact) in rounded.iter().zip(&exact) {
+            assert!((rounded - exact).abs() < 1e-5 * size, "{rounded} {exact}");
         }
     }
 

@@ -16,6 +16,7 @@ pub mod lanes;
 pub mod matrix3;
 pub mod nested_dissection;
 pub mod nine_point;
+mod panel_solve;
 pub mod parts;
 pub mod product;
 pub mod separable;

@@ -1,9 +1,11 @@
 //! Equilibrium of displacements at given damage, by Newton's method.
 //!
 //! Each linear system is solved by conjugate gradients, preconditioned by the factor of an earlier stiffness: from one
-//! system to the next few elements break, and each costs few iterations. The stiffness is factored anew where they
-//! become many. Factors are in single precision, which needs half of the memory. The stiffness is that of
-//! the intact section, in which damaged elements are corrected.
+//! system to the next few elements break, and each costs few iterations. Where they become many, the iteration stops,
+//! the stiffness is factored anew, and a new iteration finds the rest. Factors are in single precision, which needs half
+//! of the memory. The stiffness is that of the intact section, in which damaged elements are corrected.
+
+use std::sync::OnceLock;
 
 use super::DamageError;
 use super::elements::{Elements, Nodal, Released};
@@ -18,10 +20,12 @@ use crate::runtime::parallel::Team;
 const MOST_STEPS: usize = 40;
 const MOST_HALVINGS: usize = 8;
 const MOST_ITERATIONS: usize = 400;
-/// Conjugate-gradient iterations from which on a new factor costs less.
+/// Conjugate-gradient iterations that cost as much as a new factor.
 const WORTH_A_FACTOR: usize = 8;
 /// Reduction of the residual by the conjugate gradients of a Newton step.
 const REDUCTION: f64 = 1e-2;
+/// Part of the forces that may be left where Newton's method no longer reduces it.
+const MOST_LEFT: f64 = 0.1;
 /// Updates per unknown that a factorisation and an iteration take, for the allowance of a step.
 const WORK_OF_FACTOR: f64 = 3000.0;
 const WORK_OF_ITERATION: f64 = 100.0;
@@ -33,8 +37,9 @@ pub struct Unknowns {
     pub held: Vec<bool>,
     /// Number of each unknown; `usize::MAX` where it is held.
     number: Vec<usize>,
-    /// Order of elimination.
+    /// Order of elimination, and the pattern of all factors, once known.
     order: Vec<usize>,
+    elimination: OnceLock<Elimination>,
     count: usize,
 }
 
@@ -53,7 +58,7 @@ impl Unknowns {
             .filter(|&unknown| !held[unknown])
             .map(|unknown| number[unknown])
             .collect();
-        Self { grid, held, number, order, count }
+        Self { grid, held, number, order, elimination: OnceLock::new(), count }
     }
 }
 
@@ -67,8 +72,6 @@ pub struct Balance<'a> {
     /// Stiffness without damage.
     intact: NinePoint<2>,
     factor: Option<RoundedCholesky>,
-    /// Pattern of all factors, once known.
-    elimination: Option<Elimination>,
     /// Size of loads and of prevented thermal expansion [N], once known, and that of reactions.
     acting: Option<f64>,
     reactions: f64,
@@ -92,7 +95,6 @@ impl<'a> Balance<'a> {
             stiffness,
             intact: elements.intact_stiffness(team),
             factor: None,
-            elimination: None,
             acting: None,
             reactions: 0.0,
             factorings: 0,
@@ -136,9 +138,9 @@ impl<'a> Balance<'a> {
             }
         }
         let left = dot(&residual, &residual).sqrt() / self.scale(rise, load);
-        match left <= 1e3 * tolerance {
+        match left <= MOST_LEFT {
             true => Ok(released),
-            false => Err(DamageError::NoEquilibrium { residual: left, tolerance }),
+            false => Err(DamageError::NoEquilibrium { residual: left, tolerance: MOST_LEFT }),
         }
     }
 
@@ -191,9 +193,11 @@ impl<'a> Balance<'a> {
         if self.factor.is_none() {
             self.refactor()?;
         }
-        let (change, iterations) = self.iterate(force)?;
-        if iterations > WORTH_A_FACTOR {
-            self.factor = None;
+        let (mut change, left) = self.iterate(force, WORTH_A_FACTOR)?;
+        if let Some(left) = left {
+            self.refactor()?;
+            let (rest, _) = self.iterate(&left, MOST_ITERATIONS)?;
+            change.iter_mut().zip(&rest).for_each(|(change, rest)| *change += rest);
         }
         Ok(change)
     }
@@ -205,18 +209,25 @@ impl<'a> Balance<'a> {
         let threads = self.team.threads();
         // The old factor goes before the new one comes.
         self.factor = None;
-        let elimination = match self.elimination.take() {
-            Some(known) => known,
-            None => Elimination::new(&lower, &self.unknowns.order)?,
+        let known = &self.unknowns.elimination;
+        let elimination = match known.get() {
+            Some(elimination) => elimination,
+            None => {
+                let new = Elimination::new(&lower, &self.unknowns.order)?;
+                known.get_or_init(|| new)
+            }
         };
-        let factor = elimination.factor(&lower, threads);
-        self.elimination = Some(elimination);
-        self.factor = Some(factor?.rounded());
+        self.factor = Some(elimination.factor(&lower, threads)?.rounded());
         Ok(())
     }
 
-    /// Preconditioned conjugate gradients from zero.
-    fn iterate(&mut self, force: &[f64]) -> Result<(Vec<f64>, usize), DamageError> {
+    /// Preconditioned conjugate gradients from zero. Returns the residual, too, if it is too large after the most
+    /// iterations.
+    fn iterate(
+        &mut self,
+        force: &[f64],
+        most: usize,
+    ) -> Result<(Vec<f64>, Option<Vec<f64>>), DamageError> {
         let unknowns = self.unknowns;
         let mut residual = force.to_vec();
         let mut solution = vec![0.0; force.len()];
@@ -226,9 +237,9 @@ impl<'a> Balance<'a> {
         let mut energy = dot(&residual, &improved);
         let wanted = REDUCTION * REDUCTION * energy;
         let mut product = vec![0.0; force.len()];
-        for iteration in 0..MOST_ITERATIONS {
+        for _ in 0..most {
             if energy <= wanted || energy <= 0.0 {
-                return Ok((solution, iteration));
+                return Ok((solution, None));
             }
             self.iterations += 1;
             self.allowance.spend(WORK_OF_ITERATION, "iterations of equilibrium", unknowns.count)?;
@@ -244,7 +255,8 @@ impl<'a> Balance<'a> {
             direction.inner_mut().iter_mut().zip(&improved).for_each(|(d, z)| *d = z + part * *d);
             energy = next;
         }
-        Ok((solution, MOST_ITERATIONS))
+        let is_large = energy > wanted;
+        Ok((solution, is_large.then_some(residual)))
     }
 
     fn precondition(&self, residual: &[f64]) -> Vec<f64> {

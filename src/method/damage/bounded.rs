@@ -14,7 +14,7 @@ const MOST_ITERATIONS: usize = 2000;
 const REDUCTION: f64 = 1e-3;
 
 /// Minimises `½ d·A d − b·d` over `low ≤ d ≤ 1` from the values of `damage`, until no value would move by more than
-/// `tolerance`.
+/// `tolerance`. Returns the gradient at the values before.
 pub fn minimise(
     matrix: &NinePoint<1>,
     load: &[f64],
@@ -22,13 +22,17 @@ pub fn minimise(
     damage: &mut Padded<1>,
     tolerance: f64,
     team: &Team,
-) {
+) -> Vec<f64> {
     let nodes = matrix.grid().nodes();
     let all: Vec<u32> = (0..nodes as u32).collect();
-    let mut product = vec![0.0; nodes];
-    for _ in 0..MOST_STEPS {
+    let gradient_of = |damage: &Padded<1>| -> Vec<f64> {
+        let mut product = vec![0.0; nodes];
         matrix.product_of(&all, damage, &mut product, team);
-        let gradient: Vec<f64> = product.iter().zip(load).map(|(p, b)| p - b).collect();
+        product.iter().zip(load).map(|(p, b)| p - b).collect()
+    };
+    let first = gradient_of(damage);
+    let mut gradient = first.clone();
+    for _ in 0..MOST_STEPS {
         let d = damage.inner();
         let is_free = |&n: &u32| {
             let n = n as usize;
@@ -39,9 +43,11 @@ pub fn minimise(
         let step = newton_step(matrix, &free, &gradient, team);
         let moved = project(matrix, &free, &step, &gradient, low, damage, team);
         if moved <= tolerance {
-            return;
+            break;
         }
+        gradient = gradient_of(damage);
     }
+    first
 }
 
 /// Takes the longest of the step and its halves along which the function falls; returns the largest change of a value.

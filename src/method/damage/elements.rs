@@ -78,11 +78,17 @@ impl Elements {
         }
     }
 
-    fn respond(&self, element: [usize; 2], nodal: &Nodal, with_stiffness: bool) -> ElementForces {
+    /// Forces of an element, and on request the difference of its stiffness from that of a tangent.
+    fn respond(
+        &self,
+        element: [usize; 2],
+        nodal: &Nodal,
+        reference: Option<&[Components; 4]>,
+    ) -> ElementForces {
         let mut found = ElementForces {
             forces: [0.0; 8],
             released: [0.0; POINTS],
-            stiffness: with_stiffness.then(|| Box::new([0.0; 64])),
+            stiffness: reference.map(|_| Box::new([0.0; 64])),
         };
         self.each_point(element, nodal, |q, point, response| {
             found.released[q] = response.released;
@@ -91,17 +97,24 @@ impl Elements {
             for (force, strain) in found.forces.iter_mut().zip(&strains) {
                 *force += point.volume * dot(strain, &response.stress);
             }
-            if let Some(stiffness) = &mut found.stiffness {
-                add_stiffness(stiffness, point, &strains, response.stiffness.tangent());
+            if let (Some(stiffness), Some(reference)) = (&mut found.stiffness, reference) {
+                let mut tangent = response.stiffness.tangent();
+                let entries = tangent.as_flattened_mut().iter_mut().zip(reference.as_flattened());
+                entries.for_each(|(own, reference)| *own -= reference);
+                add_stiffness(stiffness, point, &strains, tangent);
             }
         });
         found.stiffness.iter_mut().for_each(|stiffness| mirror(stiffness));
         found
     }
 
+    fn intact_tangent(&self) -> [Components; 4] {
+        self.law.respond([0.0; 4], 0.0).stiffness.tangent()
+    }
+
     /// Stiffness of an intact element.
     fn intact(&self, element: [usize; 2]) -> Box<[f64; 64]> {
-        let tangent = self.law.respond([0.0; 4], 0.0).stiffness.tangent();
+        let tangent = self.intact_tangent();
         let mut stiffness = Box::new([0.0; 64]);
         for point in &self.section.points(element) {
             let strains = std::array::from_fn(|k| point.unit_strains(k / 2)[k % 2]);
@@ -144,18 +157,14 @@ impl Elements {
         let [columns, rows] = self.grid.elements();
         let mut forces = vec![0.0; 2 * self.grid.nodes()];
         let mut released = Vec::with_capacity(columns * rows);
-        let wants = stiffness.is_some();
+        let intact = stiffness.is_some().then(|| self.intact_tangent());
         // Computed on all threads, added in fixed order.
         for first in (0..rows).step_by(ROWS) {
             let found = team.map((rows - first).min(ROWS), |row| {
                 let of_row = (0..columns).map(|i| {
                     let place = [i, first + row];
-                    let is_damaged = wants && self.is_damaged(place, nodal);
-                    let mut found = self.respond(place, nodal, is_damaged);
-                    if let Some(own) = &mut found.stiffness {
-                        own.iter_mut().zip(&*self.intact(place)).for_each(|(own, all)| *own -= all);
-                    }
-                    found
+                    let reference = intact.as_ref().filter(|_| self.is_damaged(place, nodal));
+                    self.respond(place, nodal, reference)
                 });
                 of_row.collect::<Vec<_>>()
             });

@@ -1,5 +1,6 @@
 //! Cracks as gradient damage: sections of solids that minimise elastic energy and that of cracks.
 
+mod acceleration;
 mod balance;
 mod bounded;
 mod broken;
