@@ -25,6 +25,7 @@
 //! | [`slab`] | slab under flux, its back insulated, held or convective |
 //! | [`composite_slab`] | slab of layers with contacts that resist, under flux or sudden temperature |
 //! | [`convective_slab`] | slab that meets a fluid, its back insulated |
+//! | [`dipped_plate`] | thin plate that sinks into a bath at constant speed |
 //! | [`kirchhoff`] | half space and slab with a conductivity linear in the temperature |
 //! | [`melting_front`] | half space that melts or freezes from its surface |
 //! | [`freezing_contact`] | two half spaces brought together, one of which freezes |
@@ -65,6 +66,7 @@ pub mod constrained_layer;
 pub mod contact;
 pub mod convective_slab;
 pub mod cooling_film;
+pub mod dipped_plate;
 pub mod disc_pressure;
 pub mod drawn_rubber;
 pub mod drop_impact;

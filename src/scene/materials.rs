@@ -253,12 +253,13 @@ impl Solid {
         self.material.iter().chain(layers).map(MaterialChoice::material).collect()
     }
 
-    /// Returns true if heat obeys a linear equation: no constant depends on the temperature, nothing melts, no face
-    /// radiates.
+    /// Returns true if heat obeys a linear equation with constant coefficients: no constant depends on the temperature,
+    /// nothing melts, no face radiates, and no bath wets more and more of the body.
     pub fn conducts_linearly(&self) -> bool {
         let mut materials = self.materials_of_layers().into_iter();
         materials.all(|material| material.heat.is_linear())
             && self.faces.values().all(|face| face.radiation.is_none())
+            && self.bath.is_none()
     }
 
     /// Returns true if stress depends linearly on deformation and temperature.

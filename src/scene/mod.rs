@@ -3,6 +3,7 @@
 //! Text → `locate` (TOML with positions) → `shorthand` (units, substances) → `decode` (types) → `check` (consistency) →
 //! [`Scene`].
 
+mod bath;
 mod cells;
 pub(crate) mod check;
 mod contact;
@@ -31,6 +32,7 @@ mod load;
 pub(crate) mod locate;
 mod lookup;
 mod materials;
+mod notch;
 mod part;
 mod reading;
 mod recording;
@@ -54,8 +56,8 @@ use std::path::Path;
 pub use cells::Cells;
 pub use check::takes_newton;
 pub use constants::{
-    Constant, DropletConstant, FilamentConstant, FluidConstant, LatticeConstant, LayersOf,
-    OfferedConstant,
+    BathConstant, Constant, DropletConstant, FilamentConstant, FluidConstant, LatticeConstant,
+    LayersOf, OfferedConstant,
 };
 pub use contact::FirstContact;
 pub use coupling::{Coupling, Wall, WallStart};

@@ -76,8 +76,8 @@ impl Scene {
             return obstacle(Place::Body("heat"), message, "fem");
         }
         if takes_newton(self, solid) {
-            let message = "a reduced model needs linear heat: constants independent of temperature, nothing that melts \
-                           and no face that radiates";
+            let message = "a reduced model needs linear heat: constants independent of temperature, nothing that \
+                           melts, no face that radiates and no bath";
             return obstacle(Place::Level, message, "full, auto");
         }
         if self.asks_mechanics(name) && !solid.deforms_linearly() {

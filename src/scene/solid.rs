@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::large_strain::SmallStrain;
 use super::materials::MaterialChoice;
-use super::types::{Face, FaceName};
+use super::types::{Bath, Face, FaceName, Notch};
 use crate::kernel::Kernel;
 use crate::limits::{
     Keys, above_zero, length, not_negative, own_temperature, plausible, whole, within,
@@ -61,6 +61,14 @@ pub struct Solid {
         transform = Keys(FaceName::ALL.map(FaceName::as_str))
     )]
     pub faces: BTreeMap<FaceName, Face>,
+    /// A bath into which the body sinks, bottom first.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("condition" = "with `mesh.depth_spacing` and `mesh.growth = 1.0` unless the body cracks", "otherwise" = "none"))]
+    pub bath: Option<Bath>,
+    /// Cracks at time zero.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(extend("condition" = "of bodies that crack (`fracture`)", "otherwise" = "none"))]
+    pub notches: Vec<Notch>,
     /// Running maxima of the body as outputs, each with its time and position.
     #[serde(default)]
     #[schemars(extend("uniqueItems" = true))]

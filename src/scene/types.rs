@@ -17,8 +17,10 @@ use super::shorthand::NamedSubstance;
 use crate::laws::Material;
 use crate::limits::{tag, time};
 
+pub use super::bath::Bath;
 pub use super::face::{Convection, Face, FaceName, Radiation, Role};
 pub use super::load::{Carries, CellShape, CellValues, Footprint, Load, LoadRange, LoadStart};
+pub use super::notch::Notch;
 pub use super::reading::{Field, Gives, Plane, Probe, Side};
 pub use super::settings::{Fidelity, FidelityLevel, MOST_THREADS, Naming, Solver, SolverMethod};
 pub use super::solid::{

@@ -42,6 +42,37 @@ fn cool(trial: &mut Trial, drop: f64) {
 }
 
 #[test]
+fn notched_strip_breaks_at_its_notch() {
+    let notch = format!("{STRIP}\nnotches = [{{ from = [0.2e-3, 0.0], to = [0.2e-3, -0.15e-3] }}]");
+    let probe = |name: &str, x: f64| {
+        format!(
+            "[[probe]]\nname = \"{name}\"\nin = \"plate\"\nat = [{x}, 0.0, -0.3e-3]\ngives = [\"damage\"]\n"
+        )
+    };
+    let probes = probe("below", 0.2e-3) + &probe("far", -0.2e-3);
+    let mut trial = Trial::new(&scene(&notch, &alumina(AT1), HELD, &probes));
+    assert_eq!(trial.get("plate.max_damage"), 1.0);
+    assert_eq!(trial.get("plate.crack_count"), 1.0);
+    let depth = trial.get("plate.crack_depth");
+    assert!((0.15e-3..0.18e-3).contains(&depth), "{depth}");
+    // A notch has its own length, and the end of its profile.
+    let length = trial.get("plate.crack_length");
+    assert!((0.15e-3..0.25e-3).contains(&length), "{length}");
+    assert_eq!(trial.get("plate.elastic_energy"), 0.0);
+    let drop = |part: f64| part * 300e6 / (YOUNG * EXPANSION);
+    cool(&mut trial, drop(0.05));
+    assert_eq!(trial.get("plate.first_crack_time"), 0.0);
+    cool(&mut trial, drop(0.75));
+    assert!(trial.get("below.damage") > 0.9);
+    assert!(trial.get("far.damage") < 0.1);
+    assert_eq!(trial.get("plate.crack_count"), 1.0);
+    let time = trial.get("plate.first_crack_time");
+    assert!(time > 1.0 && time <= 2.0, "{time}");
+    let length = trial.get("plate.crack_length");
+    assert!(off(length, 0.4e-3) < 0.1, "{length}");
+}
+
+#[test]
 fn held_strip_breaks_at_its_strength() {
     let (mut trial, drop) = held_strip();
     cool(&mut trial, drop(0.95));

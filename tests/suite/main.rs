@@ -19,6 +19,7 @@ mod thick_flows;
 
 mod adversarial;
 mod architecture;
+mod baths;
 mod concrete;
 mod contact;
 mod cracks;

@@ -23,7 +23,7 @@ const CONCRETE: &str = include_str!("../scenes/concrete.toml");
 /// stands there with a key that there is not, and keys that choose the section's type.
 type Section = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
-const SECTIONS: [Section; 66] = [
+const SECTIONS: [Section; 68] = [
     ("The whole", PLATE, "stop_time =", "zz = 1\nstop_time =", &[]),
     ("`fidelity`", PLATE, "level =", "zz = 1\nlevel =", &[]),
     ("`solver`", PLATE, "stop_time =", "solver = { zz = 1 }\nstop_time =", &[]),
@@ -144,6 +144,20 @@ const SECTIONS: [Section; 66] = [
         PLATE,
         "[body.plate.faces]",
         "[body.plate.faces]\ntop = { radiation = { zz = 1 } }",
+        &[],
+    ),
+    (
+        "`bath` of a solid",
+        PLATE,
+        "initial_temperature",
+        "bath = { zz = 1 }\ninitial_temperature",
+        &[],
+    ),
+    (
+        "`notches` of a solid",
+        PLATE,
+        "initial_temperature",
+        "notches = [{ zz = 1 }]\ninitial_temperature",
         &[],
     ),
     (

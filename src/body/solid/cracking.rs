@@ -12,6 +12,7 @@ use crate::method::damage::{
 use crate::method::fem::elastic::Support;
 use crate::method::fem::{Deformation, Geometry, Mesh, Plan, Remembered, SolidLoads};
 use crate::runtime::allowance::Allowance;
+use crate::scene::Notch;
 use crate::state::{Field, Layout, Per};
 
 /// Largest number of halvings of a step in which temperatures change much.
@@ -30,6 +31,10 @@ pub struct Cracking {
     copies: f64,
     /// Width of the body along the normal of a plane section [m].
     width: Option<f64>,
+    /// The state at time zero, if the body has notches, without load.
+    notched: Option<DamageState>,
+    /// Nodes of notches.
+    cut: Vec<bool>,
     /// Kinds of the section's sides.
     sides: [[Side; 2]; 2],
     /// Largest change of temperature in a part of a step [K].
@@ -60,12 +65,14 @@ impl Cracking {
         let along_y = if mesh.mirrored[1] { 2.0 } else { 1.0 };
         let axes = [mesh.axes[0].nodes.clone(), mesh.axes[2].nodes.clone()];
         let breaking = law.strength() / (law.elastic.young * law.expansion.abs());
+        let elements = Elements::new(Section { axes, form }, law);
+        let problem = DamageProblem::new(elements, held(plan), threads);
+        let start = notched(&problem, &plan.notches);
+        let damage = start.as_ref().map(|state| state.damage.as_slice());
         Some(Self {
-            problem: DamageProblem::new(
-                Elements::new(Section { axes, form }, law),
-                held(plan),
-                threads,
-            ),
+            cut: damage.map_or(vec![false; problem.elements.grid.nodes()], Section::broken),
+            notched: start,
+            problem,
             counts: mesh.node_counts(),
             copies: mesh.copies(),
             width: (mesh.geometry == Geometry::Box).then_some(along_y * thickness),
@@ -81,7 +88,7 @@ impl Cracking {
 
     /// Returns the state at time zero: in equilibrium at a temperature above the stress-free one [K], without forces.
     pub fn initial_state(&self, rise: f64) -> Vec<f64> {
-        let mut state = self.problem.initial_state();
+        let mut state = self.notched.clone().unwrap_or_else(|| self.problem.initial_state());
         if rise != 0.0 {
             let rises = vec![rise; self.nodes()];
             let none = vec![0.0; 2 * self.nodes()];
@@ -138,9 +145,15 @@ impl Cracking {
         let [clock, first] = self.times(flat);
         let clock = clock + duration;
         flat[4 * self.nodes() + 1] = clock;
-        if first == 0.0 && self.cracks(flat).count > 0 {
+        if first == 0.0 && self.has_cracked(flat) {
             flat[4 * self.nodes() + 2] = clock;
         }
+    }
+
+    /// Returns true if there are cracks other than notches.
+    fn has_cracked(&self, flat: &[f64]) -> bool {
+        let [_, damage, _] = self.places();
+        self.problem.elements.section.has_grown(&flat[damage], &self.cut)
     }
 
     fn cracks(&self, flat: &[f64]) -> Cracks {
@@ -159,7 +172,7 @@ impl Cracking {
         wrong.map_or(Ok(()), |value| Err(format!("equilibrium at {value:e} K")))?;
         let [clock, first] = self.times(flat);
         let is_possible = (0.0..=clock).contains(&first) && clock < f64::INFINITY;
-        match is_possible && (first == 0.0 || self.cracks(flat).count > 0) {
+        match is_possible && (first == 0.0 || self.has_cracked(flat)) {
             true => Ok(()),
             false => Err(format!("a first crack at {first:e} s, {clock:e} s from the start")),
         }
@@ -201,6 +214,25 @@ impl Cracking {
             None => nodal.into_flattened(),
         }
     }
+}
+
+/// A section with notches, whose damage is the least that they need; `None` without any.
+fn notched(problem: &DamageProblem, notches: &[Notch]) -> Option<DamageState> {
+    if notches.is_empty() {
+        return None;
+    }
+    let mut state = problem.initial_state();
+    for notch in notches {
+        for node in problem.elements.section.nodes_along([notch.from, notch.to]) {
+            state.damage[node] = 1.0;
+        }
+    }
+    let cut = state.clone();
+    let rise = vec![0.0; state.damage.len()];
+    let none = vec![0.0; state.displacement.len()];
+    // Without load the damage beside notches has no reason to fail; the first step would report it.
+    let spread = problem.advance(&mut state, (&rise, &none), &Allowance::default());
+    Some(if spread.is_ok() { state } else { cut })
 }
 
 /// Kinds of the section's sides. Cracks along a face that is held begin elsewhere.

@@ -7,6 +7,8 @@ use crate::math::nine_point::Grid;
 
 /// Damage from which on a place is broken [1]: it bears less than a hundredth of the stiffness.
 const BROKEN: f64 = 0.9;
+/// Points per element at which a straight crack is followed.
+const POINTS_OF_AN_ELEMENT: f64 = 8.0;
 
 /// Sides of a section: the first and the last along its first axis, then along z.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -70,6 +72,38 @@ impl Section {
         let copies = |region: &Vec<usize>| if mirrored && !touches(region) { 2 } else { 1 };
         let depths = regions.iter().map(|region| self.depth(region, sides));
         Cracks { count: regions.iter().map(copies).sum(), depth: depths.fold(0.0, f64::max) }
+    }
+
+    /// Nodes of the elements through which a straight crack passes, from one point to another [m].
+    pub fn nodes_along(&self, [from, to]: [[f64; 2]; 2]) -> BTreeSet<usize> {
+        let grid = self.grid();
+        let elements = grid.elements();
+        let finest = [0, 1].map(|axis| {
+            let sizes = self.axes[axis].windows(2).map(|pair| pair[1] - pair[0]);
+            sizes.fold(f64::INFINITY, f64::min)
+        });
+        let longest = [0, 1].map(|axis| (to[axis] - from[axis]).abs() / finest[axis]);
+        let parts = (POINTS_OF_AN_ELEMENT * longest[0].max(longest[1])).ceil().max(1.0);
+        let of_part = |part: usize| {
+            let share = part as f64 / parts;
+            let place = [0, 1].map(|axis| {
+                let along = from[axis] + share * (to[axis] - from[axis]);
+                let below = self.axes[axis].partition_point(|&node| node <= along);
+                below.saturating_sub(1).min(elements[axis] - 1)
+            });
+            grid.corners(place)
+        };
+        (0..=parts as usize).flat_map(of_part).collect()
+    }
+
+    /// Returns true if a crack has a node that is not among those broken from the start.
+    pub fn has_grown(&self, damage: &[f64], from_start: &[bool]) -> bool {
+        regions(self.grid(), damage).iter().flatten().any(|&node| !from_start[node])
+    }
+
+    /// Broken nodes.
+    pub fn broken(damage: &[f64]) -> Vec<bool> {
+        damage.iter().map(|&damage| damage >= BROKEN).collect()
     }
 
     /// Returns true if a crack at later damage is not part of one at earlier damage.
@@ -182,6 +216,32 @@ mod tests {
     fn through_crack_has_the_depth_of_the_body() {
         let (section, damage) = broken(&[0, 1, 2, 3, 4].map(|j| [1, j]));
         assert!((section.cracks(&damage, FACES).depth - 4e-3).abs() < 1e-15);
+    }
+
+    #[test]
+    fn straight_crack_breaks_a_row_of_elements() {
+        let (section, _) = broken(&[]);
+        let nodes = |from, to| -> Vec<usize> {
+            section
+                .nodes_along([from, to])
+                .into_iter()
+                .map(|node| node % 9 + 100 * (node / 9))
+                .collect()
+        };
+        assert_eq!(nodes([2.5e-3, 0.0], [2.5e-3, 1.5e-3]), [2, 3, 102, 103, 202, 203]);
+        // On a line of nodes it breaks one row, too.
+        assert_eq!(nodes([2e-3, 0.5e-3], [3.5e-3, 0.5e-3]), [2, 3, 4, 102, 103, 104]);
+        assert_eq!(nodes([8e-3, 4e-3], [8e-3, 4e-3]), [307, 308, 407, 408]);
+    }
+
+    #[test]
+    fn crack_has_grown_where_it_was_not_at_the_start() {
+        let (section, start) = broken(&[[2, 4], [2, 3]]);
+        let from_start = Section::broken(&start);
+        let (_, longer) = broken(&[[2, 4], [2, 3], [2, 2]]);
+        let (_, point) = broken(&[[2, 4], [2, 3], [6, 1]]);
+        let grown = [&start, &longer, &point].map(|damage| section.has_grown(damage, &from_start));
+        assert_eq!(grown, [false, true, false]);
     }
 
     #[test]

@@ -11,6 +11,8 @@ pub struct Body {
     pub copies: f64,
     pub grid: Grid,
     pub lateral: Lateral,
+    /// Area of a level [m²].
+    area: f64,
     /// Volume next to each node [m³].
     pub volumes: Vec<f64>,
     /// Laws of the levels' volumetric enthalpy, and the index of each level's law.
@@ -31,6 +33,8 @@ pub struct FaceNodes {
     high: bool,
     /// Nodes with their areas [m²]; for a prescribed face those that it holds.
     pub nodes: Vec<(usize, f64)>,
+    /// Ends along z of the part of the face that each node represents [m].
+    spans: Vec<[f64; 2]>,
     measure: f64,
 }
 
@@ -51,6 +55,17 @@ pub struct Fields {
 pub struct Drive {
     pub faces: Vec<f64>,
     pub surface: [Vec<f64>; 2],
+}
+
+/// Derivatives of the heat losses to the surroundings by temperature.
+pub struct Losses {
+    /// Of the nodes [W/K].
+    pub nodes: Vec<f64>,
+    /// Their means over the areas of bottom and top [W/(m² K)].
+    pub ends: [f64; 2],
+    /// Those of each level to a bath, through lateral faces, over the area of the level [W/(m² K)]; empty without a
+    /// bath. Other lateral faces belong to the modes of conduction along x and y.
+    pub aside: Vec<f64>,
 }
 
 /// Heat that flows at a moment [W].
@@ -82,6 +97,7 @@ impl Body {
             copies: setup.mesh.copies(),
             grid,
             lateral,
+            area: areas.iter().sum(),
             volumes,
             laws,
             law_of,
@@ -139,10 +155,10 @@ impl Body {
             match face.condition {
                 Condition::Prescribed => continue,
                 Condition::Flux => brought_in += face.measure * value,
-                Condition::Convective(_) | Condition::Radiative(_) => {}
+                Condition::Convective(_) | Condition::Radiative(_) | Condition::Wetted { .. } => {}
             }
-            for &(node, area) in &face.nodes {
-                let heat = area * self.flux(face.condition, fields.rise[node], value);
+            for (&(node, area), span) in face.nodes.iter().zip(&face.spans) {
+                let heat = area * self.flux(face.condition, fields.rise[node], value, span);
                 nodes[node] += heat;
                 if face.condition != Condition::Flux {
                     lost -= heat;
@@ -158,10 +174,13 @@ impl Body {
     }
 
     /// Flux into a face [W/m²].
-    fn flux(&self, condition: Condition, rise: f64, value: f64) -> f64 {
+    fn flux(&self, condition: Condition, rise: f64, value: f64, span: &[f64; 2]) -> f64 {
         match condition {
             Condition::Flux => value,
             Condition::Convective(coefficient) => coefficient * ((value - self.reference) - rise),
+            Condition::Wetted { coefficient, ambient } => {
+                wet(span, value) * coefficient * ((ambient - self.reference) - rise)
+            }
             Condition::Radiative(emissivity) => {
                 radiative_flux(emissivity, self.reference + rise, value)
             }
@@ -170,31 +189,40 @@ impl Body {
     }
 
     /// `−∂q/∂T` [W/(m² K)].
-    fn flux_slope(&self, condition: Condition, rise: f64) -> f64 {
+    fn flux_slope(&self, condition: Condition, rise: f64, value: f64, span: &[f64; 2]) -> f64 {
         match condition {
             Condition::Flux | Condition::Prescribed => 0.0,
             Condition::Convective(coefficient) => coefficient,
+            Condition::Wetted { coefficient, .. } => wet(span, value) * coefficient,
             Condition::Radiative(emissivity) => radiative_slope(emissivity, self.reference + rise),
         }
     }
 
-    /// Derivative of the nodal heat losses with respect to temperature [W/K], and its mean over the areas of bottom and
-    /// top [W/(m² K)].
-    pub fn losses(&self, fields: &Fields) -> (Vec<f64>, [f64; 2]) {
+    pub fn losses(&self, fields: &Fields, drive: &Drive) -> Losses {
         let mut losses = vec![0.0; fields.rise.len()];
         let mut ends = [0.0; 2];
-        for face in &self.faces {
+        let mut aside = Vec::new();
+        for (face, &value) in self.faces.iter().zip(&drive.faces) {
             let mut sum = 0.0;
-            for &(node, area) in &face.nodes {
-                let loss = area * self.flux_slope(face.condition, fields.rise[node]);
+            for (&(node, area), span) in face.nodes.iter().zip(&face.spans) {
+                let rise = fields.rise[node];
+                let loss = area * self.flux_slope(face.condition, rise, value, span);
                 losses[node] += loss;
                 sum += loss;
             }
-            if face.axis == 2 {
-                ends[usize::from(face.high)] += sum / face.measure;
+            match face.condition {
+                _ if face.axis == 2 => ends[usize::from(face.high)] += sum / face.measure,
+                Condition::Wetted { coefficient, .. } => {
+                    aside.resize(self.grid.levels.len(), 0.0);
+                    for (&(node, area), span) in face.nodes.iter().zip(&face.spans) {
+                        let loss = area * coefficient * wet(span, value);
+                        aside[node / self.grid.plane()] += loss / self.area;
+                    }
+                }
+                _ => {}
             }
         }
-        (losses, ends)
+        Losses { nodes: losses, ends, aside }
     }
 
     /// Sets the enthalpy of nodes of prescribed temperature.
@@ -222,6 +250,14 @@ impl Drive {
             weight *= t / (order + 1) as f64;
         }
         drive
+    }
+}
+
+/// Part of a span along z that is below a surface [1]; a span without extent is either above or below.
+fn wet(&[low, high]: &[f64; 2], surface: f64) -> f64 {
+    match high > low {
+        true => ((surface - low) / (high - low)).clamp(0.0, 1.0),
+        false => f64::from(u8::from(surface > low)),
     }
 }
 
@@ -258,14 +294,20 @@ fn laws(setup: &Setup, grid: &Grid) -> (Vec<Enthalpy>, Vec<usize>) {
 }
 
 fn face_nodes(setup: &Setup, grid: &Grid, held: &mut [bool]) -> Vec<FaceNodes> {
+    let bounds = grid.bounds(setup.mesh.axes[2].start());
     let face_nodes = |face: &super::setup::Face| {
         let (axis, high) = (face.place.axis, face.place.high);
         let mut nodes = grid.face(axis, high);
         let measure = nodes.iter().map(|(_, area)| area).sum();
+        let span = |&(node, _): &(usize, f64)| match axis {
+            2 => [bounds[if high { bounds.len() - 1 } else { 0 }]; 2],
+            _ => [bounds[node / grid.plane()], bounds[node / grid.plane() + 1]],
+        };
         if face.condition == Condition::Prescribed {
             nodes.retain(|&(node, _)| !std::mem::replace(&mut held[node], true));
         }
-        FaceNodes { condition: face.condition, axis, high, nodes, measure }
+        let spans = nodes.iter().map(span).collect();
+        FaceNodes { condition: face.condition, axis, high, nodes, spans, measure }
     };
     setup.faces.iter().map(face_nodes).collect()
 }

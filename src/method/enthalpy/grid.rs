@@ -98,6 +98,16 @@ impl Grid {
         y.mass.iter().enumerate().flat_map(of).collect()
     }
 
+    /// Ends along z of what the levels represent, from the lowest on [m]; `bottom` is that of the body.
+    pub fn bounds(&self, bottom: f64) -> Vec<f64> {
+        let mut bounds = vec![bottom];
+        bounds.extend(self.levels.iter().scan(bottom, |end, level| {
+            *end += level.height();
+            Some(*end)
+        }));
+        bounds
+    }
+
     /// Computes the heat flow into each node [W] from `∫ k dT` with the materials of the elements below and above, and
     /// from temperatures at contacts. Flows between two nodes are equal and opposite.
     pub fn conduct(&self, integrals: [&[f64]; 2], temperatures: &[f64], out: &mut [f64]) {

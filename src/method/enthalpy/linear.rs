@@ -25,6 +25,8 @@ pub struct Coefficients<'a> {
     pub inverse: Vec<f64>,
     /// `∂q/∂T` of the bottom and top, means [W/(m² K)].
     pub ends: [f64; 2],
+    /// That of each level through lateral faces to a bath, per area of the level [W/(m² K)]; empty without a bath.
+    pub aside: Vec<f64>,
     pub held: &'a [bool],
 }
 
@@ -194,7 +196,8 @@ impl Bands {
             bands.above[k] = -tau * high;
             bands.below[k + 1] = -tau * low;
         }
-        for (k, loss) in [0, count - 1].into_iter().zip(coefficients.ends) {
+        let aside = coefficients.aside.iter().copied().enumerate();
+        for (k, loss) in [0, count - 1].into_iter().zip(coefficients.ends).chain(aside) {
             bands.diagonal[k] += tau * loss * means.inverse[k];
         }
         for (k, level) in grid.levels.iter().enumerate() {

@@ -43,6 +43,9 @@ pub enum Condition {
     Convective(f64),
     /// Emissivity ε of `q = ε σ (T∞⁴ − T⁴)` [1]; the value is the temperature of the surroundings T∞ [K].
     Radiative(f64),
+    /// Heat transfer coefficient h [W/(m² K)] and temperature [K] of a bath, which covers what is below its surface; the
+    /// value is the height of the surface [m], along z from the origin.
+    Wetted { coefficient: f64, ambient: f64 },
     /// The value is the prescribed temperature [K]. On an edge of two such faces, the one listed first applies.
     Prescribed,
 }
@@ -74,6 +77,8 @@ pub enum SetupError {
     Conductance(f64),
     #[error("heat transfer coefficient {0} W/(m² K) (allowed: finite, 0 or above)")]
     Coefficient(f64),
+    #[error("a bath at {0} K (allowed: finite, above 0)")]
+    Ambient(f64),
     #[error("emissivity {0} (allowed: 0 to 1)")]
     Emissivity(f64),
     #[error("a face on axis {0} that has no elements")]
@@ -135,6 +140,14 @@ impl Setup {
         match face.condition {
             Condition::Convective(h) if !(h >= 0.0 && h.is_finite()) => {
                 Err(SetupError::Coefficient(h))
+            }
+            Condition::Wetted { coefficient, .. }
+                if !(coefficient >= 0.0 && coefficient.is_finite()) =>
+            {
+                Err(SetupError::Coefficient(coefficient))
+            }
+            Condition::Wetted { ambient, .. } if !(ambient > 0.0 && ambient.is_finite()) => {
+                Err(SetupError::Ambient(ambient))
             }
             Condition::Radiative(emissivity) if !(0.0..=1.0).contains(&emissivity) => {
                 Err(SetupError::Emissivity(emissivity))

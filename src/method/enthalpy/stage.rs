@@ -1,6 +1,6 @@
 //! One implicit stage: `V H − τ R(H) = known`, by Newton's method with line search.
 
-use super::body::{Body, Drive, Fields, Flow};
+use super::body::{Body, Drive, Fields, Flow, Losses};
 use super::linear::{Coefficients, System};
 use crate::math::{bicgstab, conjugate_gradients};
 use crate::runtime::allowance::{Allowance, Halt};
@@ -79,7 +79,7 @@ impl Stage<'_> {
     /// Newton's system at the fields of an iterate.
     fn system(&self, fields: &Fields) -> System<'_> {
         let body = self.body;
-        let (mut loss, ends) = body.losses(fields);
+        let Losses { nodes: mut loss, ends, aside } = body.losses(fields, self.drive);
         let count = fields.rise.len();
         let mut storage = vec![f64::INFINITY; count];
         let mut ratios = [vec![0.0; count], vec![0.0; count]];
@@ -105,7 +105,7 @@ impl Stage<'_> {
             }
         }
         let held = &body.held;
-        let coefficients = Coefficients { storage, loss, ratios, inverse, ends, held };
+        let coefficients = Coefficients { storage, loss, ratios, inverse, ends, aside, held };
         System::new(&body.grid, &body.lateral, self.tau, coefficients)
     }
 

@@ -10,6 +10,7 @@ use crate::method::enthalpy::{
 use crate::method::heat_totals::HeatTotals;
 use crate::method::mesh::Mesh;
 use crate::runtime::allowance::Allowance;
+use crate::scene::Bath;
 use crate::state::{Field, Layout, Per};
 
 /// Enthalpy method behind the interface of a solid's heat: temperatures above the initial one, with nodes on interfaces
@@ -21,6 +22,10 @@ pub struct NonlinearHeat {
     faces: Vec<ThermalFace>,
     /// Ambient temperatures of radiating faces [K].
     ambients: Vec<f64>,
+    /// Speed at which the surface of a bath rises along the body [m/s], and its height at time zero, along z [m].
+    bath: Option<[f64; 2]>,
+    /// Number of faces that the bath wets.
+    wetted: usize,
     /// Error tolerance of a time step [K].
     tolerance: f64,
     /// Level of the heat's own mesh for each level along z of the mesh with doubled interfaces.
@@ -52,6 +57,11 @@ impl NonlinearHeat {
             initial_temperature: plan.initial_temperature,
             faces,
             ambients: newton.radiation.iter().map(|(_, radiation)| radiation.ambient).collect(),
+            bath: newton
+                .bath
+                .as_ref()
+                .map(|(bath, _)| [bath.speed, plan.mesh.axes[2].start() + bath.depth]),
+            wetted: newton.bath.as_ref().map_or(0, |(_, faces)| faces.len()),
             tolerance: newton.tolerance,
             levels: levels(&plan.mesh),
             plane: plan.mesh.axes[0].len() * plan.mesh.axes[1].len(),
@@ -69,11 +79,22 @@ impl NonlinearHeat {
             .with(body("inner_step", "length of the next inner step [s]"), 1)
             .with(body("inner_steps", "inner steps made since time zero"), 1)
             .with(body("initial_heat", "heat at time zero above the reference [J]"), 1);
-        HeatTotals::at_end_of(layout)
+        let layout = HeatTotals::at_end_of(layout);
+        match self.bath {
+            Some(_) => layout.with(body("surface", "height of the bath's surface, along z [m]"), 1),
+            None => layout,
+        }
     }
 
     pub fn initial_state(&self) -> Vec<f64> {
-        self.heat.initial_state(self.initial_temperature)
+        let mut state = self.heat.initial_state(self.initial_temperature);
+        state.extend(self.bath.map(|[_, surface]| surface));
+        state
+    }
+
+    /// The part of a state that holds the enthalpies.
+    fn of_enthalpy<'s>(&self, state: &'s [f64]) -> &'s [f64] {
+        &state[..self.heat.state_len()]
     }
 
     /// Error tolerance of a time step [K].
@@ -95,14 +116,37 @@ impl NonlinearHeat {
                 return Err(NonlinearFailure::Uneven);
             }
         }
-        let values: Vec<Vec<f64>> =
-            loads.iter().enumerate().map(|(k, load)| self.values(k, load.faces)).collect();
-        let loads: Vec<Loads> = loads
-            .iter()
-            .zip(&values)
-            .map(|(load, faces)| Loads { surface: &load.surface[0], faces })
+        let (state, surface) = state.split_at_mut(self.heat.state_len());
+        let none = [Vec::new(), Vec::new()];
+        // A bath moves even where loads are constant.
+        let orders = loads.len().max(if self.bath.is_some() { 2 } else { 0 });
+        let values: Vec<Vec<f64>> = (0..orders)
+            .map(|k| {
+                let mut values = match loads.get(k) {
+                    Some(load) => self.values(k, load.faces),
+                    None => vec![0.0; self.faces.len() + self.ambients.len()],
+                };
+                values.extend(std::iter::repeat_n(self.surface(k, surface), self.wetted));
+                values
+            })
             .collect();
-        Ok(self.heat.advance(state, &loads, dt, self.tolerance, allowance)?)
+        let surfaces = (0..orders).map(|k| loads.get(k).map_or(&none, |load| &load.surface[0]));
+        let loads: Vec<Loads> =
+            surfaces.zip(&values).map(|(surface, faces)| Loads { surface, faces }).collect();
+        self.heat.advance(state, &loads, dt, self.tolerance, allowance)?;
+        if let (Some([speed, _]), [surface]) = (self.bath, surface) {
+            *surface += speed * dt;
+        }
+        Ok(())
+    }
+
+    /// Height of the surface of the bath, or a time derivative of it.
+    fn surface(&self, derivative: usize, surface: &[f64]) -> f64 {
+        match (self.bath, derivative, surface) {
+            (Some(_), 0, [surface]) => *surface,
+            (Some([speed, _]), 1, _) => speed,
+            _ => 0.0,
+        }
     }
 
     /// Values of all faces, or a time derivative of them; temperatures are absolute.
@@ -120,7 +164,7 @@ impl NonlinearHeat {
 
     /// Temperature above the initial one at all nodes, class by class [K].
     pub fn nodal(&self, state: &[f64]) -> Vec<Vec<f64>> {
-        let temperatures = self.heat.temperatures(state);
+        let temperatures = self.heat.temperatures(self.of_enthalpy(state));
         let level = |&level: &usize| &temperatures[level * self.plane..(level + 1) * self.plane];
         let rises = self.levels.iter().flat_map(level).map(|t| t - self.initial_temperature);
         let mut classes = vec![Vec::new(); self.classes];
@@ -129,16 +173,16 @@ impl NonlinearHeat {
     }
 
     pub fn stored(&self, state: &[f64]) -> f64 {
-        self.heat.stored(state)
+        self.heat.stored(self.of_enthalpy(state))
     }
 
     pub fn totals(&self, state: &[f64]) -> HeatTotals {
-        self.heat.totals(state)
+        self.heat.totals(self.of_enthalpy(state))
     }
 
     /// Liquid volume [m³].
     pub fn liquid_volume(&self, state: &[f64], copies: f64) -> f64 {
-        let fractions = self.heat.liquid_fractions(state);
+        let fractions = self.heat.liquid_fractions(self.of_enthalpy(state));
         let parts = fractions.iter().zip(self.heat.volumes());
         copies * parts.map(|(fraction, volume)| fraction * volume).sum::<f64>()
     }
@@ -151,7 +195,7 @@ impl NonlinearHeat {
     /// different times cancel: with fractions f, `|Σ V e^{2πif}|` is the coherent part. In a body at its melting point,
     /// rounding melts traces everywhere, which are no front.
     pub fn liquid_scatter(&self, state: &[f64], copies: f64) -> f64 {
-        let fractions = self.heat.liquid_fractions(state);
+        let fractions = self.heat.liquid_fractions(self.of_enthalpy(state));
         let melting = fractions
             .iter()
             .zip(self.heat.volumes())
@@ -195,13 +239,18 @@ fn setup(plan: &Plan, newton: &NewtonPlan) -> Setup {
         place,
         condition: Condition::Radiative(radiation.emissivity),
     });
+    let wetted = newton.bath.iter().flat_map(|(bath, faces)| {
+        let Bath { coefficient, ambient, .. } = *bath;
+        let condition = Condition::Wetted { coefficient, ambient };
+        faces.iter().map(move |&place| Face { place, condition })
+    });
     Setup {
         mesh: plan.mesh.clone(),
         reference: plan.initial_temperature,
         materials: newton.materials.clone(),
         layers: (0..elements).map(|element| layering.layer_of(element)).collect(),
         contacts: (0..layering.interfaces()).filter_map(contact).collect(),
-        faces: own.chain(radiating).collect(),
+        faces: own.chain(radiating).chain(wetted).collect(),
     }
 }
 

@@ -12,8 +12,8 @@ use crate::laws::{Conduction, Constants, FlawStatistics, FlowLaw, Thermoelastic}
 use crate::method::mesh::{Axis, Weight};
 use crate::method::mesh::{Geometry, Mesh, MeshFace};
 use crate::scene::{
-    Face, FaceName, HeatMethod, Radiation, Shape, Solid, SphOperator, SphSettings, Stratum,
-    Symmetry,
+    Bath, Face, FaceName, HeatMethod, Notch, PlaneSection, Radiation, Shape, Solid, SphOperator,
+    SphSettings, Stratum, Symmetry,
 };
 
 /// Everything from which a solid's model is built.
@@ -43,6 +43,8 @@ pub struct Plan {
     pub inelastic: Option<Vec<Arc<dyn FlowLaw>>>,
     /// Law of cracks; `None` if nothing cracks.
     pub damage: Option<GradientDamage>,
+    /// Cracks at time zero.
+    pub notches: Vec<Notch>,
     /// Flaws in each layer, from the lowest on.
     pub flaws: Vec<Option<FlawStatistics>>,
     /// Stress-free temperature above the initial one [K].
@@ -58,6 +60,8 @@ pub struct NewtonPlan {
     /// Material of each layer, from the lowest on.
     pub materials: Vec<Conduction>,
     pub radiation: Vec<(MeshFace, Radiation)>,
+    /// A bath, with the faces that it wets.
+    pub bath: Option<(Bath, Vec<MeshFace>)>,
     /// Error tolerance of a time step [K].
     pub tolerance: f64,
 }
@@ -159,6 +163,7 @@ impl Plan {
         let supports = supports(solid, &mesh);
         let newton = newton.map(|tolerance| newton_plan(solid, &mesh, tolerance));
         notes.extend(newton.as_ref().map(note_on_newton));
+        notes.extend(solid.bath.map(|bath| note_on_bath(solid, &bath)));
         let inelastic = is_inelastic.then(|| inelastic_laws(solid, &mesh));
         notes.extend(inelastic.as_ref().map(|laws| note_on_history(solid, laws)));
         notes.extend(damage.as_ref().map(|damage| note_on_cracks(damage, &mesh)));
@@ -178,6 +183,7 @@ impl Plan {
             newton,
             inelastic,
             damage,
+            notches: solid.notches.clone(),
             flaws: flaws(solid),
             stress_free_rise,
             supports,
@@ -288,6 +294,7 @@ fn mirrored(solid: &Solid, is_nonlinear: bool, notes: &mut Vec<String>) -> [bool
 fn is_column(solid: &Solid, has_mechanics: bool) -> bool {
     let mut sides = solid.shape.faces().iter().filter(|face| face.normal() != Some(2));
     solid.heat == HeatMethod::Fem
+        && solid.bath.is_none()
         && solid.mesh.spacing.is_none()
         && sides.all(|&name| {
             let side = solid.face(name);
@@ -376,7 +383,12 @@ fn newton_plan(solid: &Solid, mesh: &Mesh, tolerance: f64) -> NewtonPlan {
         let (place, image) = mesh.place(name);
         (!image).then_some((place, radiation))
     });
-    NewtonPlan { materials, radiation: radiating.collect(), tolerance }
+    let wetted = || {
+        let places = solid.wetted_faces().into_iter().map(|name| mesh.place(name));
+        places.filter(|(_, image)| !image).map(|(place, _)| place).collect()
+    };
+    let bath = solid.bath.map(|bath| (bath, wetted()));
+    NewtonPlan { materials, radiation: radiating.collect(), bath, tolerance }
 }
 
 /// Note on cracks.
@@ -424,9 +436,29 @@ fn flaws(solid: &Solid) -> Vec<Option<FlawStatistics>> {
     materials.map(|own| own.fracture.weibull.map(|weibull| weibull.statistics())).collect()
 }
 
-fn note_on_newton(NewtonPlan { tolerance, .. }: &NewtonPlan) -> String {
+/// Note on what a bath wets. Through the thickness of a plane section temperatures are even, as they are in a plate of
+/// small Biot number h W/(2k).
+fn note_on_bath(solid: &Solid, bath: &Bath) -> String {
+    let faces: Vec<&str> = solid.wetted_faces().into_iter().map(FaceName::as_str).collect();
+    let faces = faces.join(", ");
+    let wets = format!("the bath wets what is below its surface of the faces {faces}");
+    match (solid.shape, solid.section) {
+        (Shape::Box([_, thickness, _]), Some(PlaneSection::PlaneStress)) => {
+            let conductivity = solid.strata()[0].constants.conductivity;
+            let biot = 0.5 * bath.coefficient * thickness / conductivity;
+            format!(
+                "{wets}; the temperature is even through the thickness of the section, whose Biot number hW/(2k) is \
+                 {biot:.2e}"
+            )
+        }
+        _ => wets,
+    }
+}
+
+fn note_on_newton(NewtonPlan { tolerance, bath, .. }: &NewtonPlan) -> String {
+    let what = if bath.is_some() { "a bath moves: heat" } else { "heat is not linear: it" };
     format!(
-        "heat is not linear: it advances in inner steps of which each errs by {tolerance:.1e} K at most \
+        "{what} advances in inner steps of which each errs by {tolerance:.1e} K at most \
          (`fidelity.tolerance` times 10 K), and balances whatever these leave"
     )
 }

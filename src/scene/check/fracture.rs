@@ -8,7 +8,7 @@ use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
 use crate::scene::lookup::split_place;
 use crate::scene::types::{
-    Carries, CellShape, FaceName, HeatMethod, Mesh, PlaneSection, Shape, Solid,
+    Carries, CellShape, FaceName, HeatMethod, Mesh, PlaneSection, Shape, Solid, Symmetry,
 };
 
 pub fn check(checker: &mut Checker) {
@@ -18,6 +18,9 @@ pub fn check(checker: &mut Checker) {
             let message = "a plane section is of bodies that crack, and nothing cracks here";
             let allowed = "no `section`, or a material with `fracture`";
             checker.require(solid.section.is_none(), &path.at("section"), message, allowed);
+            let message = "notches are cracks of bodies that crack, and nothing cracks here";
+            let allowed = "no `notches`, or a material with `fracture`";
+            checker.require(solid.notches.is_empty(), &path.key("notches"), message, allowed);
             continue;
         }
         for (place, material) in solid.materials(&path) {
@@ -29,6 +32,7 @@ pub fn check(checker: &mut Checker) {
             conditions_of_section(checker, &path, solid);
             loads_on_section(checker, name, solid);
         }
+        notches(checker, &path.key("notches"), solid);
         mesh(checker, &path.at("mesh"), solid);
         number_of_nodes(checker, &path, solid);
     }
@@ -104,6 +108,25 @@ fn form(checker: &mut Checker, path: &Path, solid: &Solid) {
             checker.refuse(&path.key("section"), message, allowed);
         }
         _ => {}
+    }
+}
+
+/// Refuses notches outside of the meshed section.
+fn notches(checker: &mut Checker, path: &Path, solid: &Solid) {
+    let is_half = solid.symmetry == Symmetry::Quarter;
+    let [low, high] = match solid.shape {
+        Shape::Box([x, _, _]) if !is_half => [-0.5 * x, 0.5 * x],
+        Shape::Box([x, _, _]) => [0.0, 0.5 * x],
+        Shape::Disc(disc) => [0.0, disc.radius],
+    };
+    let bottom = -solid.shape.thickness();
+    for (i, notch) in solid.notches.iter().enumerate() {
+        for (key, [x, z]) in [("from", notch.from), ("to", notch.to)] {
+            let fine = (low..=high).contains(&x) && (bottom..=0.0).contains(&z);
+            let allowed = format!("[{} to {}, {} to 0]", number(low), number(high), number(bottom));
+            let message = "a notch ends outside of the meshed section";
+            checker.require(fine, &path.index(i).key(key), message, allowed);
+        }
     }
 }
 

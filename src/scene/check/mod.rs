@@ -1,5 +1,6 @@
 //! Checks that a scene makes sense and can be modelled. Each file covers one subject.
 
+mod bath;
 mod body;
 mod coupling;
 mod droplet;
@@ -52,6 +53,7 @@ pub fn check(scene: &Scene, source: &Source, schema: &Schema) -> Result<(), Scen
     limits::check(&mut checker, schema);
     header::check(&mut checker);
     body::check(&mut checker);
+    bath::check(&mut checker);
     fracture::check(&mut checker);
     droplet::check(&mut checker);
     reservoir::check(&mut checker);

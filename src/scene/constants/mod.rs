@@ -1,5 +1,6 @@
 //! The constants of bodies that units offer as parameters: each kind lists its own and knows where they stand.
 
+mod bath;
 mod droplet;
 mod filament;
 mod fluid;
@@ -7,6 +8,7 @@ mod lattice;
 mod large_strain;
 mod solid;
 
+pub use bath::BathConstant;
 pub use droplet::DropletConstant;
 pub use filament::FilamentConstant;
 pub use fluid::FluidConstant;
@@ -36,6 +38,8 @@ pub enum Constant {
     ConvectionCoefficient {
         face: FaceName,
     },
+    /// Of the bath of a solid.
+    Bath(&'static BathConstant),
     Droplet(&'static DropletConstant),
     Filament(&'static FilamentConstant),
     Lattice(&'static LatticeConstant),
@@ -63,6 +67,7 @@ impl Constant {
             Self::Material(constant) | Self::LayerMaterial { constant, .. } => constant.quantity,
             Self::ContactResistance { .. } => Quantity::ThermalResistance,
             Self::ConvectionCoefficient { .. } => Quantity::HeatTransferCoefficient,
+            Self::Bath(constant) => constant.quantity,
             Self::Droplet(constant) => constant.quantity,
             Self::Filament(constant) => constant.quantity,
             Self::Lattice(constant) => constant.quantity,
@@ -75,6 +80,7 @@ impl Constant {
     pub fn bounds(&self) -> Bounds {
         match self {
             Self::Material(constant) | Self::LayerMaterial { constant, .. } => constant.bounds,
+            Self::Bath(constant) => constant.bounds,
             Self::Lattice(constant) => constant.bounds,
             _ => Bounds::from(0.0),
         }
@@ -85,7 +91,9 @@ impl Constant {
         match self {
             Self::InitialTemperature | Self::FlawDepth { .. } => AtStart::PoleAtZero,
             Self::Material(constant) | Self::LayerMaterial { constant, .. } => constant.start,
-            Self::ContactResistance { .. } | Self::ConvectionCoefficient { .. } => AtStart::Never,
+            Self::ContactResistance { .. } | Self::ConvectionCoefficient { .. } | Self::Bath(_) => {
+                AtStart::Never
+            }
             Self::Droplet(constant) => constant.start,
             Self::Filament(_) | Self::Lattice(_) => AtStart::Never,
             Self::Fluid(constant) => constant.start,

@@ -46,6 +46,7 @@ pub fn offered(body: &str, solid: &Solid) -> Vec<OfferedConstant> {
     });
     let convective = solid.faces.iter().filter(|(_, face)| face.convection.is_some());
     list.extend(convective.map(|(&face, _)| coefficient(body, face)));
+    list.extend(solid.bath.iter().flat_map(|_| super::bath::offered(body)));
     list
 }
 
@@ -140,6 +141,9 @@ pub fn places<'a>(solid: &'a mut Solid, constant: &Constant) -> Vec<&'a mut f64>
         Constant::ConvectionCoefficient { face } => {
             let face = solid.faces.get_mut(face).expect("offered by this very face");
             vec![&mut face.convection.as_mut().expect("offered as convective").coefficient]
+        }
+        Constant::Bath(constant) => {
+            vec![constant.place(solid.bath.as_mut().expect("offered by this very bath"))]
         }
         Constant::FlawDepth { .. } => panic!("the scene itself holds its flaws"),
         Constant::Droplet(_)

@@ -4,7 +4,7 @@ use impinge::limits::keyword;
 use serde_json::Value;
 
 /// Headings of `docs/scene.md` with a table, and where in the schema the table that they describe stands.
-pub const SECTIONS: [(&str, &str); 68] = [
+pub const SECTIONS: [(&str, &str); 70] = [
     ("The whole", ""),
     ("`fidelity`", "/$defs/Fidelity"),
     ("`solver`", "/$defs/Solver"),
@@ -36,6 +36,8 @@ pub const SECTIONS: [(&str, &str); 68] = [
     ("`faces.FACE` of a solid", "/$defs/Face"),
     ("`faces.FACE.convection` of a solid", "/$defs/Convection"),
     ("`faces.FACE.radiation` of a solid", "/$defs/Radiation"),
+    ("`bath` of a solid", "/$defs/Bath"),
+    ("`notches` of a solid", "/$defs/Notch"),
     ("`[body.NAME]` of a solid of large strain", "/$defs/Body/oneOf/3"),
     ("`start` of a solid of large strain", "/$defs/LargeStrainStart"),
     ("`mesh` of a solid of large strain", "/$defs/LargeStrainMesh"),
