@@ -2,8 +2,8 @@
 //! surface of the bath no longer changes.
 //!
 //! In the frame of the surface, with heights s above it, the plate moves down: `D T″ + v T′ = 0` above, and
-//! `D T″ + v T′ = β (T − T∞)` below it, with the diffusivity D and the rate β at which a thin piece of the plate follows
-//! the bath. Above, `T = T₀ − A e^{−vs/D}`; below, `T = T∞ + B e^{ms}`, with `m = (√(v² + 4Dβ) − v)/(2D)`. Value and
+//! `D T″ + v T′ = β (T − T∞)` below it, with the diffusivity D and the rate β at which a thin piece of the plate
+//! follows the bath. Above, `T = T₀ − A e^{−vs/D}`; below, `T = T∞ + B e^{ms}`, with `m = (√(v² + 4Dβ) − v)/(2D)`. Value and
 //! slope are continuous. As β → ∞ the plate has the temperature of the bath at its surface, `A = T₀ − T∞`
 //! (M. Adda-Bedia & Y. Pomeau 1995, doi 10.1103/PhysRevE.52.4105).
 

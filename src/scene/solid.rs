@@ -63,7 +63,10 @@ pub struct Solid {
     pub faces: BTreeMap<FaceName, Face>,
     /// A bath into which the body sinks, bottom first.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("condition" = "with `mesh.depth_spacing` and `mesh.growth = 1.0` unless the body cracks", "otherwise" = "none"))]
+    #[schemars(extend(
+        "condition" = "with `mesh.depth_spacing` and `mesh.growth = 1.0` unless the body cracks",
+        "otherwise" = "none"
+    ))]
     pub bath: Option<Bath>,
     /// Cracks at time zero.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

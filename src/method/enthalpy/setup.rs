@@ -43,8 +43,8 @@ pub enum Condition {
     Convective(f64),
     /// Emissivity ε of `q = ε σ (T∞⁴ − T⁴)` [1]; the value is the temperature of the surroundings T∞ [K].
     Radiative(f64),
-    /// Heat transfer coefficient h [W/(m² K)] and temperature [K] of a bath, which covers what is below its surface; the
-    /// value is the height of the surface [m], along z from the origin.
+    /// Heat transfer coefficient h [W/(m² K)] and temperature [K] of a bath, which covers what is below its surface;
+    /// the value is the height of the surface [m], along z from the origin.
     Wetted { coefficient: f64, ambient: f64 },
     /// The value is the prescribed temperature [K]. On an edge of two such faces, the one listed first applies.
     Prescribed,

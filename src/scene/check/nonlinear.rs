@@ -39,7 +39,8 @@ fn even_loads(checker: &mut Checker, path: &Path) {
 pub fn check(checker: &mut Checker, path: &Path, solid: &Solid) {
     let method = checker.scene.solver.method;
     if method == SolverMethod::Modal && !solid.conducts_linearly() {
-        let message = "modes need constants independent of temperature, nothing that melts, no face that radiates and no bath";
+        let message = "modes need constants independent of temperature, nothing that melts, no face that radiates and \
+                       no bath";
         checker.refuse(&Path::default().at("solver.method"), message, "auto, newton");
     }
     if takes_newton(checker.scene, solid) && solid.heat == HeatMethod::Sph {
