@@ -37,8 +37,8 @@ const FOLDED: f64 = 1e-6;
 
 impl Mesh {
     /// Creates a mesh of given cells, which list their corners with the first coordinate changing fastest. Facets of
-    /// the surface have the sides of `named`, and are free otherwise; without `named` those on the outermost planes have
-    /// the sides of a box, and the others are round. Those on the axis of a meridian section are none.
+    /// the surface have the sides of `named`, and are free otherwise; without `named` those on the outermost planes
+    /// have the sides of a box, and the others are round. Those on the axis of a meridian section are none.
     pub fn of_cells(
         form: Form,
         nodes: Vec<[f64; 3]>,

@@ -1,9 +1,8 @@
 //! Plane sections without stress across them: thin sheets.
 //!
-//! The stretch λ across the section is that at which the stress there vanishes, `P_yy(F, λ) = 0` (J. C. Simo and R. L. Taylor
-//! 1986, doi 10.1002/nme.1620220310, of small strains). It is found by Newton's
-//! method in `ln λ`, anew at every deformation, from the history before the step. The tangent is condensed:
-//! `A_mn − A_my A_yn / A_yy`.
+//! The stretch λ across the section is that at which the stress there vanishes, `P_yy(F, λ) = 0` (J. C. Simo and R. L.
+//! Taylor 1986, doi 10.1002/nme.1620220310, of small strains). It is found by Newton's method in `ln λ`, anew at every
+//! deformation, from the history before the step. The tangent is condensed: `A_mn − A_my A_yn / A_yy`.
 
 use super::{Deformed, LargeStrainLaw, Tangent};
 use crate::math::matrix3::Matrix3;
