@@ -358,7 +358,7 @@ impl StrandNumbers {
     }
 
     /// Place of the number of a particle in the n-th list from the end: 1 holds, 2 layers.
-    fn from_end(&self, n: usize, particle: usize) -> usize {
+    fn count_from_end(&self, n: usize, particle: usize) -> usize {
         self.head + self.particles * (self.width - n) + particle
     }
 }
@@ -371,7 +371,7 @@ fn strands_of_particles_that_no_nozzle_lays_are_refused() {
     unit.messages.take();
     assert_eq!(unit.restore(unit.deserialize(&state.bytes())), OK);
     let at = StrandNumbers::of(&unit, &state);
-    let holds: Vec<f64> = (0..at.particles).map(|i| state.bodies[0][at.from_end(1, i)]).collect();
+    let holds: Vec<f64> = (0..at.particles).map(|i| state.bodies[0][at.count_from_end(1, i)]).collect();
     let held_at = |hold: f64| holds.iter().position(|own| *own == hold).unwrap();
     let [free, in_nozzle, asleep] = [0.0, 1.0, 2.0].map(held_at);
     let cases = [
@@ -383,14 +383,14 @@ fn strands_of_particles_that_no_nozzle_lays_are_refused() {
         (at.nozzle(7), -1.0, "a flag or a jump"),
         (at.nozzle(8), 0.5, "a flag or a jump"),
         (at.nozzle(9), 2.0, "a flag or a jump"),
-        (at.from_end(1, free), 1.0, "with the hold 1"),
-        (at.from_end(1, in_nozzle), 0.0, "with the hold 0"),
-        (at.from_end(1, in_nozzle), 2.0, "with the hold 2"),
-        (at.from_end(1, asleep), 3.0, "with the hold 3"),
-        (at.from_end(2, free), -1.0, "of layer -1"),
-        (at.from_end(2, free), 0.5, "of layer 0.5"),
-        (at.from_end(2, free), 1e6, "of layer 1000000"),
-        (at.from_end(2, in_nozzle), 0.0, "with the hold 1 in layer 0"),
+        (at.count_from_end(1, free), 1.0, "with the hold 1"),
+        (at.count_from_end(1, in_nozzle), 0.0, "with the hold 0"),
+        (at.count_from_end(1, in_nozzle), 2.0, "with the hold 2"),
+        (at.count_from_end(1, asleep), 3.0, "with the hold 3"),
+        (at.count_from_end(2, free), -1.0, "of layer -1"),
+        (at.count_from_end(2, free), 0.5, "of layer 0.5"),
+        (at.count_from_end(2, free), 1e6, "of layer 1000000"),
+        (at.count_from_end(2, in_nozzle), 0.0, "with the hold 1 in layer 0"),
         (at.head + 2, -0.1, "which no run reaches"),
         (at.head + 3 * (at.particles + asleep), 1e-3, "with the hold 2"),
         (1, 3.0, "layers of fluid"),
