@@ -371,7 +371,8 @@ fn strands_of_particles_that_no_nozzle_lays_are_refused() {
     unit.messages.take();
     assert_eq!(unit.restore(unit.deserialize(&state.bytes())), OK);
     let at = StrandNumbers::of(&unit, &state);
-    let holds: Vec<f64> = (0..at.particles).map(|i| state.bodies[0][at.count_from_end(1, i)]).collect();
+    let holds: Vec<f64> =
+        (0..at.particles).map(|i| state.bodies[0][at.count_from_end(1, i)]).collect();
     let held_at = |hold: f64| holds.iter().position(|own| *own == hold).unwrap();
     let [free, in_nozzle, asleep] = [0.0, 1.0, 2.0].map(held_at);
     let cases = [
