@@ -2,8 +2,8 @@
 //!
 //! Each linear system is solved by conjugate gradients, preconditioned by the factor of an earlier stiffness: from one
 //! system to the next few elements break, and each costs few iterations. Where they become many, the iteration stops,
-//! the stiffness is factored anew, and a new iteration finds the rest. Factors are in single precision, which needs half
-//! of the memory. The stiffness is that of the intact section, in which damaged elements are corrected.
+//! the stiffness is factored anew, and a new iteration finds the rest. Factors are in single precision, which needs
+//! half of the memory. The stiffness is that of the intact section, in which damaged elements are corrected.
 
 use std::sync::OnceLock;
 
