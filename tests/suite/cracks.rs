@@ -32,7 +32,10 @@ const AT1: &str =
 
 /// A strip between rollers, and the drop of temperature that stresses it to a part of its strength [K].
 fn held_strip() -> (Trial, impl Fn(f64) -> f64) {
-    (Trial::new(&scene(STRIP, &alumina(AT1), HELD, "")), |part| part * 300e6 / (YOUNG * EXPANSION))
+    // Its weakest place is far from the rollers, which would cut the profile of the crack.
+    let fracture = AT1.replace("scatter = 0.04", "scatter = 0.04, seed = 1");
+    let trial = Trial::new(&scene(STRIP, &alumina(&fracture), HELD, ""));
+    (trial, |part| part * 300e6 / (YOUNG * EXPANSION))
 }
 
 fn cool(trial: &mut Trial, drop: f64) {
@@ -87,7 +90,7 @@ fn held_strip_breaks_at_its_strength() {
     cool(&mut trial, drop(1.04));
     assert!(trial.get("plate.max_damage") > 0.99);
     let length = trial.get("plate.crack_length");
-    assert!(off(length, 0.4e-3) < 0.1, "{length}");
+    assert!(off(length, 0.4e-3) < 0.02, "{length}");
     assert!(off(trial.get("plate.crack_area"), length * 1e-3) < 1e-12);
     assert!(off(trial.get("plate.dissipated_energy"), 45.0 * length * 1e-3) < 1e-12);
     assert!(trial.get("plate.elastic_energy") < 0.05 * elastic);
@@ -129,7 +132,10 @@ fn what_is_torn_off_is_warned_of() {
 fn even_damage_is_warned_of() {
     let even = AT1.replace(", scatter = 0.04", "");
     let mut trial = Trial::new(&scene(STRIP, &alumina(&even), HELD, ""));
-    cool(&mut trial, 1.04 * 300e6 / (YOUNG * EXPANSION));
+    // In one step from nothing, rounding would single out a crack.
+    for part in [0.95, 1.04] {
+        cool(&mut trial, part * 300e6 / (YOUNG * EXPANSION));
+    }
     let found = trial.model.closing_warnings(&trial.state);
     let ids: Vec<_> = found.iter().map(|warning| warning.finding().id).collect();
     assert_eq!(ids, ["damage_is_even"]);
