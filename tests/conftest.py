@@ -128,8 +128,9 @@ def pack(programs, units):
             fcntl.flock(lock, fcntl.LOCK_EX)
             if not unit.is_file():
                 (folder / "scene.toml").write_text(text)
-                for code in path.parent.glob("*.gcode"):
-                    shutil.copy(code, folder)
+                for kind in ["gcode", "vtu", "csv"]:
+                    for file in path.parent.glob(f"*.{kind}"):
+                        shutil.copy(file, folder)
                 build(programs, folder / "scene.toml", unit, "--fmi", str(fmi), *options)
         return unit
 

@@ -39,7 +39,7 @@ pub fn note(scene: &Scene, inputs: &[f64]) -> Option<String> {
     ))
 }
 
-/// Returns true if solids heat each other, radiate or are initially under stress.
+/// Returns true if solids heat each other, radiate, sink into a bath or are initially under stress.
 fn acts_by_itself(scene: &Scene) -> bool {
     let start = |name: &str| scene.body.get(name).map(Body::initial_temperature);
     let touches =
@@ -50,7 +50,8 @@ fn acts_by_itself(scene: &Scene) -> bool {
     let changes = |solid: &Solid| {
         let start = solid.initial_temperature;
         let radiates = |face: &Face| face.radiation.is_some_and(|r| r.ambient != start);
-        solid.faces.values().any(radiates) || solid.temperature_without_stress() != start
+        let sinks = solid.bath.is_some_and(|bath| bath.ambient != start);
+        sinks || solid.faces.values().any(radiates) || solid.temperature_without_stress() != start
     };
     touches || scene.solids().any(|(_, solid)| changes(solid))
 }

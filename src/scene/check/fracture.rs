@@ -111,7 +111,7 @@ fn form(checker: &mut Checker, path: &Path, solid: &Solid) {
     }
 }
 
-/// Refuses notches outside of the meshed section.
+/// Refuses notches outside of the meshed section, and those without length.
 fn notches(checker: &mut Checker, path: &Path, solid: &Solid) {
     let is_half = solid.symmetry == Symmetry::Quarter;
     let [low, high] = match solid.shape {
@@ -121,6 +121,8 @@ fn notches(checker: &mut Checker, path: &Path, solid: &Solid) {
     };
     let bottom = -solid.shape.thickness();
     for (i, notch) in solid.notches.iter().enumerate() {
+        let message = "a notch has a length";
+        checker.require(notch.from != notch.to, &path.index(i), message, "`to` away from `from`");
         for (key, [x, z]) in [("from", notch.from), ("to", notch.to)] {
             let fine = (low..=high).contains(&x) && (bottom..=0.0).contains(&z);
             let allowed = format!("[{} to {}, {} to 0]", number(low), number(high), number(bottom));

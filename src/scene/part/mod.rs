@@ -100,6 +100,8 @@ impl Part {
     /// Reads the text of the file for a model.
     pub(super) fn read(&mut self, text: &str, form: Form) {
         let read = if self.is_of_points() { csv::read } else { vtu::read };
+        // Spreadsheets begin a text with a byte order mark.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         self.content = Some(Arc::new(read(text, self, form)));
     }
 

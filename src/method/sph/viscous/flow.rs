@@ -46,6 +46,9 @@ const STRESSED: f64 = 1e-4;
 const ROUNDING: f64 = 1e-5;
 /// The same over momenta and `ν dt/Δx²`: pairs take differences of velocities in single precision.
 const ROUNDING_OF_RATES: f64 = 4.0 * f32::EPSILON as f64;
+/// Residual of forces of fluid from a nozzle over its weight, below which it does not count once it falls no more: fluid
+/// that falls as one bears hardly any stress.
+const WEIGHED: f64 = 1e-3;
 /// Turns without a smaller residual of forces after which rounding has stalled it.
 const STALLED: usize = 3;
 /// Stress over that at the reference rate below which its accuracy does not matter.
@@ -85,8 +88,9 @@ pub fn advance(
     // At rest it is what gravity gives in the step.
     let driven = cloud.velocity.as_flattened();
     let momentum = momentum(cloud, &velocity).max(momentum(cloud, driven));
-    let mut forces_left =
-        Residual { floor: rounding_of_rates(&system) * momentum, ..Residual::default() };
+    let weight = if method.fed { WEIGHED * impulse_of_weight(&system) } else { 0.0 };
+    let floor = (rounding_of_rates(&system) * momentum).max(weight);
+    let mut forces_left = Residual { floor, ..Residual::default() };
     let tolerance = if method.fed { TOLERANCE_BY_NOZZLE } else { TOLERANCE };
     let mut iterations = 0;
     for _ in 0..MOST_TURNS {
@@ -106,7 +110,14 @@ pub fn advance(
         velocity.iter_mut().zip(&changes).for_each(|(v, change)| *v += change);
         turn.pairs = system.elongations(&velocity);
     }
-    Err(NotConverged { residual: turn.mismatch, iterations, tolerance })
+    let residual = turn.mismatch.max(forces_left.relative());
+    Err(NotConverged { residual, iterations, tolerance })
+}
+
+/// Size of what gravity gives in a step, as [`momentum`].
+fn impulse_of_weight(system: &System) -> f64 {
+    let gravity = system.method.gravity.iter().map(|g| g * g).sum::<f64>().sqrt();
+    system.dt * gravity * system.cloud.mass.iter().sum::<f64>().sqrt()
 }
 
 /// Size of the momenta at velocities.
@@ -123,7 +134,7 @@ struct Residual {
     last: f64,
     /// Turns since the smallest.
     stalled: usize,
-    /// Bound of the rounding of rates.
+    /// Bound of what rounding of rates, or the weight of fluid that falls, may leave.
     floor: f64,
 }
 
@@ -135,6 +146,11 @@ impl Residual {
         let falls = is_first || size < self.smallest;
         self.stalled = if falls { 0 } else { self.stalled + 1 };
         self.smallest = if falls { size } else { self.smallest };
+    }
+
+    /// The last over the first.
+    fn relative(&self) -> f64 {
+        self.last / self.first.unwrap_or(1.0).max(f64::MIN_POSITIVE)
     }
 
     /// Returns true at the tolerance, below a size that is rounding, or where rounding of rates keeps it from falling.
