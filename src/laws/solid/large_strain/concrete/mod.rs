@@ -8,7 +8,8 @@
 //!   beyond it `η Δσ_m + (1 − η) Δσ_r` ([`Surfaces`], [`DamageFunction`]).
 //! - Flow: the deviator returns radially, and the volume grows by `ω r Δσ′` per `Δε̄`, with the dilatancy ω: 0 keeps
 //!   the volume, 1 flows along the normal. Δσ′ is a mean slope ([`Concrete::slope`]).
-//! - Damage: `dλ = dε̄ᵖ/(1 + p/f_t)^b`, b = b₁ in compression and b₂ in tension, with `ε̄ᵖ = ∫ √(⅔ ε̇ᵖ:ε̇ᵖ)`.
+//! - Damage: `dλ = dε̄ᵖ/(1 + p/f_t)^b`, b = b₁ in compression and b₂ in tension, with `ε̄ᵖ = ∫ √(⅔ ε̇ᵖ:ε̇ᵖ)`; with b₂ > 0
+//!   `1 + p/f_t` counts as ⅔ at least, its value in uniaxial tension.
 //! - Opening: `p ≥ −f_t`, beyond the peak `p ≥ −η f_t`; volume that opens there damages, `dλ = b₃ dε_v`. The source
 //!   does so only close to the axis of pressure, where it is needed.
 //! - Compaction: `p ≤ p_c(ε_c)` over the plastic change of volume ε_c, if there is a table.
@@ -174,7 +175,9 @@ impl Concrete {
     fn damaging(&self, p: f64) -> f64 {
         let [compressed, drawn] = self.exponents;
         let base = 1.0 + p / self.surfaces.tensile;
-        if p >= 0.0 { base.powf(-compressed) } else { base.max(NO_PRESSURE).powf(-drawn) }
+        // Beyond uniaxial tension a positive exponent would have damage grow without bound.
+        let least = if drawn > 0.0 { OF_UNIAXIAL_TENSION } else { NO_PRESSURE };
+        if p >= 0.0 { base.powf(-compressed) } else { base.max(least).powf(-drawn) }
     }
 
     /// Brings a point back to the surfaces.
@@ -248,8 +251,9 @@ const DIFFERENCE: f64 = 1e-7;
 const ROUNDING: f64 = 1e-12;
 /// Rounds of opening and flow, each of which damages the other's bound.
 const PASSES: usize = 30;
-/// Smallest `1 + p/f_t`.
+/// Smallest `1 + p/f_t`, and that of uniaxial tension at its peak.
 const NO_PRESSURE: f64 = 1e-6;
+const OF_UNIAXIAL_TENSION: f64 = 2.0 / 3.0;
 /// Iterations of a root, and the share of the first excess at which it is found.
 const ITERATIONS: usize = 100;
 const CONVERGED: f64 = 1e-14;
