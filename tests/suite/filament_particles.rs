@@ -134,3 +134,29 @@ fn paste_comes_to_rest() {
     assert!(trial.get("ink.max_speed") < 1e-3);
     trial.model.check_state(&trial.state).unwrap();
 }
+
+/// Paste that falls from a high nozzle as one bears hardly any stress; its solves end, and it reaches the plate.
+#[test]
+fn paste_falls_from_high_nozzles() {
+    let text = r#"
+name = "Paste"
+stop_time = 0.1
+step = 0.02
+[body.ink]
+kind = "filament"
+method = "particles"
+nozzle = { diameter = 1e-3, height = 1.5e-3, temperature = 293.15, flow = 15.7e-9 }
+path = { time = [0.0, 0.1], x = [-1e-3, 1e-3], y = [0.0, 0.0] }
+most = 5e-9
+spacing = 0.25e-3
+[body.ink.fluid]
+density = 1400.0
+viscosity = { law = "bingham", yield_stress = 60.0, plastic_viscosity = 2.0 }
+specific_heat = 1500.0
+conductivity = 0.0
+"#;
+    let mut trial = Trial::new(text);
+    (0..5).for_each(|_| trial.step(0.02));
+    let [length, width] = ["length", "last_width"].map(|name| trial.get(&format!("ink.{name}")));
+    assert!(length > 0.1e-3 && width > 0.9e-3 && width < 2.5e-3, "{length} {width}");
+}

@@ -231,6 +231,26 @@ fn tension_from_all_sides_takes_its_energy() {
     assert!(driver.stress[1].abs() < 1e-3 * TENSILE);
 }
 
+/// With a positive exponent damage is bounded, so that energy follows neither steps nor small deviators.
+#[test]
+fn tension_that_is_held_across_takes_energy_by_no_steps() {
+    for part in [0.4, 0.9, 0.999, 1.0] {
+        let energies = [400, 1600].map(|steps| {
+            let mut concrete = concrete(0.5);
+            concrete.exponents[1] = 1.8;
+            concrete.opening = energy::opening(&concrete.function, TENSILE, 2500.0);
+            let mut driver = Driver::new(concrete);
+            for n in 1..=steps {
+                let along = 4e-3 * f64::from(n) / f64::from(steps);
+                driver.accept([part * along, along]);
+            }
+            driver.work - driver.energy
+        });
+        assert!((energies[0] / energies[1] - 1.0).abs() < 0.05, "{part}: {energies:?}");
+        assert!((2000.0..3500.0).contains(&energies[1]), "{part}: {energies:?}");
+    }
+}
+
 #[test]
 fn dilation_follows_its_constant() {
     let volumes = [0.0, 0.5, 1.0].map(|dilatancy| {
