@@ -284,7 +284,7 @@ impl<'a> Source<'a> {
 }
 
 /// The first line of a text, truncated to a maximum length.
-fn shortened(text: &str) -> String {
+pub(crate) fn shortened(text: &str) -> String {
     let line = text.lines().next().unwrap_or_default().trim_end();
     let cut: String = line.chars().take(LONGEST_VALUE).collect();
     if cut.len() < text.trim_end().len() { format!("{cut}…") } else { cut }

@@ -24,8 +24,12 @@ pub enum BadMesh {
     Crowded { cell: usize },
     /// A cell that no way along common nodes connects with the first.
     Apart { cell: usize },
+    /// A cell at an edge of the surface, in a section a node of it, at which more than two facets meet.
+    Pinched { cell: usize },
     /// A named facet that is none of the surface.
     Inside { facet: usize },
+    /// A facet that is named twice, differently.
+    Renamed { facet: usize },
 }
 
 /// Distance over the extent of the mesh within which nodes lie on its outermost planes, and on the axis.
@@ -53,7 +57,7 @@ impl Mesh {
         let ranges = mesh.flush()?;
         mesh.check_cells()?;
         let mut facets: HashMap<Vec<u32>, usize> = HashMap::new();
-        let mut order: Vec<Vec<u32>> = Vec::new();
+        let mut order: Vec<(usize, Vec<u32>)> = Vec::new();
         for (number, cell) in mesh.cells.iter().enumerate() {
             for &axis in form.axes() {
                 for upper in [false, true] {
@@ -63,12 +67,14 @@ impl Mesh {
                     if *uses > 2 {
                         return Err(BadMesh::Crowded { cell: number });
                     }
-                    order.push(facet);
+                    order.push((number, facet));
                 }
             }
         }
-        let outer: Vec<Vec<u32>> =
-            order.into_iter().filter(|facet| facets[&sorted(facet)] == 1).collect();
+        order.retain(|(_, facet)| facets[&sorted(facet)] == 1);
+        if let Some(cell) = pinched(&order) {
+            return Err(BadMesh::Pinched { cell });
+        }
         let sides = named.map(|named| sides(named, &facets)).transpose()?;
         let nodes = &mesh.nodes;
         let side = |facet: &Vec<u32>| {
@@ -86,7 +92,7 @@ impl Mesh {
                 }
             })
         };
-        let faces = outer.into_iter().filter_map(|facet| Some((side(&facet)?, facet)));
+        let faces = order.into_iter().filter_map(|(_, facet)| Some((side(&facet)?, facet)));
         mesh.faces = faces.collect();
         Ok(mesh)
     }
@@ -112,10 +118,10 @@ impl Mesh {
         if let Some(node) = is_used.iter().position(|used| !used) {
             return Err(BadMesh::Unused { node });
         }
-        let shortest = self.edges().iter().map(|&[a, b]| self.distance(a, b)).fold(0.0, f64::max);
         let edges = self.edges();
-        let lengths = edges.iter().map(|&[a, b]| self.distance(a, b));
-        let shortest = lengths.filter(|length| *length > 0.0).fold(shortest, f64::min);
+        let lengths = || edges.iter().map(|&[a, b]| self.distance(a, b));
+        let longest = lengths().fold(0.0, f64::max);
+        let shortest = lengths().filter(|length| *length > 0.0).fold(longest, f64::min);
         match coincident(self.form, &self.nodes, COINCIDENT * shortest) {
             Some(nodes) => Err(BadMesh::Twice { nodes }),
             None => Ok(()),
@@ -210,14 +216,35 @@ fn sides(
     named: &[(Side, Vec<u32>)],
     facets: &HashMap<Vec<u32>, usize>,
 ) -> Result<HashMap<Vec<u32>, Side>, BadMesh> {
-    let of_facet = |(facet, (side, nodes)): (usize, &(Side, Vec<u32>))| {
+    let mut sides = HashMap::new();
+    for (facet, (side, nodes)) in named.iter().enumerate() {
         let key = sorted(nodes);
-        match facets.get(&key) {
-            Some(1) => Ok((key, *side)),
-            _ => Err(BadMesh::Inside { facet }),
+        if facets.get(&key) != Some(&1) {
+            return Err(BadMesh::Inside { facet });
         }
-    };
-    named.iter().enumerate().map(of_facet).collect()
+        if sides.insert(key, *side).is_some_and(|before| before != *side) {
+            return Err(BadMesh::Renamed { facet });
+        }
+    }
+    Ok(sides)
+}
+
+/// A cell with an edge of the surface, in a section with a node of it, at which more than two facets meet: facets of
+/// neighbours do not match there, or cells touch along it alone.
+fn pinched(surface: &[(usize, Vec<u32>)]) -> Option<usize> {
+    let mut uses: HashMap<Vec<u32>, usize> = HashMap::new();
+    surface.iter().find_map(|(cell, facet)| {
+        let rims = match facet[..] {
+            [a, b, c, d] => vec![vec![a, b], vec![a, c], vec![b, d], vec![c, d]],
+            _ => facet.iter().map(|&node| vec![node]).collect(),
+        };
+        let is_crowded = rims.iter().any(|rim| {
+            let uses = uses.entry(sorted(rim)).or_default();
+            *uses += 1;
+            *uses > 2
+        });
+        is_crowded.then_some(*cell)
+    })
 }
 
 fn sorted(nodes: &[u32]) -> Vec<u32> {
@@ -263,4 +290,34 @@ pub(super) fn roots(count: usize, links: impl Iterator<Item = [u32; 2]>) -> Vec<
         parents[a.max(b)] = a.min(b);
     }
     (0..count).map(|node| root(&mut parents, node)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(form: Form, nodes: &[[f64; 3]], cells: &[&[u32]]) -> Option<BadMesh> {
+        let cells = cells.iter().map(|cell| cell.to_vec()).collect();
+        Mesh::of_cells(form, nodes.to_vec(), cells, None).err()
+    }
+
+    #[test]
+    fn cells_that_touch_at_a_point_are_refused() {
+        let places = [[0, 0], [1, 0], [0, 1], [1, 1], [2, 1], [1, 2], [2, 2]];
+        let nodes = places.map(|[x, z]| [f64::from(x), 0.0, f64::from(z)]);
+        let found = refused(Form::Plane, &nodes, &[&[0, 1, 2, 3], &[3, 4, 5, 6]]);
+        assert_eq!(found, Some(BadMesh::Pinched { cell: 1 }));
+    }
+
+    /// Two cubes, whole and with the upper corners of both turned by a quarter: no facet is common then.
+    #[test]
+    fn cells_whose_facets_do_not_match_are_refused() {
+        let node = |n: u32| [n % 3, n / 3 % 2, n / 6].map(f64::from);
+        let nodes: Vec<_> = (0..12).map(node).collect();
+        let whole: [&[u32]; 2] = [&[0, 1, 3, 4, 6, 7, 9, 10], &[1, 2, 4, 5, 7, 8, 10, 11]];
+        assert_eq!(refused(Form::Solid, &nodes, &whole), None);
+        let turned: [&[u32]; 2] = [&[0, 1, 3, 4, 7, 10, 6, 9], &[1, 2, 4, 5, 8, 11, 7, 10]];
+        let found = refused(Form::Solid, &nodes, &turned);
+        assert_eq!(found, Some(BadMesh::Pinched { cell: 1 }));
+    }
 }

@@ -306,7 +306,21 @@ fn fluid_that_would_boil_is_warned_of_once_and_leaves_states_alone() {
     assert_eq!(watched, plain);
 }
 
-/// A strand of a fluid that freezes, on a plate.
+/// The plate below strands.
+const PLATE: &str = r#"
+[body.plate]
+kind = "solid"
+shape = { box = [3e-4, 3e-4, 1e-4] }
+material = { model = "thermoelastic", density = 2500.0, specific_heat = 800.0, conductivity = 1.0, young = 7e10, poisson = 0.2, expansion = 9e-6 }
+initial_temperature = 293.15
+mesh = { spacing = 2e-5, depth_spacing = 2e-5, order = 1 }
+faces = { bottom = { clamped = true } }
+[[coupling]]
+from = "ink"
+to = "plate.top"
+"#;
+
+/// A strand of a fluid that freezes, above [`PLATE`].
 const STRAND: &str = r#"
 name = "Strand"
 stop_time = 2e-6
@@ -318,29 +332,23 @@ nozzle = { diameter = 2e-5, height = 1.5e-5, temperature = 343.0, flow = 1e-8 }
 path = { time = [0.0, 2e-6, 4e-6], x = [-1e-4, 0.0, 0.0], y = [0.0, 0.0, 1e-4] }
 most = 1e-12
 convection = { coefficient = 20.0, ambient = 293.15 }
-[body.plate]
-kind = "solid"
-shape = { box = [3e-4, 3e-4, 1e-4] }
-material = { model = "thermoelastic", density = 2500.0, specific_heat = 800.0, conductivity = 1.0, young = 7e10, poisson = 0.2, expansion = 9e-6 }
-initial_temperature = 293.15
-mesh = { spacing = 2e-5, depth_spacing = 2e-5, order = 1 }
-faces = { bottom = { clamped = true } }
-[[coupling]]
-from = "ink"
-to = "plate.top"
 [[target]]
 of = "ink"
 line = [[-1e-4, 0.0], [0.0, 0.0], [0.0, 1e-4]]
 "#;
 
+fn on_plate(strand: &str) -> String {
+    format!("{strand}{PLATE}")
+}
+
 #[test]
 fn strands_go_on_from_a_state_to_the_bit() {
-    repeats_to_the_bit(STRAND, "ink.flow", 1e-8);
+    repeats_to_the_bit(&on_plate(STRAND), "ink.flow", 1e-8);
 }
 
 #[test]
 fn strands_that_cannot_be_laid_are_refused_and_change_nothing() {
-    let unit = started(STRAND);
+    let unit = started(&on_plate(STRAND));
     for _ in 0..3 {
         assert_eq!(unit.step(unit.time(), STEP), OK, "{:?}", unit.messages.take());
     }
@@ -359,7 +367,7 @@ fn strands_that_cannot_be_laid_are_refused_and_change_nothing() {
     }
 }
 
-/// A strand of particles, four across the nozzle, of a fluid that conducts heat to a plate.
+/// A strand of particles, four across the nozzle, of a fluid that conducts heat, above [`PLATE`].
 const WARM_PARTICLES: &str = r#"
 name = "Strand"
 stop_time = 2e-6
@@ -372,16 +380,6 @@ nozzle = { diameter = 2e-5, height = 1.5e-5, temperature = 340.0, flow = 2e-9 }
 path = { time = [0.0, 2e-6, 4e-6], x = [-1e-5, 0.0, 0.0], y = [0.0, 0.0, 1e-5] }
 most = 1e-13
 spacing = 5e-6
-[body.plate]
-kind = "solid"
-shape = { box = [3e-4, 3e-4, 1e-4] }
-material = { model = "thermoelastic", density = 2500.0, specific_heat = 800.0, conductivity = 1.0, young = 7e10, poisson = 0.2, expansion = 9e-6 }
-initial_temperature = 293.15
-mesh = { spacing = 2e-5, depth_spacing = 2e-5, order = 1 }
-faces = { bottom = { clamped = true } }
-[[coupling]]
-from = "ink"
-to = "plate.top"
 [[target]]
 of = "ink"
 line = [[-1e-5, 0.0], [0.0, 0.0], [0.0, 1e-5]]
@@ -404,7 +402,7 @@ spacing = 5e-6
 
 #[test]
 fn strands_of_particles_go_on_from_a_state_to_the_bit() {
-    repeats_to_the_bit(WARM_PARTICLES, "ink.nozzle_temperature", 340.0);
+    repeats_to_the_bit(&on_plate(WARM_PARTICLES), "ink.nozzle_temperature", 340.0);
 }
 
 /// Moves the nozzle by some diameters, so that what it laid first rests.
@@ -419,7 +417,7 @@ pub fn strand_at_rest() -> Unit {
     unit
 }
 
-/// What rests is part of a state, and is woken alike.
+/// States hold which particles rest, and these are woken alike.
 #[test]
 fn strands_at_rest_go_on_from_a_state_to_the_bit() {
     go_on_from(strand_at_rest(), RESTING_PARTICLES, "ink.nozzle_temperature", 293.15);

@@ -388,7 +388,7 @@ fn sheets_follow_their_closed_forms() {
     }
 }
 
-/// A sheet that flows bears its yield stress along its axis: the force falls with the section as it is drawn.
+/// A sheet that flows bears its yield stress along its axis: the force falls with its section.
 #[test]
 fn drawn_sheets_bear_their_yield_stress() {
     let keys = "dimension = 2\nsection = \"plane_stress\"\nshape = { box = [20e-3, 1.0, 5e-3] }\nmesh = { spacing = 2.5e-3 }\n\

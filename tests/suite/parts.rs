@@ -288,7 +288,7 @@ fn uniform_stress_is_exact_in_space() {
 /// A box and the part of the same cells are the same body, to rounding; the part of its points is so to the error of
 /// the method.
 #[test]
-fn a_box_and_the_part_of_its_cells_agree() {
+fn parts_with_the_cells_of_a_box_agree_with_it() {
     let place = |u: f64, w: f64| [-10.0 + 20.0 * u, -8.0 + 8.0 * w];
     let plan = Plan::block([20, 8], [LEFT, RIGHT, BOTTOM, TOP], place);
     for method in ["fem", "rkpm", "sph"] {
@@ -398,7 +398,7 @@ fn a_bracket_weighs_what_it_should() {
         assert!(off(trial.get("pad.mass"), mass) < 1e-12);
         let force = trial.get("pad.top.force_z");
         assert!(off(force, 9.81 * mass) < 1e-9, "{file} {method}: {force}");
-        // Falling freely it stays as it is.
+        // It falls freely without deformation.
         let free =
             "inertia = true\ngravity = 9.81\nstart = { velocity = [0.3, 0.0, -0.2], height = 0.1 }";
         let mut trial = Trial::new(&scene(file, &text, &(keys + free), ""));
@@ -409,7 +409,7 @@ fn a_bracket_weighs_what_it_should() {
     }
 }
 
-/// What a part's file, method and faces do not allow is refused at its place in the scene.
+/// Requests that a part's file, method or faces do not allow are refused at their place in the scene.
 #[test]
 fn parts_that_cannot_be_modelled_are_refused() {
     let plan = Plan::block([4, 4], [0, RIGHT, BOTTOM, 0], |u, w| [4.0 * u, 4.0 * w]);

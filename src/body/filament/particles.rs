@@ -89,7 +89,7 @@ impl ParticleFilament {
             let ends = [0.0, motion.duration].map(|s| motion.outlet(s)[2]);
             let (height, least) = (ends[0].min(ends[1]), self.slicing.layer);
             if height < least {
-                return Err(Failure::NozzleInPlate { height, least });
+                return Err(Failure::NozzleInPlate { height, least, when: "with fluid in it" });
             }
         }
         Ok(())

@@ -1,8 +1,8 @@
 //! Acceleration of the alternation of displacement and damage.
 //!
-//! Where a change is small, the alternation converges like a linear fixed-point iteration, slowly if a crack is about
-//! to run. Then the next damage follows from the last few alternations by Anderson's method. It only goes downhill:
-//! a stationary point that is no minimum, in front of a crack that runs, is left as the plain alternation leaves it.
+//! The alternation converges like a linear fixed-point iteration where changes are small, slowly if a crack is about to
+//! run. There Anderson's method finds the next damage from the last few alternations. It only goes downhill: a
+//! stationary point that is no minimum, in front of a crack that runs, is left as the plain alternation leaves it.
 //! Otherwise changes are lengthened by a constant factor (P. E. Farrell & C. Maurini 2017, doi 10.1002/nme.5300).
 
 use crate::math::anderson::Anderson;

@@ -7,11 +7,11 @@ use crate::quantity::kelvin;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Failure {
     #[error(
-        "the outlet of the nozzle is at z = {} m while fluid comes (allowed: {} m above the plate, and more)",
+        "the outlet of the nozzle is at z = {} m {when} (allowed: {} m above the plate, and more)",
         number(*height),
         number(*least)
     )]
-    NozzleInPlate { height: f64, least: f64 },
+    NozzleInPlate { height: f64, least: f64, when: &'static str },
     #[error(
         "{} m³ would have come, more than `most`, {} m³ (allowed: less flow, a shorter run or a larger `most`)",
         number(*volume),

@@ -188,7 +188,7 @@ impl Line {
     fn check_piece(&self, strand: &Strand, height: f64, temperature: f64) -> Result<(), Failure> {
         let least = LEAST_HEIGHT * self.plan.diameter;
         if height < least {
-            return Err(Failure::NozzleInPlate { height, least });
+            return Err(Failure::NozzleInPlate { height, least, when: "while fluid comes" });
         }
         if temperature <= 0.0 {
             return Err(Failure::BelowAbsoluteZero { temperature });

@@ -4,6 +4,11 @@
 //! Lengths are in units of the support radius. The lists reach farther than the kernel by a skin,
 //! so they remain valid until neighbours have moved against each other by its width.
 
+mod displacements;
+mod runs;
+
+pub use displacements::Displacements;
+
 use std::ops::Range;
 
 use super::candidates::{Candidates, Near, Points, RelativePoints, inside};
@@ -11,6 +16,7 @@ use super::images::{Images, Source};
 use super::lanes::WIDTH;
 use super::order::{BLOCK, BlockTree, Bounds, GROUP};
 use crate::runtime::parallel::Team;
+use runs::Runs;
 
 /// Reach of the lists beyond the kernel over the root of the relative motion of neighbours in a
 /// step, and its bounds. The cost of a step is proportional to `(1 + s)³ P + L m/s`, with the skin
@@ -31,13 +37,10 @@ pub struct Block {
     /// The particles' neighbours, themselves included: first those without, then those with an
     /// image at the wall. Place 0 of local copies is a dummy, so the k-th source has place k + 1.
     sources: Vec<Source>,
-    /// Places of neighbours, in runs whose lengths are multiples of [`WIDTH`]: 0, or those of sources.
-    places: Vec<u16>,
-    /// For each particle the ends of its runs: neighbours, and images at the wall.
-    ends: Vec<[u32; 2]>,
-    /// Runs of those places that are nearer than a radius, and their ends; empty where none was given.
-    near: Vec<u16>,
-    near_ends: Vec<[u32; 2]>,
+    /// Places of neighbours: 0, or those of sources.
+    all: Runs,
+    /// Those nearer than a radius; empty where none was given.
+    near: Runs,
     /// Blocks that contain all sources, with the codes of their images.
     surroundings: Vec<(usize, u8)>,
     /// Remaining relative motion of neighbours before the lists expire.
@@ -64,38 +67,6 @@ pub struct Neighbours {
     tree: BlockTree,
 }
 
-/// Predicted displacements of each block's particles: the bounding box of all.
-pub struct Displacements {
-    pub of_blocks: Vec<Bounds>,
-    /// Number of further steps for which new lists are to serve.
-    pub steps: f64,
-}
-
-impl Displacements {
-    /// Boxes of these displacements.
-    pub fn along(displacements: &[[f64; 3]], steps: f64, team: &Team) -> Self {
-        let of_block = |b: usize| {
-            let range = b * BLOCK..((b + 1) * BLOCK).min(displacements.len());
-            Bounds::of(displacements[range].iter().copied())
-        };
-        Self { of_blocks: team.map(displacements.len().div_ceil(BLOCK), of_block), steps }
-    }
-
-    /// Displacements over a time, from velocities.
-    pub fn times(mut self, dt: f64) -> Self {
-        for Bounds { low, high } in &mut self.of_blocks {
-            low.iter_mut().chain(high).for_each(|v| *v *= dt);
-        }
-        self
-    }
-
-    /// No displacements.
-    pub fn none(particles: usize) -> Self {
-        let nowhere = Bounds { low: [0.0; 3], high: [0.0; 3] };
-        Self { of_blocks: vec![nowhere; particles.div_ceil(BLOCK)], steps: f64::INFINITY }
-    }
-}
-
 impl Block {
     fn empty(first: usize, count: usize) -> Self {
         Self {
@@ -103,10 +74,8 @@ impl Block {
             count,
             centre: [0.0; 3],
             sources: Vec::new(),
-            places: Vec::new(),
-            ends: Vec::with_capacity(count),
-            near: Vec::new(),
-            near_ends: Vec::new(),
+            all: Runs::default(),
+            near: Runs::default(),
             surroundings: Vec::new(),
             slack: f64::NAN,
             clearance: f64::NAN,
@@ -121,16 +90,13 @@ impl Block {
     /// Places of the neighbours of the k-th particle of the block: fluid, and images at the wall.
     #[inline(always)]
     pub fn neighbours(&self, k: usize) -> [&[[u16; WIDTH]]; 2] {
-        runs(&self.places, &self.ends, k)
+        self.all.of(k)
     }
 
     /// Same, of the neighbours nearer than the radius of [`Neighbours::narrow`]; all where that was not called.
     #[inline(always)]
     pub fn near_neighbours(&self, k: usize) -> [&[[u16; WIDTH]]; 2] {
-        match self.near_ends.is_empty() {
-            true => self.neighbours(k),
-            false => runs(&self.near, &self.near_ends, k),
-        }
+        if self.near.is_empty() { self.all.of(k) } else { self.near.of(k) }
     }
 
     /// Lists the neighbours nearer than a radius.
@@ -138,27 +104,21 @@ impl Block {
         let away = |x: [f64; 3]| [0, 1, 2].map(|a| (x[a] - self.centre[a]) as f32);
         let place = |source: &Source| images.get(source.code()).place(points[source.particle()]);
         let sources: Vec<_> = self.sources.iter().map(|source| away(place(source))).collect();
-        let (mut near, mut ends) = (std::mem::take(&mut self.near), Vec::with_capacity(self.count));
-        near.clear();
         let square = (radius * radius) as f32;
+        self.near.start(0);
         for k in 0..self.count {
             let at = away(points[self.first + k]);
-            ends.push(self.neighbours(k).map(|run| {
-                let start = near.len();
-                near.resize(start + run.len() * WIDTH, 0);
-                let mut found = start;
-                for &place in run.as_flattened() {
-                    let Some(source) = usize::from(place).checked_sub(1) else { continue };
+            let is_near = |place: &u16| {
+                usize::from(*place).checked_sub(1).is_some_and(|source| {
                     let d = [0, 1, 2].map(|a| sources[source][a] - at[a]);
-                    near[found] = place;
-                    found += usize::from(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < square);
-                }
-                near.truncate(found);
-                near.resize(found.next_multiple_of(WIDTH), 0);
-                near.len() as u32
-            }));
+                    d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < square
+                })
+            };
+            let runs = self.all.of(k);
+            self.near.push(|run, places| {
+                places.extend(runs[run].as_flattened().iter().copied().filter(is_near));
+            });
         }
-        (self.near, self.near_ends) = (near, ends);
     }
 
     /// Finds the neighbours of the block's particles among its surroundings, of which those from
@@ -172,9 +132,7 @@ impl Block {
     ) {
         let SearchBuffers { near_block, near_group, places } = buffers;
         let (_, near_block) = near_block.all();
-        self.places.clear();
-        self.places.reserve(own.len() * 160);
-        self.ends.clear();
+        self.all.start(own.len() * 160);
         places.resize(near_block.along[0].len() + WIDTH, 0);
         for group in own.chunks(GROUP) {
             let bounds = Bounds::of(group.iter().copied());
@@ -190,37 +148,24 @@ impl Block {
                 let away = |a: usize| (point[a] - middle[a]) as f32;
                 let at = [away(0), away(1), away(2)];
                 let within = Within { at, square: (reach * reach) as f32 };
-                let ends = [0..wall, wall..count].map(|part| {
-                    let found = select(along, numbers, part, within, places);
-                    self.places.extend_from_slice(&places[..found]);
-                    let full = self.places.len().next_multiple_of(WIDTH);
-                    self.places.resize(full, 0);
-                    full as u32
+                let parts = [0..wall, wall..count];
+                self.all.push(|run, all| {
+                    let found = select(along, numbers, parts[run].clone(), within, places);
+                    all.extend_from_slice(&places[..found]);
                 });
-                self.ends.push(ends);
             }
         }
         // Loops over pairs rely on this without a further check.
-        let last = self.places.iter().fold(0, |last, &place| last.max(place));
-        assert!(usize::from(last) <= self.sources.len(), "a place beyond all sources");
+        let highest = usize::from(self.all.highest());
+        assert!(highest <= self.sources.len(), "a place beyond all sources");
     }
 
     /// Empties the lists of a block with too many neighbours.
     fn discard_lists(&mut self) {
         self.sources.clear();
-        self.places.clear();
-        self.ends.clear();
-        self.ends.resize(self.count, [0; 2]);
+        self.all.discard(self.count);
         self.is_crowded = true;
     }
-}
-
-/// Runs of places of the k-th particle: fluid, and images at the wall.
-#[inline(always)]
-fn runs<'a>(places: &'a [u16], ends: &[[u32; 2]], k: usize) -> [&'a [[u16; WIDTH]]; 2] {
-    let start = if k == 0 { 0 } else { ends[k - 1][1] as usize };
-    let [middle, end] = ends[k].map(|end| end as usize);
-    [start..middle, middle..end].map(|range| places[range].as_chunks().0)
 }
 
 impl Neighbours {
@@ -365,7 +310,7 @@ impl Search<'_> {
             }
         }
         block.is_crowded = false;
-        block.near_ends.clear();
+        block.near.start(0);
         match block.sources.len() < usize::from(u16::MAX) {
             true => block.find_places(own, wall, reach, buffers),
             false => block.discard_lists(),

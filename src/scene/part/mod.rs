@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::limits::length;
 use crate::scene::face::FaceName;
+use crate::scene::locate::shortened;
 use crate::space::{Cloud, Form, Mesh, Side};
 
 /// A body whose cells or points are in a file; its coordinates are those of the scene.
@@ -29,7 +30,7 @@ pub struct Part {
     #[serde(default)]
     #[schemars(extend("condition" = "with `dimension = 2` or `symmetry = \"axisymmetric\"`"))]
     pub axes: SectionAxes,
-    /// What the file describes; read with the scene.
+    /// Content of the file, which is read with the scene.
     #[serde(skip)]
     pub content: Option<Arc<Result<PartBody, BadPart>>>,
 }
@@ -52,7 +53,7 @@ pub enum PartBody {
     Points(Cloud),
 }
 
-/// What is wrong with a file.
+/// Reason why a file describes no part.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BadPart {
     /// Counted from 1; `None` for the whole file.
@@ -91,7 +92,7 @@ impl BadPart {
         message: impl Into<String>,
         allowed: impl Into<String>,
     ) -> Self {
-        let text = text.trim().to_owned();
+        let text = shortened(text.trim());
         Self { line: Some(line), text, message: message.into(), allowed: allowed.into() }
     }
 }
@@ -120,7 +121,7 @@ impl Part {
         self.content.as_ref().and_then(|content| content.as_ref().as_ref().ok())
     }
 
-    /// What is wrong with the file, if it has been read.
+    /// Reason why the file describes no part, if it has been read and describes none.
     pub fn bad(&self) -> Option<&BadPart> {
         self.content.as_ref().and_then(|content| content.as_ref().as_ref().err())
     }

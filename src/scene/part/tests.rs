@@ -85,6 +85,9 @@ fn cells_that_make_no_body_are_refused_at_their_line() {
         let bad = read("a.vtu", KEYS, &text, Form::Plane).unwrap_err();
         assert!(bad.message.contains(message), "{bad:?}");
     }
+    let text = square().replace("0 1\n1 2\n</", "0 1\n1 0\n</").replace("5 5\n</", "5 6\n</");
+    let bad = read("a.vtu", KEYS, &text, Form::Plane).unwrap_err();
+    assert!(bad.message.contains("another name") && bad.line == Some(34), "{bad:?}");
     // Two cells that share no point.
     let apart = square()
         .replace("0 1 4 3\n1 2 5 4\n3 4 7 6\n4 5 8 7", "0 1 4 3\n0 1 4 3\n5 8 7 2\n6 2 5 8");

@@ -63,7 +63,8 @@ pub fn read(text: &str, part: &Part, form: Form) -> Result<PartBody, BadPart> {
     let faces = grid.faces.as_ref().map(|array| array.whole_numbers(text)).transpose()?;
     let is_paired = types.len() == offsets.len();
     if !is_paired || faces.as_ref().is_some_and(|faces| faces.len() != types.len()) {
-        let message = format!("{} types of {} cells", types.len(), offsets.len());
+        let of_faces = faces.map_or(String::new(), |faces| format!(" and {} faces", faces.len()));
+        let message = format!("{} types, {} offsets{of_faces}", types.len(), offsets.len());
         return Err(BadPart::whole(message, "`types`, `offsets` and `face` of all cells"));
     }
     let cells = Cells { text, array, nodes: nodes.len(), connectivity, offsets, types, faces };
@@ -102,6 +103,16 @@ pub fn read(text: &str, part: &Part, form: Form) -> Result<PartBody, BadPart> {
             BadMesh::Apart { cell: own } => {
                 refused(cell(own), "the cell hangs together with nothing", "cells of one body")
             }
+            BadMesh::Pinched { cell: own } => refused(
+                cell(own),
+                "the cell shares a part of a facet with others",
+                "cells that share whole facets, with the same corners",
+            ),
+            BadMesh::Renamed { facet } => refused(
+                cells.line_of(named[facet].2),
+                "the facet has another name, too",
+                "one name a facet",
+            ),
             BadMesh::Inside { facet } => refused(
                 cells.line_of(named[facet].2),
                 "a named facet is none of the surface",

@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn the_condensed_tangent_is_the_derivative_of_the_stress() {
+    fn condensed_tangents_match_differences() {
         let branches = vec![MaxwellBranch { fraction: 0.5, time: 0.3 }];
         let plastic = Plastic { yield_stress: 0.4, hardening: 0.3, saturation: 0.6, rate: 17.0 };
         let deviators = [

@@ -283,7 +283,7 @@ fn compression_softens_as_its_brittleness_says() {
     }
 }
 
-/// Where parts of surfaces meet, stress does not jump over strain.
+/// Stress does not jump over strain where parts of surfaces meet.
 #[test]
 fn stress_is_continuous() {
     let mut driver = Driver::new(concrete(0.9));
