@@ -113,6 +113,11 @@ rules! {
      error is some {usual} %, often {large} %";
     "a `spacing` {finer} times as small has errors below 10 %, from 6 distances on"
 
+    Read dissipation_below_zero(value)
+    "{value} J are dissipated, less than nothing: at large strain the law of a body that relaxes stores more than the work \
+     done; forces and their work are right";
+    "do not rely on `stored` and `dissipated` at these strains, take the work of forces and loads instead"
+
     End damage_is_even(most, mean)
     "damage is nearly even, {most} at most and {mean} in the mean: where no place is weaker or more stressed than others, no \
      crack is singled out";

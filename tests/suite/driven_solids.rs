@@ -3,6 +3,8 @@
 use impinge::advice::parse_with_warnings;
 use impinge::closed_form::{Rubber, Sides};
 
+use impinge::model::Cache;
+
 use crate::common::{Trial, off};
 
 /// A rubber with further keys.
@@ -149,6 +151,29 @@ fn a_load_that_comes_at_once_dissipates_nothing_until_the_body_relaxes() {
     assert!(dissipated.abs() < 2e-3 * stored, "{dissipated} {stored}");
     trial.step(1.0);
     assert!(trial.get("pad.dissipated") > 0.1 * stored);
+}
+
+/// A strip that is drawn to three times its length stores more than the work done, and half as far it does not.
+#[test]
+fn dissipation_below_zero_is_warned_of() {
+    let keys = "shape = { box = [4e-3, 1e-3, 10e-3] }\ndimension = 2\nmesh = { spacing = 2e-3 }\nfaces = { bottom = { roller = \
+                true }, top = { displacement = [0.0, 0.0, 0.0] } }";
+    let text = rubber(keys).replace(
+        r#""neo_hookean""#,
+        r#""viscoelastic", shear_relaxation = [{ fraction = 0.6, time = 0.3 }]"#,
+    );
+    for (stretch, warned) in [(1.2, false), (3.0, true)] {
+        let mut trial = Trial::new(&text);
+        for n in 1..=50 {
+            let drawn = 10e-3 * (stretch - 1.0) * f64::from(n) / 50.0;
+            trial.set("pad.top.displacement_z", drawn);
+            trial.step(2e-3);
+        }
+        let found = trial.model.warnings_on_values(&trial.state, &mut Cache::default()).unwrap();
+        let ids: Vec<_> = found.iter().map(|warning| warning.finding().id).collect();
+        let expected: &[&str] = if warned { &["dissipation_below_zero"] } else { &[] };
+        assert_eq!(ids, expected, "{stretch}");
+    }
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Solids of large strain: moving freely above a plane or another body by explicit steps, moving by implicit steps, or
 //! in equilibrium under the displacements of their faces.
 
+mod advised;
 mod faces;
 mod forecast;
 mod moving;

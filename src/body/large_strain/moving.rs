@@ -1,5 +1,6 @@
 //! A solid of large strain that moves freely above a plane or another body.
 
+use super::advised::Advised;
 use super::faces::{Faces, loaded};
 use super::probes::Probes;
 use super::snapshot::{Seen, Snapshot, columns, copies};
@@ -19,6 +20,7 @@ use crate::port::WallCells;
 use crate::runtime::allowance::{Allowance, cost};
 use crate::scene::{LargeStrain, Scene};
 use crate::state::store_all;
+use crate::warning::Warning;
 
 /// A body with inertia.
 pub struct MovingBody {
@@ -35,7 +37,7 @@ pub struct MovingBody {
     conductance: Option<f64>,
     /// True if the impulse on what lies below is transferred; `None` above a rigid plane.
     traction: Option<bool>,
-    notes: Vec<String>,
+    advised: Advised,
 }
 
 /// Share of the momentum or energy that a balance may miss.
@@ -54,6 +56,7 @@ impl MovingBody {
         let mesh = plan::mesh(solid);
         let threads = threads(is_large(plan::cells(&mesh) * 8));
         let body = plan::deformable(solid, threads).map_err(named)?;
+        let advised = Advised::of((name, solid), &body);
         let plane = plan::plane(solid, &body);
         let columns = columns(&body.space, solid.is_box());
         let traction = on.as_ref().map(|(_, link)| link.traction);
@@ -80,7 +83,7 @@ impl MovingBody {
             warming,
             conductance: solid.conductance_below,
             traction,
-            notes: super::forecast::notes(solid),
+            advised,
         })
     }
 
@@ -345,7 +348,11 @@ impl Approach for MovingBody {}
 
 impl Advice for MovingBody {
     fn notes(&self) -> Vec<String> {
-        self.notes.clone()
+        self.advised.notes()
+    }
+
+    fn warning_on_value(&self, reading: &Reading, value: f64) -> Option<Warning> {
+        self.advised.on_value(reading, value)
     }
 }
 

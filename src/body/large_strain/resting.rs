@@ -2,6 +2,7 @@
 
 use std::slice::from_mut;
 
+use super::advised::Advised;
 use super::faces::{Faces, Prescribed, loaded};
 use super::probes::Probes;
 use super::snapshot::{Seen, columns, copies};
@@ -21,6 +22,7 @@ use crate::method::sph::ParticleFields;
 use crate::runtime::allowance::{Allowance, Interrupt, cost};
 use crate::scene::{LargeStrain, Scene};
 use crate::state::{Field, Fields, Per};
+use crate::warning::Warning;
 
 /// A body without inertia.
 pub struct RestingBody {
@@ -39,7 +41,7 @@ pub struct RestingBody {
     thermal: Vec<Thermal>,
     /// Heat of a body that conducts it.
     warming: Option<Warming>,
-    notes: Vec<String>,
+    advised: Advised,
 }
 
 /// State of the body.
@@ -106,6 +108,7 @@ impl RestingBody {
         let named = |failure| named(name, failure);
         let threads = threads(is_large(plan::cells(&mesh) * 8));
         let body = plan::deformable(solid, threads).map_err(named)?;
+        let advised = Advised::of((name, solid), &body);
         let weight = body.mass.iter().map(|m| [0.0, 0.0, -m * solid.gravity]).collect();
         let faces = Faces::new(layout, (name, solid), &mesh, &body);
         let probes = Probes::new(scene, (name, solid), &mesh, &body);
@@ -132,7 +135,7 @@ impl RestingBody {
             temperature,
             thermal: solid.thermal(),
             warming,
-            notes: super::forecast::notes(solid),
+            advised,
         };
         Ok(own)
     }
@@ -418,7 +421,11 @@ impl Approach for RestingBody {}
 
 impl Advice for RestingBody {
     fn notes(&self) -> Vec<String> {
-        self.notes.clone()
+        self.advised.notes()
+    }
+
+    fn warning_on_value(&self, reading: &Reading, value: f64) -> Option<Warning> {
+        self.advised.on_value(reading, value)
     }
 
     fn temperature_set(&self, state: &[f64]) -> Option<f64> {

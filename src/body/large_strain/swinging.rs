@@ -2,6 +2,7 @@
 
 use std::slice::from_mut;
 
+use super::advised::Advised;
 use super::faces::{Faces, Prescribed, loaded};
 use super::probes::Probes;
 use super::snapshot::{Seen, Snapshot, columns, copies};
@@ -19,6 +20,7 @@ use crate::method::sph::ParticleFields;
 use crate::runtime::allowance::{Allowance, cost};
 use crate::scene::{LargeStrain, Scene};
 use crate::state::{Field, Fields, Per};
+use crate::warning::Warning;
 
 /// A body with inertia whose time steps are those of communication.
 pub struct SwingingBody {
@@ -32,7 +34,7 @@ pub struct SwingingBody {
     temperature: f64,
     /// No stretch over no time.
     still: Courses,
-    notes: Vec<String>,
+    advised: Advised,
 }
 
 /// State of the body.
@@ -85,6 +87,7 @@ impl SwingingBody {
         let named = |failure| named(name, failure);
         let threads = threads(is_large(plan::cells(&mesh) * 8));
         let body = plan::deformable(solid, threads).map_err(named)?;
+        let advised = Advised::of((name, solid), &body);
         let columns = columns(&body.space, solid.is_box());
         let faces = Faces::new(layout, (name, solid), &mesh, &body);
         let probes = Probes::new(scene, (name, solid), &mesh, &body);
@@ -105,7 +108,7 @@ impl SwingingBody {
             columns,
             temperature: solid.initial_temperature,
             still,
-            notes: super::forecast::notes(solid),
+            advised,
         })
     }
 
@@ -267,7 +270,11 @@ impl Approach for SwingingBody {}
 
 impl Advice for SwingingBody {
     fn notes(&self) -> Vec<String> {
-        self.notes.clone()
+        self.advised.notes()
+    }
+
+    fn warning_on_value(&self, reading: &Reading, value: f64) -> Option<Warning> {
+        self.advised.on_value(reading, value)
     }
 }
 

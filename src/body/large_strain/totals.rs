@@ -197,6 +197,11 @@ const TOTALS: [Total; 33] = [
     },
 ];
 
+/// Returns true of the place of the energy that is no longer stored.
+pub fn is_dissipated(place: usize) -> bool {
+    TOTALS.get(place).is_some_and(|total| total.key == "dissipated")
+}
+
 /// Place of the steps of a body in equilibrium, which those of one that moves replace.
 const STEPS_AT_REST: usize = TOTALS.len() - 1;
 

@@ -1,0 +1,50 @@
+//! Notes on solids of large strain, and warnings about their values.
+
+use super::{forecast, totals};
+use crate::body::Reading;
+use crate::laws::solid::large_strain::Deviator;
+use crate::method::large_strain::Deformable;
+use crate::scene::LargeStrain;
+use crate::warning::{self, Warning};
+
+/// Dissipation below zero that is no rounding and no error of steps, over the shear modulus times the volume.
+const UNSOUND: f64 = 1e-3;
+
+/// Messages of a body to its user.
+pub struct Advised {
+    name: String,
+    notes: Vec<String>,
+    /// Dissipation below which the split of energy of a body that relaxes is unsound [J]; `None` of any other body.
+    unsound: Option<f64>,
+}
+
+impl Advised {
+    pub fn of((name, solid): (&str, &LargeStrain), body: &Deformable) -> Self {
+        let relaxing = body.layers.iter().filter(|layer| match &layer.law.deviator {
+            Deviator::Relaxing(own) => own.history() > 0,
+            Deviator::Plastic(_) | Deviator::Concrete(_) => false,
+        });
+        let shear = relaxing.map(|layer| layer.law.shear).reduce(f64::max);
+        let volume: f64 = body.space.volume.weights.iter().sum();
+        Self {
+            name: name.to_owned(),
+            notes: forecast::notes(solid),
+            unsound: shear.map(|shear| -UNSOUND * shear * volume),
+        }
+    }
+
+    pub fn notes(&self) -> Vec<String> {
+        self.notes.clone()
+    }
+
+    /// Warns of energy that a body that relaxes seems to gain: far from small strain its law stores more than the work
+    /// done.
+    pub fn on_value(&self, reading: &Reading, value: f64) -> Option<Warning> {
+        let Reading::Total(place) = *reading else { return None };
+        let is_unsound = totals::is_dissipated(place) && value < self.unsound?;
+        is_unsound.then(|| {
+            warning::dissipation_below_zero(format!("{value:.2e}"))
+                .at(format!("{}.dissipated", self.name))
+        })
+    }
+}
