@@ -307,7 +307,7 @@ fn fluid_that_would_boil_is_warned_of_once_and_leaves_states_alone() {
 }
 
 /// The plate below strands.
-const PLATE: &str = r#"
+const BED: &str = r#"
 [body.plate]
 kind = "solid"
 shape = { box = [3e-4, 3e-4, 1e-4] }
@@ -320,7 +320,7 @@ from = "ink"
 to = "plate.top"
 "#;
 
-/// A strand of a fluid that freezes, above [`PLATE`].
+/// A strand of a fluid that freezes, above [`BED`].
 const STRAND: &str = r#"
 name = "Strand"
 stop_time = 2e-6
@@ -338,7 +338,7 @@ line = [[-1e-4, 0.0], [0.0, 0.0], [0.0, 1e-4]]
 "#;
 
 fn on_plate(strand: &str) -> String {
-    format!("{strand}{PLATE}")
+    format!("{strand}{BED}")
 }
 
 #[test]
@@ -367,7 +367,7 @@ fn strands_that_cannot_be_laid_are_refused_and_change_nothing() {
     }
 }
 
-/// A strand of particles, four across the nozzle, of a fluid that conducts heat, above [`PLATE`].
+/// A strand of particles, four across the nozzle, of a fluid that conducts heat, above [`BED`].
 const WARM_PARTICLES: &str = r#"
 name = "Strand"
 stop_time = 2e-6
