@@ -63,8 +63,11 @@ COARSE = {
     },
     "thermostat_strip": {"spacing = 0.2e-3": "spacing = 0.8e-3"},
     "quench_cracks": {"strength = 180e6": "strength = 80e6"},
-    "remelting": {"\nspacing = 80e-6": "\nspacing = 200e-6"},
-    "tin_drop": {"\nspacing = 60e-6": "\nspacing = 200e-6"},
+    "remelting": {"\nspacing = 80e-6": "\nspacing = 270e-6"},
+    "stress_study": {
+        "spacing = 25e-6, depth_spacing = 20e-6": "spacing = 1e-4, depth_spacing = 5e-5"
+    },
+    "tin_drop": {"\nspacing = 60e-6": "\nspacing = 270e-6"},
     "wax_layers": {"mesh = { spacing = 0.4e-3 }": "mesh = { spacing = 1.5e-3, order = 1 }"},
     "wax_line": {"mesh = { spacing = 0.8e-3 }": "mesh = { spacing = 1e-3, order = 1 }"},
 }

@@ -22,7 +22,7 @@ PRESSURES = [0.0, 50e3]  # Pa
 GRAVITY = 9.81  # m/s²
 
 
-def simulate(fmu: Path, folder: Path, pressure: float) -> dict[str, np.ndarray]:
+def simulate(fmu: Path, folder: Path, pressure: float, stop: float) -> dict[str, np.ndarray]:
     """Runs the unit with ParaView files in a folder; readings over time."""
     shutil.rmtree(folder, ignore_errors=True)
     names = [
@@ -38,7 +38,7 @@ def simulate(fmu: Path, folder: Path, pressure: float) -> dict[str, np.ndarray]:
     readings = {key: [] for key in ["time", *names]}
     with Unit(fmu, parameters={"output.directory": str(folder)}) as unit:
         unit["ring.sides.pressure"] = pressure
-        for step in range(round(STOP / STEP) + 1):
+        for step in range(round(stop / STEP) + 1):
             if step > 0:
                 unit.step_to(step * STEP)
             readings["time"].append(step * STEP)
@@ -83,10 +83,11 @@ def draw(folder: Path, runs: list[dict], out: Path) -> Path:
 
 
 def main(given: list[str] | None = None):
-    options = shared.arguments(NAME, __doc__, given)
+    until = {"type": float, "default": STOP, "help": "s [default: %(default)s]"}
+    options = shared.arguments(NAME, __doc__, given, stop=until)
     folders = [options.out / f"files_{pressure:g}" for pressure in PRESSURES]
     pairs = zip(folders, PRESSURES, strict=True)
-    runs = [simulate(options.fmu, folder, pressure) for folder, pressure in pairs]
+    runs = [simulate(options.fmu, folder, pressure, options.stop) for folder, pressure in pairs]
     rows = []
     for pressure, run in zip(PRESSURES, runs, strict=True):
         speed = (run["centre_z"][-1] - run["centre_z"][-2]) / STEP

@@ -24,24 +24,24 @@ fn live() {
 /// Runs alone in a process of its own, where no other test takes memory; see below.
 #[cfg(target_os = "linux")]
 #[test]
-#[ignore = "is run by five_hundred_lives_leave_no_memory_behind"]
-fn five_hundred_lives() {
+#[ignore = "is run by two_hundred_lives_leave_no_memory_behind"]
+fn two_hundred_lives() {
     // Keeps the model, so that it is built once.
     let holder = Unit::running();
-    (0..100).for_each(|_| live());
+    (0..50).for_each(|_| live());
     let before = resident();
-    (0..500).for_each(|_| live());
+    (0..200).for_each(|_| live());
     let grown = resident().saturating_sub(before);
-    // A saved state alone takes more than 30 kB: 500 of them would be 15 MB.
+    // A saved state alone takes more than 30 kB: 200 of them would be 6 MB.
     assert!(grown < 4 << 20, "{grown} bytes more than before");
     drop(holder);
 }
 
 #[cfg(target_os = "linux")]
 #[test]
-fn five_hundred_lives_leave_no_memory_behind() {
+fn two_hundred_lives_leave_no_memory_behind() {
     let output = std::process::Command::new(std::env::current_exe().unwrap())
-        .args(["--ignored", "--exact", "endurance::five_hundred_lives"])
+        .args(["--ignored", "--exact", "endurance::two_hundred_lives"])
         .output()
         .unwrap();
     let text = String::from_utf8_lossy(&output.stdout);

@@ -11,11 +11,12 @@ from conftest import EXAMPLES, ROOT, name_of
 
 FEWER = {
     "bend": ["--simulations", "12"],
-    "cook_membrane": ["--finest", "4"],
+    "cook_membrane": ["--finest", "6"],
     "moving_spot": ["--frames", "8"],
     "printer_control": ["--drops", "1", "--after", "0.15"],
     "notched_beam": ["--points", "20"],
     "paste_bead": ["--steps", "12"],
+    "spoked_ring": ["--stop", "0.011"],
     "quench_cracks": ["--steps", "6"],
     "thermal_fatigue": ["--drops", "2"],
     "stress_study": ["--samples", "4", "--levels", "3"],

@@ -1,7 +1,7 @@
 //! Meshes are fine where heat enters, on every face and by every kind of condition: those that a scene
 //! asks for and those that are chosen.
 
-use crate::common::{Trial, off};
+use crate::common::{Trial, off, sweep};
 use impinge::closed_form::{
     Conductor, ConvectiveSlab, ConvectiveSurface, SuddenSurface, UniformFlux,
 };
@@ -339,7 +339,9 @@ fn a_half_space_under_weak_convection_is_resolved_inside_too() {
 /// distance along the surface nodes beside the edge do, and the scene is told when that is over.
 #[test]
 fn the_time_until_edges_are_resolved_is_told() {
-    for (name, density, specific_heat, conductivity) in [MATERIALS[0], MATERIALS[2], MATERIALS[3]] {
+    for (name, density, specific_heat, conductivity) in
+        sweep(&[MATERIALS[0], MATERIALS[2], MATERIALS[3]], &[0])
+    {
         let heated = |stop: f64| {
             let text = format!(
                 r#"

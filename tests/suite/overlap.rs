@@ -90,14 +90,15 @@ fn bounded(text: &str, count: f64, (drop, wall): (f64, f64), steps: &[f64]) -> T
 #[test]
 fn any_number_of_drops_at_once_leaves_a_plate_between_its_own_and_their_temperature() {
     let steps = [2e-5, 1e-4, 1e-4, 1e-3];
-    for (liquid, material, shape, [drop, wall], method) in [
+    let all = [
         (WAX, GLASS, BOX, [400.0, 320.0], "record"),
         (WAX, PTFE, DISC, [320.0, 400.0], "film"),
         (TIN, GLASS, DISC, [600.0, 300.0], "film"),
         (ALUMINIUM, AEROGEL, DISC, [950.0, 300.0], "film"),
         (WATER, COPPER, BOX, [290.0, 500.0], "film"),
         (GLYCEROL, STEEL, DISC, [450.0, 300.0], "film"),
-    ] {
+    ];
+    for (liquid, material, shape, [drop, wall], method) in sweep(&all, &[0, 3, 4]) {
         let text = drops(liquid, method, drop, ON_DEMAND) + &plate(shape, material, wall);
         for count in sweep(&[1.0, 3.0, 60.0], &[2]) {
             let mut trial = bounded(&text, count, (drop, wall), &steps);
@@ -145,7 +146,7 @@ fn like_drops_on_one_place_are_one_of_all_volumes() {
         (0..100).for_each(|_| trial.step(0.01 * time));
         trial.get("drop.heat") / (count * heat_of(WAX, 80.0))
     };
-    for time in [2e-4, 1e-3, 4e-3] {
+    for time in sweep(&[2e-4, 1e-3, 4e-3], &[0, 2]) {
         let [one, eight] = [heat(1.0, time), heat(8.0, 4.0 * time)];
         assert!(one > 0.1 && off(eight, one) < 0.03, "{time}: {eight} {one}");
     }

@@ -108,7 +108,7 @@ fn fluid_beyond_the_table_of_its_viscosity_warns_before_and_during_a_run() {
     let steps = |scene: Scene| {
         let step = scene.step;
         let mut trial = Trial::of(scene);
-        (0..20).for_each(|_| trial.step(step));
+        (0..5).for_each(|_| trial.step(step));
         let found = trial.model.phase_warnings(&trial.state, |_| false);
         found.into_iter().map(|warning| warning.to_string()).collect::<Vec<_>>()
     };

@@ -34,7 +34,7 @@ const THREADS: u64 = 4;
 /// Calls in a script.
 const LENGTH: usize = 120;
 /// Scripts of the run that belongs to the tests.
-const FEW: u64 = 100;
+const FEW: u64 = 40;
 
 fn setting(name: &str) -> Option<u64> {
     let text = env::var(name).ok()?;

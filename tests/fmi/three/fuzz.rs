@@ -16,7 +16,7 @@ use crate::master::{DISCARD, ERROR, Handle, OK, Saved, Three, call};
 
 /// Calls in a script, and scripts of the run that belongs to the tests.
 const LENGTH: usize = 150;
-const FEW: u64 = 4;
+const FEW: u64 = 2;
 /// What stands in arrays that answers are written to.
 const UNTOUCHED: f64 = -7.25;
 
