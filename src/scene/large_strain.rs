@@ -91,6 +91,12 @@ pub struct LargeStrain {
     #[serde(default)]
     #[schemars(extend("otherwise" = "at rest", "condition" = "with `inertia = true`"))]
     pub start: LargeStrainStart,
+    /// Coefficient of Coulomb friction on what lies below.
+    #[schemars(
+        extend("otherwise" = "it slides", "condition" = "with explicit motion"),
+        transform = within(0.0, 10.0, "1", "the coefficient of friction")
+    )]
+    pub friction: Option<f64>,
     /// Body force per mass towards −z [m/s²].
     #[serde(default)]
     #[schemars(transform = within(0.0, 1e7, "m/s²", "gravity, which acts towards the wall,")

@@ -364,3 +364,89 @@ fn what_tears_a_mesh_is_refused_and_changes_nothing() {
     let scene = scene::parse(&text, "scene").unwrap();
     assert_eq!(scene.large_strains().count(), 1);
 }
+
+const BLOCK_ON_PLANE: &str = "shape = { box = [12e-3, 8e-3, 6e-3] }\ninertia = true\ngravity = 9.81\nmesh = { spacing = 3e-3 }\n\
+                              start = { velocity = [0.5, 0.0, 0.0] }";
+
+/// A block is slowed by μ g until it rests; what it had goes into heat, and its momentum into the plane.
+#[test]
+fn blocks_slide_as_far_as_friction_lets_them() {
+    for (keys, friction) in [("", 0.4), ("dimension = 2", 0.2), ("mechanics = \"sph\"", 0.8)] {
+        let text = gel(&format!("{BLOCK_ON_PLANE}\n{keys}\nfriction = {friction:?}"));
+        let mut trial = Trial::new(&text.replace("young = 5600.0", "young = 1e6"));
+        let [mass, kinetic] = ["mass", "kinetic"].map(|key| trial.get(&format!("gel.{key}")));
+        let deceleration = friction * 9.81;
+        let until = 0.5 / deceleration;
+        // Half of the way, and long after the end.
+        trial.step(0.5 * until);
+        let speed = trial.get("gel.momentum_x") / mass;
+        assert!(off(speed, 0.25) < 0.02, "{keys}: {speed} m/s");
+        trial.step(1.5 * until);
+        let [momentum, impulse, heat, left, stored] =
+            ["momentum_x", "impulse_x", "friction_heat", "kinetic", "stored"]
+                .map(|key| trial.get(&format!("gel.{key}")));
+        assert!((momentum + impulse - 0.5 * mass).abs() < 1e-9 * mass, "{keys}");
+        assert!(momentum.abs() < 0.02 * 0.5 * mass, "{keys}: {momentum} N s");
+        assert!(off(heat, kinetic) < 0.03, "{keys}: {heat} J of {kinetic} J");
+        let fallen = mass * 9.81 * (3e-3 - trial.get("gel.centre_z"));
+        let missing = heat + left + stored - kinetic - fallen;
+        assert!(missing.abs() < 0.01 * kinetic, "{keys}: {missing} J of {kinetic} J");
+        trial.model.check_state(&trial.state).unwrap();
+    }
+}
+
+/// A cylinder that slides without spin rolls at two thirds of its speed in the end, whatever the friction; a third of its
+/// energy is heat.
+#[test]
+fn cylinders_begin_to_roll() {
+    for friction in [0.1, 0.3] {
+        let text = gel(&format!(
+            "shape = {{ ball = {{ radius = 10e-3 }} }}\ninertia = true\ndimension = 2\ngravity = 9.81\n\
+             mesh = {{ spacing = 1.5e-3 }}\nstart = {{ velocity = [0.3, 0.0, 0.0] }}\nfriction = {friction:?}"
+        ));
+        let mut trial = Trial::new(&text.replace("young = 5600.0", "young = 1e6"));
+        let [mass, kinetic] = ["mass", "kinetic"].map(|key| trial.get(&format!("gel.{key}")));
+        trial.step(1.5 * 0.3 / (3.0 * friction * 9.81));
+        let speed = trial.get("gel.momentum_x") / mass;
+        assert!(off(speed, 0.2) < 0.02, "{friction}: {speed} m/s");
+        let heat = trial.get("gel.friction_heat");
+        assert!(off(heat, kinetic / 3.0) < 0.05, "{friction}: {heat} J of {kinetic} J");
+    }
+}
+
+/// The plate below a block that slides bears its shear, and states continue to the bit while it does.
+#[test]
+fn plates_bear_the_friction_of_what_slides_on_them() {
+    let text = format!(
+        "{}\n[body.plate]\nkind = \"solid\"\nshape = {{ box = [60e-3, 40e-3, 1e-3] }}\nmaterial = \"alumina\"\n\
+         initial_temperature = 293.15\nmesh = {{ spacing = 1.5e-3, depth_spacing = 0.25e-3 }}\nfaces = {{ bottom = {{ clamped = true }} }}\n\
+         [[coupling]]\nfrom = \"gel\"\nto = \"plate.top\"\ninterval = 2e-3\n\
+         [[probe]]\nname = \"below\"\nin = \"plate\"\nat = [0.0, 0.0, -0.5e-3]\ngives = [\"stress\"]\n",
+        gel(&format!("{BLOCK_ON_PLANE}\nfriction = 0.5"))
+            .replace("young = 5600.0", "young = 1e5")
+            .replace("[0.5, 0.0, 0.0]", "[0.05, 0.0, 0.0]")
+    );
+    let mut trial = Trial::new(&text);
+    trial.step(4e-3);
+    let before = trial.get("gel.impulse_x");
+    let state = trial.state.clone();
+    trial.step(2e-3);
+    let force = (trial.get("gel.impulse_x") - before) / 2e-3;
+    let shear = trial.get("below.stress_xz");
+    let wanted = force / (12e-3 * 8e-3);
+    assert!(force > 0.0 && off(shear, wanted) < 0.2, "{shear} Pa, not {wanted} Pa");
+    let end = trial.state.bodies.clone();
+    trial.restart(&state);
+    trial.step(2e-3);
+    assert!(trial.state.bodies == end);
+}
+
+#[test]
+fn friction_is_that_of_bodies_above_something() {
+    for keys in ["", "inertia = true\nmotion = \"implicit\""] {
+        let text =
+            block("faces = { bottom = { clamped = true } }", &format!("{keys}\nfriction = 0.3"));
+        let refusal = scene::parse(&text, "gel.toml").unwrap_err().to_string();
+        assert!(refusal.contains("rubs on nothing"), "{refusal}");
+    }
+}

@@ -88,7 +88,7 @@ impl MovingBody {
     }
 
     fn snapshot(&self, motion: &Motion) -> Result<Snapshot, BodyError> {
-        let touch = self.dynamics.plane.touch(&self.dynamics.body, &motion.displacement);
+        let touch = self.dynamics.contact(motion);
         let over = self.over(motion).map_err(|failure| named(&self.name, failure))?;
         let seen = Seen { touch: Some(&touch), ..self.seen(motion, &over) };
         let stresses = seen.stresses().map_err(|failure| named(&self.name, failure))?;
@@ -139,6 +139,9 @@ impl MovingBody {
         if let Some(warming) = &self.warming {
             warming.check(&motion.warmth)?;
         }
+        if !motion.friction.is_sound() {
+            return Err("heat of friction is not negative".to_owned());
+        }
         let ledger = &motion.ledger;
         if ledger.time < 0.0 || ledger.steps < 0.0 || ledger.duration < 0.0 {
             return Err("time, steps and their lengths are not negative".to_owned());
@@ -152,9 +155,17 @@ impl MovingBody {
         if self.faces.loaded() == 0 && missing.abs() > MOMENTUM * scale {
             return Err(format!("{missing:.1e} N s of momentum along z have no cause"));
         }
+        for axis in (0..2).filter(|&axis| !self.dynamics.symmetric()[axis]) {
+            let dragged = motion.friction.impulse[axis];
+            let missing = now.momentum[axis] - start.momentum[axis] + dragged;
+            let scale = scale + start.momentum[axis].abs() + dragged.abs();
+            if self.faces.loaded() == 0 && missing.abs() > MOMENTUM * scale {
+                return Err(format!("{missing:.1e} N s of momentum along the plane have no cause"));
+            }
+        }
         let copies = copies(self.mirrors);
-        let touch = self.dynamics.plane.touch(&self.dynamics.body, &motion.displacement);
-        let internal = copies * (ledger.internal_work + touch.energy);
+        let touch = self.dynamics.contact(motion);
+        let internal = copies * (ledger.internal_work + touch.energy + motion.friction.heat);
         let work = now.mass * gravity * (now.centre - start.centre) + copies * ledger.load_work;
         let missing = now.kinetic + internal - start.kinetic - work;
         let scale = start.kinetic + work.abs() + copies * ledger.internal_work.abs();
@@ -168,7 +179,7 @@ impl MovingBody {
         let ledger = &motion.ledger;
         let inside: f64 = ledger.exchange.iter().sum();
         let rate = |amount: f64| if ledger.duration > 0.0 { amount / ledger.duration } else { 0.0 };
-        let touch = self.dynamics.plane.touch(&self.dynamics.body, &motion.displacement);
+        let touch = self.dynamics.contact(motion);
         let stored = snapshot.stored - copies(self.mirrors) * touch.energy;
         let worked = ledger.internal_work + motion.warmth.swelling;
         let own = (&self.dynamics.body, &motion.warmth);
@@ -177,6 +188,8 @@ impl MovingBody {
             load_work: copies(self.mirrors) * ledger.load_work,
             contact_force: rate(inside + ledger.outside),
             impulse: ledger.impulse_to_plane,
+            shear: motion.friction.impulse,
+            friction_heat: copies(self.mirrors) * motion.friction.heat,
             lift_off: ledger.lift_off,
             steps: ledger.steps,
             force_outside: rate(ledger.outside),
@@ -251,13 +264,17 @@ impl MovingBody {
         advanced.map_err(|failure| named(&self.name, failure))
     }
 
-    fn given_of(&self, Motion { ledger, warmth, .. }: &Motion) -> Option<Given> {
+    fn given_of(&self, Motion { ledger, warmth, friction, .. }: &Motion) -> Option<Given> {
         let traction = self.traction?;
         let heat = match warmth.exchange.is_empty() {
             true => vec![0.0; ledger.exchange.len()],
             false => warmth.exchange.clone(),
         };
-        let impulse = ledger.exchange.iter().map(|&impulse| [0.0, 0.0, -impulse]);
+        let along = |cell: usize| friction.exchange.get(cell).copied().unwrap_or_default();
+        let impulse = ledger.exchange.iter().enumerate().map(|(cell, &impulse)| {
+            let [x, y] = along(cell);
+            [x, y, -impulse]
+        });
         Some(Given {
             duration: ledger.duration,
             heat,
@@ -302,7 +319,7 @@ impl Structured for MovingBody {
     }
 
     fn view(&self, state: Motion, _: &[f64]) -> Result<View, BodyError> {
-        let touch = self.dynamics.plane.touch(&self.dynamics.body, &state.displacement);
+        let touch = self.dynamics.contact(&state);
         let over = self.over(&state).map_err(|failure| named(&self.name, failure))?;
         let seen = Seen { touch: Some(&touch), ..self.seen(&state, &over) };
         let stresses = seen.stresses().map_err(|failure| named(&self.name, failure))?;

@@ -174,6 +174,7 @@ pub fn plane(solid: &LargeStrain, body: &Deformable) -> Plane {
         stiffness: PLANE * body.wave_modulus() / spacing,
         height: solid.start.height - lowest,
         width: spacing,
+        friction: solid.friction,
     }
 }
 

@@ -14,6 +14,9 @@ pub struct Sums {
     pub load_work: f64,
     pub contact_force: f64,
     pub impulse: f64,
+    /// Along x and y.
+    pub shear: [f64; 2],
+    pub friction_heat: f64,
     pub lift_off: f64,
     pub steps: f64,
     pub force_outside: f64,
@@ -37,6 +40,8 @@ enum Offered {
     Moving,
     /// Those above a plane or another body.
     Above,
+    /// Those with friction on what lies below.
+    Rubbing,
     /// Those with loads on their faces.
     Loaded,
     /// Those on a solid, over whose edge they may reach.
@@ -60,7 +65,7 @@ enum Read {
     Heat(fn(&HeatTotals) -> f64),
 }
 
-const TOTALS: [Total; 33] = [
+const TOTALS: [Total; 36] = [
     all("width", "extent along x", Quantity::Length, |s| s.width),
     all("height", "extent along z", Quantity::Length, |s| s.height),
     all("centre_z", "height of the centre of mass", Quantity::Length, |s| s.centre),
@@ -106,6 +111,14 @@ const TOTALS: [Total; 33] = [
         "impulse along z on what lies below, into it negative",
         Quantity::Momentum,
         |s| -s.impulse,
+    ),
+    rubbing("impulse_x", "impulse along x on what lies below", Quantity::Momentum, |s| s.shear[0]),
+    rubbing("impulse_y", "impulse along y on what lies below", Quantity::Momentum, |s| s.shear[1]),
+    rubbing(
+        "friction_heat",
+        "heat that friction has made, which warms neither body",
+        Quantity::Energy,
+        |s| s.friction_heat,
     ),
     above("lift_off_time", "time of the last lift-off, 0 before", Quantity::Time, |s| s.lift_off),
     Total {
@@ -241,6 +254,15 @@ const fn above(
     Total { key, words, quantity, of: Offered::Above, read: Read::Sums(read) }
 }
 
+const fn rubbing(
+    key: &'static str,
+    words: &'static str,
+    quantity: Quantity,
+    read: fn(&Sums) -> f64,
+) -> Total {
+    Total { key, words, quantity, of: Offered::Rubbing, read: Read::Sums(read) }
+}
+
 const fn conducting(
     key: &'static str,
     words: &'static str,
@@ -259,6 +281,7 @@ pub fn offered_totals(solid: &LargeStrain, is_coupled: bool) -> Vec<(usize, Desc
         Offered::All => true,
         Offered::Moving => solid.inertia,
         Offered::Above => solid.is_above(),
+        Offered::Rubbing => solid.friction.is_some(),
         Offered::Loaded => solid.faces.values().any(HeldFace::is_loaded),
         Offered::OnASolid => is_coupled,
         Offered::Conducting => solid.conducts(),

@@ -5,7 +5,7 @@
 
 use super::Deformable;
 
-/// The plane z = 0, on which the body slides without friction.
+/// The plane z = 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane {
     /// Pressure per depth [Pa/m].
@@ -14,6 +14,8 @@ pub struct Plane {
     pub height: f64,
     /// Distance of points of the boundary, over which each spreads its force [m].
     pub width: f64,
+    /// Coefficient of friction; `None` if the body slides without.
+    pub friction: Option<f64>,
 }
 
 /// A point in contact.
@@ -69,12 +71,7 @@ impl Plane {
         let samples = &body.space.boundary.samples;
         let mut touch = Touch::default();
         for point in 0..samples.len() {
-            let mut at = samples.at[point];
-            at[2] += self.height;
-            for value in samples.row(point) {
-                let u = u[value.node as usize];
-                (0..3).for_each(|a| at[a] += value.value * u[a]);
-            }
+            let at = self.place(body, u, point);
             if at[2] >= 0.0 {
                 continue;
             }
@@ -86,5 +83,26 @@ impl Plane {
             touch.nodes.extend(row.map(|value| (value.node, force * value.value)));
         }
         touch
+    }
+
+    /// Places of the points of the boundary along the plane [m].
+    pub fn places(&self, body: &Deformable, u: &[[f64; 3]]) -> Vec<[f64; 2]> {
+        let along = |point: usize| {
+            let [x, y, _] = self.place(body, u, point);
+            [x, y]
+        };
+        (0..body.space.boundary.samples.len()).map(along).collect()
+    }
+
+    /// Place of a point of the boundary in space [m].
+    fn place(&self, body: &Deformable, u: &[[f64; 3]], point: usize) -> [f64; 3] {
+        let samples = &body.space.boundary.samples;
+        let mut at = samples.at[point];
+        at[2] += self.height;
+        for value in samples.row(point) {
+            let u = u[value.node as usize];
+            (0..3).for_each(|a| at[a] += value.value * u[a]);
+        }
+        at
     }
 }

@@ -7,6 +7,7 @@
 //! 10.1016/0045-7825(85)90033-7). [`motion`] advances bodies with inertia, [`statics`] finds equilibria without.
 
 mod contact;
+mod friction;
 mod course;
 mod deformable;
 mod failure;
@@ -25,6 +26,7 @@ pub use course::{Course, Courses};
 pub use deformable::{Deformable, LayerOfBody, Stresses};
 pub use failure::Failure;
 pub use fragments::Fragments;
+pub use friction::{Friction, Shear};
 pub use heat::{
     Conduction, Contacts, Film, HEAT_STEPS, HEAT_WORK, HeatDrive, HeatOfLayer, Passed, Warmth,
 };

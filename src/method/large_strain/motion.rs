@@ -4,8 +4,8 @@
 
 use super::statics::sum;
 use super::{
-    Contacts, Course, Courses, Deformable, FaceLoad, Failure, Ledger, LoadedFaces, Motion, Plane,
-    Spot, Stresses, Touch,
+    Contacts, Course, Courses, Deformable, FaceLoad, Failure, Friction, Ledger, LoadedFaces,
+    Motion, Plane, Shear, Spot, Stresses, Touch,
 };
 use crate::port::{Cover, WallCells};
 use crate::runtime::allowance::Allowance;
@@ -51,6 +51,7 @@ pub type CoursesOver<'a> = dyn Fn([f64; 2]) -> Result<Courses, Failure> + 'a;
 struct Moment {
     stresses: Stresses,
     touch: Touch,
+    shear: Shear,
     /// Forces of loads, and of all, on the nodes [N].
     loads: Vec<[f64; 3]>,
     forces: Vec<[f64; 3]>,
@@ -74,12 +75,15 @@ impl Dynamics {
         let count = self.body.nodes();
         let mut velocity = vec![velocity; count];
         self.body.flatten(&mut velocity);
-        let exchange = vec![0.0; self.cells.as_ref().map_or(0, WallCells::len)];
+        let cells = self.cells.as_ref().map_or(0, WallCells::len);
+        let exchange = vec![0.0; cells];
+        let friction = self.plane.friction.map(|_| Friction::of(&self.body, cells));
         Motion {
             displacement: vec![[0.0; 3]; count],
             velocity,
             history: vec![0.0; self.body.history()],
             ledger: Ledger { exchange, ..Ledger::default() },
+            friction: friction.unwrap_or_default(),
             ..Motion::default()
         }
     }
@@ -123,7 +127,17 @@ impl Dynamics {
         let mut forces = sum(&body.forces(&stresses, team), &of_loads);
         let touch = self.plane.touch(body, u);
         touch.add_to(&mut forces);
-        Ok(Moment { stresses, touch, loads: of_loads, forces })
+        let shear = self.plane.rub((body, u), &touch, &mut motion.friction);
+        shear.add_to(&mut forces);
+        Ok(Moment { stresses, touch, shear, loads: of_loads, forces })
+    }
+
+    /// Contact and friction of a motion at this moment.
+    pub fn contact(&self, motion: &Motion) -> Touch {
+        let own = (&self.body, &motion.displacement[..]);
+        let mut touch = self.plane.touch(own.0, own.1);
+        touch.energy += self.plane.rub(own, &touch, &mut motion.friction.clone()).energy;
+        touch
     }
 
     /// Advances by a duration [s]; notes the contact with cells where `contacts` are given.
@@ -136,6 +150,7 @@ impl Dynamics {
         allowance: &Allowance,
     ) -> Result<(), Failure> {
         motion.ledger.exchange.fill(0.0);
+        motion.friction.exchange.fill([0.0; 2]);
         (motion.ledger.outside, motion.ledger.duration) = (0.0, duration);
         let mut rest = duration;
         let team = &self.body.team();
@@ -199,6 +214,7 @@ impl Dynamics {
         self.body.flatten(&mut motion.velocity);
         for signs in self.images() {
             self.push(&mut motion.ledger, &moment.touch, dt, signs);
+            self.drag(&mut motion.friction, moment, dt, signs);
         }
     }
 
@@ -242,6 +258,32 @@ impl Dynamics {
             ledger.outside += cover.outside * impulse;
         }
     }
+
+    /// Notes the impulse of an image of the body, with these signs of x and y, along the plane.
+    fn drag(&self, friction: &mut Friction, moment: &Moment, dt: f64, signs: [f64; 2]) {
+        let spots = moment.touch.spots.iter().zip(&moment.shear.spots);
+        for (spot, force) in spots {
+            let impulse = [0, 1].map(|a| -dt * signs[a] * force[a]);
+            let is_round = self.body.space.form == Form::Axisymmetric;
+            if !is_round {
+                (0..2).for_each(|a| friction.impulse[a] += impulse[a]);
+            }
+            let Some(cells) = &self.cells else { continue };
+            let given = match cells.are_radial() && !is_round {
+                true => radially([0, 1].map(|a| signs[a] * spot.at[a]), impulse),
+                false => impulse,
+            };
+            for (cell, weight) in self.cover(cells, spot, signs).cells {
+                (0..2).for_each(|a| friction.exchange[cell][a] += weight * given[a]);
+            }
+        }
+    }
+}
+
+/// An impulse at a place: along its radius from the origin, and 0.
+fn radially([x, y]: [f64; 2], [u, v]: [f64; 2]) -> [f64; 2] {
+    let radius = x.hypot(y);
+    [if radius > 0.0 { (x * u + y * v) / radius } else { 0.0 }, 0.0]
 }
 
 /// Bound on the frequency that contact adds [1/s].

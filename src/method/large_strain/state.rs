@@ -2,7 +2,7 @@
 
 use std::slice::from_mut;
 
-use super::Warmth;
+use super::{Friction, Warmth};
 use crate::state::{Field, Fields, Per};
 
 /// Displacements and velocities of the nodes, history of the points, and integrals over time.
@@ -17,6 +17,8 @@ pub struct Motion {
     pub history: Vec<f64>,
     /// Heat of a body that conducts it.
     pub warmth: Warmth,
+    /// Friction on the plane below.
+    pub friction: Friction,
 }
 
 /// Integrals over time and events.
@@ -78,6 +80,7 @@ impl Fields for Motion {
             (of("history", "history of the law", Per::Point, 1), &mut self.history[..]),
         ];
         fields.extend(self.warmth.fields());
+        fields.extend(self.friction.fields());
         fields
     }
 }

@@ -37,6 +37,9 @@ pub fn check(checker: &mut Checker) {
         if solid.inertia {
             check_velocity(checker, &path, solid);
         }
+        let message = "a body that touches nothing below rubs on nothing";
+        let fine = solid.friction.is_none() || solid.is_above();
+        checker.require(fine, &path.key("friction"), message, "none; with explicit motion");
     }
     for (name, solid) in checker.scene.solids() {
         let choices = solid.layers.iter().flatten().map(|layer| &layer.material);
