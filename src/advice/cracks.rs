@@ -1,6 +1,7 @@
-//! Cracks whose damage is as wide as the body.
+//! Cracks whose damage is as wide as the body, and those that a shock opens within one step.
 
 use super::Reviewer;
+use super::flaws::is_shocked;
 use crate::limits::number;
 use crate::scene::locate::Path;
 use crate::scene::{Shape, Solid};
@@ -8,6 +9,10 @@ use crate::warning;
 
 /// Largest length of damage over the smallest extent of the body's section.
 const LARGEST_PART: f64 = 1.0 / 3.0;
+
+/// Fourier number `κt/L²` of an extent L that is cooled suddenly on both sides, at which stress in its surfaces has fallen
+/// to 55 % of its peak: to `1 − 4 √(κt/(π L²))`.
+const PASSED: f64 = 0.04;
 
 pub fn review(reviewer: &mut Reviewer) {
     let scene = reviewer.scene;
@@ -18,6 +23,14 @@ pub fn review(reviewer: &mut Reviewer) {
             let path = Path::default().key("body").key(name).key("material");
             let [length, extent] = [law.length, extent].map(number);
             reviewer.warn(&path, warning::damage_wider_than_body(length, extent));
+        }
+        let Some(layer) = solid.strata().first().copied() else { continue };
+        let time = PASSED * extent * extent / layer.constants.diffusivity();
+        let step = scene.step;
+        if step > time && is_shocked(scene, (name, solid), 0.5 * extent) {
+            let [step, time] = [step, time].map(|time| format!("{time:.1e}"));
+            let path = Path::default().key("body").key(name).key("material");
+            reviewer.warn(&path, warning::crack_peak_missed(step, time));
         }
     }
 }

@@ -32,7 +32,7 @@ pub fn review(reviewer: &mut Reviewer) {
 
 /// Returns true if the surface temperature may jump, seen from a depth [m]: it is prescribed, or convection or another
 /// body brings it about faster than heat reaches the depth.
-fn is_shocked(scene: &Scene, (name, solid): (&str, &Solid), depth: f64) -> bool {
+pub(super) fn is_shocked(scene: &Scene, (name, solid): (&str, &Solid), depth: f64) -> bool {
     let conductivity = solid.strata().into_iter().map(|layer| layer.constants.conductivity);
     let conductivity = conductivity.fold(f64::INFINITY, f64::min);
     let is_sudden = |face: &Face| {

@@ -2,12 +2,12 @@
 
 use super::{Reviewer, power};
 use crate::closed_form::{Conductor, DiscFlux, GaussianFlux, UniformFlux};
-use crate::laws::{Constants, Fluid};
+use crate::laws::{Constants, Fluid, Material};
 use crate::limits::number;
 use crate::limits::plausible;
 use crate::scene::lateral_extents;
 use crate::scene::locate::Path;
-use crate::scene::{Droplet, FaceName, Footprint, HeatMethod, Mesh, Solid};
+use crate::scene::{Droplet, FaceName, Footprint, HeatMethod, LargeStrain, Mesh, Solid};
 use crate::warning;
 
 /// Foams and aerogels have a lower density [kg/m³] and conductivity [W/(m K)] than these.
@@ -47,6 +47,9 @@ pub fn review(reviewer: &mut Reviewer) {
         fluxes(reviewer, (&path, name), body);
         particles(reviewer, &path, body);
         slender(reviewer, &path, (name, body));
+    }
+    for (name, body) in reviewer.scene.large_strains() {
+        fluxes_at_large_strain(reviewer, &root.key("body").key(name), body);
     }
     for (name, body) in reviewer.scene.droplets() {
         fluid(reviewer, &root.key("body").key(name).key("fluid"), body);
@@ -128,7 +131,7 @@ fn fluxes(reviewer: &mut Reviewer, (path, name): (&Path, &str), solid: &Solid) {
     for (face, condition) in &solid.faces {
         if let Some(flux) = condition.flux {
             let path = path.key("faces").key(face.as_str()).key("flux");
-            flux_of(reviewer, &path, Spot::whole(flux), solid);
+            flux_of(reviewer, &path, Spot::whole(flux), &Heated::of(solid));
         }
     }
     for (i, load) in reviewer.scene.load.iter().enumerate() {
@@ -139,13 +142,47 @@ fn fluxes(reviewer: &mut Reviewer, (path, name): (&Path, &str), solid: &Solid) {
             let size = load.start_radius().unwrap_or(f64::INFINITY);
             let is_gaussian = matches!(load.footprint, Footprint::Gaussian { .. });
             let spot = Spot { flux: largest(&fluxes), radius: size, is_gaussian };
-            flux_of(reviewer, &path, spot, solid);
+            flux_of(reviewer, &path, spot, &Heated::of(solid));
             if let Some(power) = load.start.power.filter(|_| channel.is_of_whole())
                 && let Some(finding) = power::implausible_power(load, channel, [power, size])
             {
                 reviewer.warn(&path, finding);
             }
         }
+    }
+}
+
+/// The same of fluxes on faces of a solid of large strain.
+fn fluxes_at_large_strain(reviewer: &mut Reviewer, path: &Path, solid: &LargeStrain) {
+    let start = solid.initial_temperature;
+    let conductor = |Material { heat, .. }: &Material| Conductor {
+        conductivity: heat.conductivity.value(start),
+        heat_capacity: heat.density * heat.specific_heat.value(start),
+    };
+    let layers = solid.materials_of_layers().into_iter().map(conductor).collect();
+    let heated = Heated { layers, start };
+    for (face, condition) in &solid.faces {
+        if let Some(flux) = condition.flux {
+            let path = path.key("faces").key(face.as_str()).key("flux");
+            flux_of(reviewer, &path, Spot::whole(flux), &heated);
+        }
+    }
+}
+
+/// Layers of a solid, and its initial temperature [K].
+struct Heated {
+    layers: Vec<Conductor>,
+    start: f64,
+}
+
+impl Heated {
+    fn of(solid: &Solid) -> Self {
+        let conductor = |law: &Constants| Conductor {
+            conductivity: law.conductivity,
+            heat_capacity: law.heat_capacity(),
+        };
+        let layers = solid.strata().into_iter().map(|own| conductor(&own.constants)).collect();
+        Self { layers, start: solid.initial_temperature }
     }
 }
 
@@ -163,8 +200,7 @@ impl Spot {
     }
 
     /// Rise in the middle of a half space's surface after a time [s], if the spot rests [K].
-    fn rise(&self, law: &Constants, time: f64) -> f64 {
-        let body = Conductor { conductivity: law.conductivity, heat_capacity: law.heat_capacity() };
+    fn rise(&self, body: Conductor, time: f64) -> f64 {
         let Self { flux, radius, .. } = *self;
         if radius.is_infinite() {
             UniformFlux { body, flux }.rise(0.0, time)
@@ -178,11 +214,11 @@ impl Spot {
 }
 
 /// Warns of the rise of a half space's surface under a constant flux.
-fn flux_of(reviewer: &mut Reviewer, path: &Path, spot: Spot, solid: &Solid) {
+fn flux_of(reviewer: &mut Reviewer, path: &Path, spot: Spot, heated: &Heated) {
     let flux = spot.flux;
     // For layers, the smallest rise of any of them.
     let time = reviewer.scene.stop_time;
-    let rises = solid.strata().into_iter().map(|layer| spot.rise(&layer.constants, time));
+    let rises = heated.layers.iter().map(|layer| spot.rise(*layer, time));
     let rise = rises.reduce(|a, b| if b.abs() < a.abs() { b } else { a }).unwrap_or(0.0);
     if !plausible::HEAT_FLUX.holds(flux) {
         return;
@@ -190,7 +226,7 @@ fn flux_of(reviewer: &mut Reviewer, path: &Path, spot: Spot, solid: &Solid) {
     let about = number((rise.abs() / 10.0).round() * 10.0);
     if rise > HOTTEST_RISE {
         reviewer.warn(path, warning::flux_overheats_surface(about));
-    } else if rise < -solid.initial_temperature {
+    } else if rise < -heated.start {
         reviewer.warn(path, warning::flux_undercools_surface(about));
     }
 }

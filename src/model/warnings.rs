@@ -36,10 +36,10 @@ impl Model {
     /// Warns of a state after a step; the tests are quick.
     pub fn warnings(&self, state: &State) -> Vec<Warning> {
         let bodies = self.bodies.iter().zip(&state.bodies).enumerate();
-        let set = bodies.filter_map(|(place, (body, unknowns))| {
-            self.warning_on_temperature(place, body.temperature_set(unknowns)?)
+        let hot = bodies.filter_map(|(place, (body, unknowns))| {
+            self.warning_on_temperature(place, body.hottest(unknowns)?)
         });
-        self.warnings_on(state, Occasion::Step).into_iter().chain(set).collect()
+        self.warnings_on(state, Occasion::Step).into_iter().chain(hot).collect()
     }
 
     /// Warns of inputs that were set in response to the last step and contradict how it was computed; `before` are

@@ -1,5 +1,6 @@
 //! Texts of the files that a scene names, added to its own: the scene is whole wherever its text goes.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io;
 use std::path::{self, Component};
@@ -7,7 +8,7 @@ use std::path::{self, Component};
 use toml::de::DeValue;
 
 use super::LARGEST_FILE;
-use super::error::SceneError;
+use super::error::{Problem, SceneError};
 use super::file::bytes_of;
 use super::locate::{Path, Source};
 
@@ -21,6 +22,7 @@ pub fn with_files(text: String, path: &path::Path, file: &str) -> Result<String,
     let folder = path.parent().unwrap_or_else(|| path::Path::new(""));
     let (mut found, mut problems) = (BTreeMap::new(), Vec::new());
     if source.value(&Path::default().key("files")).is_some() {
+        SceneError::unless_empty(differences(&source, folder))?;
         return Ok(text);
     }
     for place in places(&source) {
@@ -48,6 +50,36 @@ fn places(source: &Source) -> Vec<Path> {
     places
         .filter(|place| source.value(place).is_some_and(|value| value.as_str().is_some()))
         .collect()
+}
+
+/// Ends lines by line feeds, if carriage returns alone end some.
+pub(super) fn with_line_feeds(text: &str) -> Cow<'_, str> {
+    let mut after = text.split('\r').skip(1);
+    match after.any(|rest| !rest.starts_with('\n')) {
+        true => unified(text).into(),
+        false => text.into(),
+    }
+}
+
+/// A text whose lines end by line feeds.
+fn unified(text: &str) -> String {
+    text.replace("\r\n", "\n").replace('\r', "\n")
+}
+
+/// Reports texts in a scene that are not those of the files, where there are files, too.
+fn differences(source: &Source, folder: &path::Path) -> Vec<Problem> {
+    let differs = |place: &Path| {
+        let name = source.value(place)?.as_str()?;
+        let own = source.value(&Path::default().key("files").key(name))?.as_str()?;
+        let content = read(folder, name).ok()?;
+        (unified(own) != unified(&content)).then(|| {
+            let message =
+                format!("the text in `[files]` is not that of {}", folder.join(name).display());
+            let allowed = "one of both: without its text in `[files]`, the file is read";
+            source.problem(place, message, allowed.to_owned())
+        })
+    };
+    places(source).iter().filter_map(differs).collect()
 }
 
 /// Returns true if links lead a name out of its folder: a scene of someone else would pack files of one's own.
@@ -85,6 +117,29 @@ mod tests {
     use super::*;
     use std::fs;
     use std::os::unix::fs::symlink;
+
+    #[test]
+    fn texts_that_are_not_those_of_the_files_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = folder.path().join("scene.toml");
+        let text = |code: &str| {
+            format!("[body.a.path]\nfile = \"a.gcode\"\n[files]\n\"a.gcode\" = \"{code}\"\n")
+        };
+        let read = |code: &str| with_files(text(code), &scene, "scene.toml");
+        assert_eq!(read("G1").unwrap(), text("G1"));
+        fs::write(folder.path().join("a.gcode"), "G1\r\n").unwrap();
+        assert_eq!(read("G1\\n").unwrap(), text("G1\\n"));
+        let error = read("G2").unwrap_err().to_string();
+        assert!(error.contains("is not that of") && error.contains("a.gcode"), "{error}");
+        assert!(error.contains("scene.toml:2"), "{error}");
+    }
+
+    #[test]
+    fn carriage_returns_alone_end_lines() {
+        for (text, lines) in [("a\rb\r", "a\nb\n"), ("a\r\nb\r", "a\nb\n"), ("a\r\n", "a\r\n")] {
+            assert_eq!(with_line_feeds(text), lines);
+        }
+    }
 
     #[test]
     fn links_out_of_the_folder_are_refused() {

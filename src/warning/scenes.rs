@@ -126,6 +126,10 @@ rules! {
     "after a thermal shock the stress intensity of a flaw this deep is highest after {time} s, within a communication \
      step of {step} s: outputs miss it"; "set a `step` of {time} s or less"
 
+    Check crack_peak_missed(step, time)
+    "after a thermal shock stress has fallen to half its peak after {time} s, within a communication step of {step} s: \
+     cracks that it opens may be missed"; "set a `step` of {time} s or less"
+
     Check flaw_deep(part, most)
     "the crack is {part} of what is behind it, and its stress intensity is that of a half plane, which is too low by \
      more than 6 %"; "a depth of {most} m or less is accurate"

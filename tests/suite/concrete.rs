@@ -71,3 +71,64 @@ fn saved_states_continue_bit_for_bit() {
     (0..3).for_each(|_| second.step(2e-5));
     assert_eq!(outputs(&mut first), outputs(&mut second));
 }
+
+/// A body of concrete in equilibrium that an input moves on one face.
+fn held(shape: &str, faces: &str) -> String {
+    let material = &SCENE[SCENE.find("[body.block.material]").unwrap()..];
+    format!(
+        "name = \"Held\"\nstop_time = 1.0\nstep = 1e-3\n\n[body.block]\nkind = \"solid\"\nstrain = \"finite\"\n\
+         {shape}\ninitial_temperature = 293.15\nfaces = {{ bottom = {{ roller = true }}, {faces} }}\n\n{material}"
+    )
+}
+
+/// Size of the force on a face after each of equal steps of its displacement.
+fn forces(scene: &str, (face, axis): (&str, char), way: f64, steps: usize) -> Vec<f64> {
+    let mut trial = Trial::new(scene);
+    let [input, output] =
+        ["displacement", "force"].map(|quantity| format!("block.{face}.{quantity}_{axis}"));
+    let force = |n: usize| {
+        trial.set(&input, way * n as f64 / steps as f64);
+        trial.step(1e-3);
+        trial.get(&output).abs()
+    };
+    (1..=steps).map(force).collect()
+}
+
+fn largest(forces: &[f64]) -> f64 {
+    forces.iter().copied().fold(0.0, f64::max)
+}
+
+/// An even bar bears its strength, 4 MPa over 40 mm, in steps of any length, and breaks beyond it.
+#[test]
+fn bars_bear_their_strength_in_steps_of_any_length() {
+    let faces =
+        "left = { roller = true }, right = { roller = true, displacement = [0.0, 0.0, 0.0] }";
+    let shape = "dimension = 2\nshape = { box = [160e-3, 1.0, 40e-3] }\nmesh = { spacing = 20e-3 }";
+    let bar = held(shape, faces);
+    let before = [1, 10, 100].map(|steps| {
+        let all = forces(&bar, ("right", 'x'), 30e-6, steps);
+        all[steps - 1]
+    });
+    let [one, ten, hundred] = before;
+    assert!((one / hundred - 1.0).abs() < 2e-3 && (ten / hundred - 1.0).abs() < 2e-3, "{before:?}");
+    let peaks = [20, 100].map(|steps| largest(&forces(&bar, ("right", 'x'), 34e-6, steps)));
+    assert!(peaks.iter().all(|peak| (peak / 160e3 - 1.0).abs() < 0.02), "{peaks:?}");
+    // A step to far beyond the peak ends on the far side of it.
+    let broken = forces(&bar, ("right", 'x'), 60e-6, 1);
+    assert!(broken[0] < 0.25 * 160e3, "{broken:?}");
+}
+
+/// A cylinder between smooth platens bears its strength, 40 MPa, in steps of any length.
+#[test]
+fn cylinders_bear_their_strength_in_steps_of_any_length() {
+    let shape =
+        "shape = { disc = { radius = 50e-3, thickness = 100e-3 } }\nmesh = { spacing = 12.5e-3 }";
+    let cylinder = held(shape, "top = { roller = true, displacement = [0.0, 0.0, 0.0] }");
+    let of = |way: f64, steps: usize| forces(&cylinder, ("top", 'z'), way, steps);
+    let before = [1, 10, 100].map(|steps| of(-0.18e-3, steps)[steps - 1]);
+    let [one, ten, hundred] = before;
+    assert!((one / hundred - 1.0).abs() < 0.02 && (ten / hundred - 1.0).abs() < 0.02, "{before:?}");
+    let strength = 40e6 * std::f64::consts::PI * 50e-3 * 50e-3;
+    let peaks = [10, 100].map(|steps| largest(&of(-0.2e-3, steps)));
+    assert!(peaks.iter().all(|peak| (peak / strength - 1.0).abs() < 0.02), "{peaks:?}");
+}

@@ -263,5 +263,21 @@ fn damage_as_wide_as_the_body_is_warned_of() {
     let wide = alumina(", fracture = { model = \"at2\", length = 0.2e-3, energy = 15.0 }");
     let (_, warnings) = parse_with_warnings(&scene(STRIP, &wide, HELD, ""), "scene").unwrap();
     let ids: Vec<_> = warnings.iter().map(|warning| warning.finding().id).collect();
-    assert_eq!(ids, ["damage_wider_than_body"]);
+    assert_eq!(ids, ["damage_wider_than_body", "crack_peak_missed"]);
+}
+
+/// Stress in the surfaces of a strip of 0.4 mm has fallen to half its peak 0.7 ms after a shock.
+#[test]
+fn steps_that_miss_a_shock_are_warned_of() {
+    let warned = |step: &str, faces: &str| {
+        let text = scene(STRIP, &alumina(AT1), faces, "");
+        let text = text.replace("\nstep = 1.0", &format!("\nstep = {step}"));
+        let (_, warnings) = parse_with_warnings(&text, "scene").unwrap();
+        warnings.iter().map(|warning| warning.finding().id).collect::<Vec<_>>()
+    };
+    let slow = "top = { convection = { coefficient = 10.0, ambient = 300.0 } }\nbottom = { roller = true }\n\
+                left = { roller = true }";
+    assert_eq!(warned("1e-3", HELD), ["crack_peak_missed"]);
+    assert_eq!(warned("5e-4", HELD), Vec::<&str>::new());
+    assert_eq!(warned("1.0", slow), Vec::<&str>::new());
 }

@@ -2,8 +2,10 @@
 
 use std::f64::consts::PI;
 
+use impinge::advice::parse_with_warnings;
 use impinge::closed_form::{Conductor, Contact, ConvectiveSlab, ResistiveContact};
 use impinge::scene;
+use impinge::warning::Warning;
 
 use crate::common::{Trial, off};
 
@@ -409,5 +411,30 @@ fn heat_that_does_not_pass_or_is_not_resolved_is_warned_of() {
     assert!(told("conductance = 1e5", 0.02).contains(&"warm_layer_unresolved"));
     for (conductance, stop) in [("conductance = 100.0", 0.02), ("conductance = 1e5", 1e3)] {
         assert_eq!(told(conductance, stop), [""; 0], "{conductance} {stop}");
+    }
+}
+
+/// Fluxes that no solid bears are warned of before a run, and temperatures beyond a substance's range during it.
+#[test]
+fn overheated_bodies_are_warned_of() {
+    let text = scene("X", "").replace(
+        "{ model = \"neo_hookean\", X }",
+        "{ model = \"neo_hookean\", substance = \"pdms\" }",
+    );
+    let shape = "shape = { box = [10e-3, 1.0, 10e-3] }\ndimension = 2\nmesh = { spacing = 1e-3 }";
+    let heated = |flux: f64| {
+        let faces =
+            format!("faces = {{ bottom = {{ roller = true }}, top = {{ flux = {flux:?} }} }}");
+        format!("{text}{shape}\n{faces}\n")
+    };
+    let ids = |found: Vec<Warning>| found.iter().map(|own| own.finding().id).collect::<Vec<_>>();
+    for (flux, checked, warned) in [(1e3, false, false), (4e4, false, true), (1e9, true, true)] {
+        let (_, found) = parse_with_warnings(&heated(flux), "scene").unwrap();
+        assert_eq!(ids(found).contains(&"flux_overheats_surface"), checked, "{flux}");
+        let mut trial = Trial::new(&heated(flux.min(4e4)));
+        (0..10).for_each(|_| trial.step(1.0));
+        let found = ids(trial.model.warnings(&trial.state));
+        let expected: &[&str] = if warned { &["solid_beyond_substance"] } else { &[] };
+        assert_eq!(found, expected, "{flux}");
     }
 }

@@ -48,8 +48,8 @@ pub trait Advice {
         None
     }
 
-    /// Returns the temperature of a body that an input sets as a whole [K].
-    fn temperature_set(&self, _state: &[f64]) -> Option<f64> {
+    /// Returns the highest temperature of a solid that inputs set or heat, where its state has it [K].
+    fn hottest(&self, _state: &[f64]) -> Option<f64> {
         None
     }
 

@@ -371,6 +371,11 @@ impl Advice for MovingBody {
     fn warning_on_value(&self, reading: &Reading, value: f64) -> Option<Warning> {
         self.advised.on_value(reading, value)
     }
+
+    fn hottest(&self, state: &[f64]) -> Option<f64> {
+        let warming = self.warming.as_ref()?;
+        Some(warming.hottest(&self.structure(state).warmth))
+    }
 }
 
 impl Resources for MovingBody {

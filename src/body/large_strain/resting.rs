@@ -42,6 +42,8 @@ pub struct RestingBody {
     /// Heat of a body that conducts it.
     warming: Option<Warming>,
     advised: Advised,
+    /// Halvings of a step.
+    halvings: u32,
 }
 
 /// State of the body.
@@ -65,6 +67,11 @@ pub struct Resting {
 
 /// Halvings of a step in which no equilibrium is found.
 const HALVINGS: u32 = 7;
+/// Halvings of a step of concrete: a step to failure has some thousand parts where damage begins.
+const HALVINGS_OF_CONCRETE: u32 = 14;
+/// Change of the damage function η of a point in a part of a step. A longer part may jump over the peak, to a second
+/// equilibrium whose damage is in one place: at most half of this below the peak the bound excludes it.
+const PASSED: f64 = 0.05;
 /// Iterations of a usual step.
 const ITERATIONS: f64 = 5.0;
 /// Share of the energy that the balance of a state may miss.
@@ -123,8 +130,10 @@ impl RestingBody {
         let temperature = solid.initial_temperature;
         let rest = equilibrium.rest();
         let start = Resting { temperature, loads, rest, forces, warmth, ..Resting::default() };
+        let is_concrete = equilibrium.body.has_concrete();
         let own = Self {
             name: name.to_owned(),
+            halvings: if is_concrete { HALVINGS_OF_CONCRETE } else { HALVINGS },
             equilibrium,
             start,
             faces,
@@ -169,7 +178,8 @@ impl RestingBody {
         self.equilibrium.body.history() > 0
     }
 
-    /// Finds the equilibrium after a time [s] under what is prescribed there; halves the step where none is found.
+    /// Finds the equilibrium after a time [s] under what is prescribed there; halves the step where none is found, and
+    /// where concrete changes by more than [`PASSED`].
     fn settle(
         &self,
         state: &mut Resting,
@@ -183,21 +193,33 @@ impl RestingBody {
         let course = self.course([temperatures(state), end], dt)?;
         let expansion = self.work_of_expansion(state, end)?;
         let from = self.loads_at(&state.rest, &self.held(state).loads);
-        let displaced = state.rest.displacement.clone();
+        let before = state.rest.clone();
         match self.equilibrium.step(&mut state.rest, &conditions, &course, allowance) {
             Ok(found) => {
+                if found.passed > PASSED && halvings > 0 {
+                    let mut finer = Resting { rest: before.clone(), ..state.clone() };
+                    match self.settle_in_halves(&mut finer, to, dt, halvings - 1, allowance) {
+                        Ok(()) => {
+                            *state = finer;
+                            return Ok(());
+                        }
+                        Err(failure @ Failure::Halted(_)) => return Err(failure),
+                        // Where loads fall faster than held faces move, only a jump has an end.
+                        Err(_) => {}
+                    }
+                }
                 let forces = self.loads_at(&state.rest, &to.loads);
                 let of_node = |node: usize| -> f64 {
                     let force = |a: usize| 0.5 * (from[node][a] + forces[node][a]);
-                    let way = |a: usize| state.rest.displacement[node][a] - displaced[node][a];
+                    let way =
+                        |a: usize| state.rest.displacement[node][a] - before.displacement[node][a];
                     (0..3).map(|a| force(a) * way(a)).sum()
                 };
                 state.load_work += (0..forces.len()).map(of_node).sum::<f64>();
                 state.loads = to.loads.iter().map(FaceLoad::numbers).collect();
-                let before = state.stored;
                 state.work += match self.remembers() {
                     // Elastic work is what is stored.
-                    false => found.stored - before,
+                    false => found.stored - state.stored,
                     true => found.work + expansion,
                 };
                 state.stored = found.stored;
@@ -210,12 +232,21 @@ impl RestingBody {
             }
             Err(failure @ Failure::Halted(_)) => Err(failure),
             Err(failure) if halvings == 0 => Err(failure),
-            Err(_) => {
-                let middle = self.held(state).middle(to);
-                self.settle(state, &middle, 0.5 * dt, halvings - 1, allowance)?;
-                self.settle(state, to, 0.5 * dt, halvings - 1, allowance)
-            }
+            Err(_) => self.settle_in_halves(state, to, dt, halvings - 1, allowance),
         }
+    }
+
+    fn settle_in_halves(
+        &self,
+        state: &mut Resting,
+        to: &Prescribed,
+        dt: f64,
+        halvings: u32,
+        allowance: &Allowance,
+    ) -> Result<(), Failure> {
+        let middle = self.held(state).middle(to);
+        self.settle(state, &middle, 0.5 * dt, halvings, allowance)?;
+        self.settle(state, to, 0.5 * dt, halvings, allowance)
     }
 
     /// Energy that a change of temperature alone gives to a body with a history [J].
@@ -238,7 +269,7 @@ impl RestingBody {
             let (time, steps) = (present.time, present.steps);
             let interrupt = Interrupt::default();
             let allowance = Allowance::of_updates(&interrupt, f64::INFINITY);
-            let settled = self.settle(&mut present, &to, 0.0, HALVINGS, &allowance);
+            let settled = self.settle(&mut present, &to, 0.0, self.halvings, &allowance);
             settled.map_err(|failure| named(&self.name, failure))?;
             (present.time, present.steps) = (time, steps);
             present.warmth = warmth;
@@ -362,7 +393,7 @@ impl Structured for RestingBody {
         from.rise.clone_from(&warmth.rise);
         let jumps = state.steps == 0.0 || self.held(state) != from;
         if jumps && self.remembers() {
-            let settled = self.settle(state, &from, 0.0, HALVINGS, allowance);
+            let settled = self.settle(state, &from, 0.0, self.halvings, allowance);
             settled.map_err(|failure| named(&self.name, failure))?;
         }
         let mut to = self.faces.prescribed(&acts.path.at(0, acts.duration));
@@ -372,7 +403,7 @@ impl Structured for RestingBody {
             warming.advance(own, &mut warmth, over, Vec::new(), allowance)?;
             to.rise.clone_from(&warmth.rise);
         }
-        let settled = self.settle(state, &to, acts.duration, HALVINGS, allowance);
+        let settled = self.settle(state, &to, acts.duration, self.halvings, allowance);
         settled.map_err(|failure| named(&self.name, failure))?;
         state.warmth = warmth;
         Ok(None)
@@ -428,9 +459,12 @@ impl Advice for RestingBody {
         self.advised.on_value(reading, value)
     }
 
-    fn temperature_set(&self, state: &[f64]) -> Option<f64> {
-        // Temperatures of faces have warnings of their own.
-        self.warming.is_none().then(|| self.structure(state).temperature)
+    fn hottest(&self, state: &[f64]) -> Option<f64> {
+        let state = self.structure(state);
+        Some(match &self.warming {
+            Some(warming) => warming.hottest(&state.warmth),
+            None => state.temperature,
+        })
     }
 }
 

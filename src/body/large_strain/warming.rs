@@ -320,6 +320,11 @@ impl Warming {
         self.courses(body, [&at, &at], 0.0)
     }
 
+    /// Highest temperature of a node, or its coefficient, which kernels keep near it [K].
+    pub fn hottest(&self, warmth: &Warmth) -> f64 {
+        self.zero + warmth.rise.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+    }
+
     pub fn totals(&self, body: &Deformable, warmth: &Warmth) -> HeatTotals {
         let stored = self.stored(warmth);
         let capacity: f64 = self.conduction.capacity.iter().sum();

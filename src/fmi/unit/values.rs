@@ -33,7 +33,9 @@ impl Unit {
 
     /// Warns once of each output whose value is less accurate than it seems.
     fn warn_of_values(&mut self, variables: &[&Variable], values: &[f64]) {
-        let has_rules = self.scene.has_drops() || !self.scene.substances.is_empty();
+        let has_rules = self.scene.has_drops()
+            || !self.scene.substances.is_empty()
+            || self.scene.large_strains().next().is_some();
         let Some(run) = self.run.as_ref().filter(|_| has_rules) else { return };
         let model = Arc::clone(&run.model);
         for (variable, &value) in variables.iter().zip(values) {

@@ -42,6 +42,24 @@ impl Deformable {
         (0..self.space.groups.len()).flat_map(of_group).collect()
     }
 
+    /// Largest change of the damage function η of a point between two histories of all; 0 without concrete.
+    pub fn largest_passed(&self, from: &[f64], to: &[f64]) -> f64 {
+        let of_group = |group: usize| {
+            let (law, own) = (self.law_of(group), self.history_of(group));
+            let concrete = law.concrete()?;
+            let length = law.history();
+            let after = to[own.clone()].chunks_exact(length);
+            let pairs = from[own].chunks_exact(length).zip(after);
+            pairs.map(|(from, to)| concrete.passed(from, to)).reduce(f64::max)
+        };
+        (0..self.space.groups.len()).filter_map(of_group).fold(0.0, f64::max)
+    }
+
+    /// Returns true if part of the body is concrete.
+    pub fn has_concrete(&self) -> bool {
+        self.layers.iter().any(|layer| layer.law.concrete().is_some())
+    }
+
     /// Damage at the nodes: means over the points around them, by the squares of functions.
     pub fn damages_at_nodes(&self, damages: &[f64]) -> Vec<f64> {
         let mut sums = vec![[0.0; 2]; self.nodes()];

@@ -48,6 +48,8 @@ pub struct Found {
     pub stored: f64,
     /// Work of the stresses over the step, along the straight path of C [J].
     pub work: f64,
+    /// Largest change of the damage function of a point of concrete.
+    pub passed: f64,
 }
 
 /// Name of the iterations in messages.
@@ -141,6 +143,7 @@ impl Equilibrium {
             work: self.work(&step, &now.linearised),
             reactions: now.reactions,
             stored: now.stresses.energy,
+            passed: self.body.largest_passed(&rest.history, &now.history),
         };
         *rest = Rest { displacement: u, history: now.history };
         Ok(found)

@@ -1,6 +1,6 @@
 //! Checks bodies that crack: their material, their section, their mesh, and what cannot go with cracks.
 
-use super::{Checker, number};
+use super::{Checker, notches, number};
 use crate::laws::Material;
 use crate::laws::fracture::{Cracking, Dissipation};
 use crate::laws::solid::Elasticity;
@@ -8,7 +8,7 @@ use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
 use crate::scene::lookup::split_place;
 use crate::scene::types::{
-    Carries, CellShape, FaceName, HeatMethod, Mesh, PlaneSection, Shape, Solid, Symmetry,
+    Carries, CellShape, FaceName, HeatMethod, Mesh, PlaneSection, Shape, Solid,
 };
 
 pub fn check(checker: &mut Checker) {
@@ -32,7 +32,7 @@ pub fn check(checker: &mut Checker) {
             conditions_of_section(checker, &path, solid);
             loads_on_section(checker, name, solid);
         }
-        notches(checker, &path.key("notches"), solid);
+        notches::check(checker, &path.key("notches"), solid);
         mesh(checker, &path.at("mesh"), solid);
         number_of_nodes(checker, &path, solid);
     }
@@ -108,27 +108,6 @@ fn form(checker: &mut Checker, path: &Path, solid: &Solid) {
             checker.refuse(&path.key("section"), message, allowed);
         }
         _ => {}
-    }
-}
-
-/// Refuses notches outside of the meshed section, and those without length.
-fn notches(checker: &mut Checker, path: &Path, solid: &Solid) {
-    let is_half = solid.symmetry == Symmetry::Quarter;
-    let [low, high] = match solid.shape {
-        Shape::Box([x, _, _]) if !is_half => [-0.5 * x, 0.5 * x],
-        Shape::Box([x, _, _]) => [0.0, 0.5 * x],
-        Shape::Disc(disc) => [0.0, disc.radius],
-    };
-    let bottom = -solid.shape.thickness();
-    for (i, notch) in solid.notches.iter().enumerate() {
-        let message = "a notch has a length";
-        checker.require(notch.from != notch.to, &path.index(i), message, "`to` away from `from`");
-        for (key, [x, z]) in [("from", notch.from), ("to", notch.to)] {
-            let fine = (low..=high).contains(&x) && (bottom..=0.0).contains(&z);
-            let allowed = format!("[{} to {}, {} to 0]", number(low), number(high), number(bottom));
-            let message = "a notch ends outside of the meshed section";
-            checker.require(fine, &path.index(i).key(key), message, allowed);
-        }
     }
 }
 

@@ -18,6 +18,7 @@ mod layers;
 mod limits;
 mod material;
 mod nonlinear;
+mod notches;
 mod load;
 mod probe;
 mod replayed;

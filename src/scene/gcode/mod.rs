@@ -10,6 +10,7 @@ mod machine;
 mod motion;
 
 use super::filament::PathFile;
+use super::files::with_line_feeds;
 use super::route::Route;
 
 /// A move between two places, or a rest at one.
@@ -34,7 +35,7 @@ pub struct BadLine {
 
 /// Returns the route that a text describes; `height` is that of the outlet before Z is set [m].
 pub fn route(text: &str, settings: &PathFile, height: f64) -> Result<Route, BadLine> {
-    let steps = machine::steps(text, settings, height)?;
+    let steps = machine::steps(&with_line_feeds(text), settings, height)?;
     Ok(motion::route(&steps, settings))
 }
 
@@ -52,6 +53,14 @@ mod tests {
 
     fn close(found: [f64; 3], wanted: [f64; 3]) -> bool {
         found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12)
+    }
+
+    #[test]
+    fn carriage_returns_alone_end_lines() {
+        let text = LINE.replace('\n', "\r");
+        assert_eq!(of(&text, ""), of(LINE, ""));
+        let bad = route(&text.replace("M82", "X"), &settings(""), 1e-3).unwrap_err();
+        assert_eq!(bad.line, 3);
     }
 
     const LINE: &str =

@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::limits::length;
 use crate::scene::face::FaceName;
+use crate::scene::files::with_line_feeds;
 use crate::scene::locate::shortened;
 use crate::space::{Cloud, Form, Mesh, Side};
 
@@ -103,7 +104,7 @@ impl Part {
         let read = if self.is_of_points() { csv::read } else { vtu::read };
         // Spreadsheets begin a text with a byte order mark.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        self.content = Some(Arc::new(read(text, self, form)));
+        self.content = Some(Arc::new(read(&with_line_feeds(text), self, form)));
     }
 
     /// Returns true if the name of the file is that of one with points.

@@ -55,7 +55,7 @@ fn cells_make_a_mesh_with_the_named_faces() {
 
 #[test]
 fn cells_that_make_no_body_are_refused_at_their_line() {
-    let cases: [(&str, &str, usize, &str); 12] = [
+    let cases: [(&str, &str, usize, &str); 13] = [
         ("1 1 0", "1 nan 0", 11, "`nan` is not a finite number"),
         ("1 1 0", "1 1 1", 11, "do not lie in one plane"),
         ("2 2 0", "2 2e12 0", 15, "lies at 2e9 m"),
@@ -66,6 +66,7 @@ fn cells_that_make_no_body_are_refused_at_their_line() {
         ("\n9\n9\n9\n9", "\n9\n9\n9\n5", 32, "of type 5"),
         ("\n9\n9\n9\n9", "\n9\n9\n9\n1", 15, "belongs to no cell"),
         ("0 0 0 0 5 5", "0 0 0 0 5 9", 34, "has the face 9"),
+        ("0 0 0 0 5 5", "0 6 0 0 5 5", 30, "cell 1, a quadrilateral, is none of the surface"),
         ("1 2\n</", "1 4\n</", 34, "none of the surface"),
         ("Name=\"types\" format=\"ascii\"", "Name=\"types\" format=\"binary\"", 28, "are `binary`"),
     ];
@@ -160,4 +161,16 @@ fn points_that_make_no_body_are_refused_at_their_line() {
     assert!(bad.message.contains("no line of names"), "{bad:?}");
     let bad = read("a.csv", "", &points(), Form::Axisymmetric).unwrap_err();
     assert!(bad.message.contains("no meridian section"), "{bad:?}");
+}
+
+#[test]
+fn carriage_returns_alone_end_lines() {
+    let text = points().replace('\n', "\r");
+    let own = read("a.csv", "unit = 1e-3", &text, Form::Plane).unwrap();
+    assert_eq!(own, read("a.csv", "unit = 1e-3", &points(), Form::Plane).unwrap());
+    let bad = read("a.csv", "", &text.replace("1, 1, 1, 0, 0, ", "1, 1, nan, 0, 0, "), Form::Plane);
+    assert_eq!(bad.unwrap_err().line, Some(9));
+    let text = square().replace('\n', "\r");
+    let bad = read("a.vtu", KEYS, &text.replace("1 1 0", "1 nan 0"), Form::Plane).unwrap_err();
+    assert_eq!(bad.line, Some(11));
 }

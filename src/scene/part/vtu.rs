@@ -325,6 +325,7 @@ impl Cells<'_> {
             first = last;
             let find = |kinds: &'static [Kind]| kinds.iter().find(|own| own.number == kind);
             if let Some(kind) = find(own) {
+                self.name_nothing(number, kind.words, form)?;
                 cells.push((self.ordered(number, kind, corners)?, number));
             } else if let Some(kind) = find(facets) {
                 if let Some(side) = self.side(number, form)? {
@@ -334,6 +335,8 @@ impl Cells<'_> {
                 let message = format!("cell {number} is of type {kind}, of which no body is made");
                 let allowed = format!("{}; faces of {}", allowed(form), words(facets));
                 return Err(self.refused(number, message, allowed));
+            } else {
+                self.name_nothing(number, "cell of fewer dimensions", form)?;
             }
         }
         Ok((cells, named))
@@ -377,6 +380,22 @@ impl Cells<'_> {
             let allowed = "0 (none), 1 (left), 2 (right), 3 (front) and 4 (back) in space, 5 (bottom), 6 (top), 7 (sides)";
             self.refused(number, message, allowed)
         })
+    }
+
+    /// Refuses the name of a face on a cell that is none of the surface, where it would be lost.
+    fn name_nothing(&self, number: usize, kind: &str, form: Form) -> Result<(), BadPart> {
+        let Some(code) = self.faces.as_ref().map(|faces| faces[number]) else { return Ok(()) };
+        if code == 0 {
+            return Ok(());
+        }
+        let message =
+            format!("cell {number}, a {kind}, is none of the surface and has the face {code}");
+        let facets = match form {
+            Form::Solid => words(&[QUAD, PIXEL]),
+            Form::Plane | Form::Axisymmetric => words(&[LINE]),
+        };
+        let allowed = format!("0; faces on cells of the surface, {facets}");
+        Err(self.refused(number, message, allowed))
     }
 
     fn refused(

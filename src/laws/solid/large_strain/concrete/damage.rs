@@ -32,6 +32,12 @@ impl DamageFunction {
         })
     }
 
+    /// Change of η on the way from the start to λ: η up to the peak, 2 − η beyond it.
+    pub fn passed(&self, lambda: f64) -> f64 {
+        let value = self.value(lambda);
+        if lambda <= self.peak { value } else { 2.0 - value }
+    }
+
     /// Part of the strength beyond the residual one that is lost: 0 up to the peak, 1 in the end.
     pub fn damage(&self, lambda: f64) -> f64 {
         if lambda <= self.peak { 0.0 } else { 1.0 - self.value(lambda) }

@@ -82,6 +82,11 @@ impl Concrete {
         self.function.damage(history[Self::LAMBDA])
     }
 
+    /// Change of η on the way of a point from a history to another.
+    pub fn passed(&self, from: &[f64], to: &[f64]) -> f64 {
+        self.function.passed(to[Self::LAMBDA]) - self.function.passed(from[Self::LAMBDA])
+    }
+
     /// Advances the history; returns the whole stress, that of the dilatation included.
     pub fn respond(&self, moduli: [f64; 2], at: &Deformed, history: &mut [f64]) -> Isochoric {
         let [bulk, shear] = moduli;

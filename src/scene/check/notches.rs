@@ -1,0 +1,199 @@
+//! Checks the notches of a body that cracks.
+
+use std::collections::BTreeSet;
+
+use super::{Checker, number};
+use crate::math::parts::Parts;
+use crate::scene::locate::Path;
+use crate::scene::types::{Shape, Solid, Symmetry};
+
+/// Place in a section [m].
+type Place = [f64; 2];
+/// Ends of a notch.
+type Segment = [Place; 2];
+
+/// Distance over the size of a section below which notches touch.
+const TOUCHING: f64 = 1e-9;
+/// Sine of the angle below which notches are parallel.
+const PARALLEL: f64 = 1e-9;
+
+/// Refuses notches outside of the meshed section, those without length, and those that cut it in two.
+pub fn check(checker: &mut Checker, path: &Path, solid: &Solid) {
+    let is_half = solid.symmetry == Symmetry::Quarter;
+    let [low, high] = match solid.shape {
+        Shape::Box([x, _, _]) if !is_half => [-0.5 * x, 0.5 * x],
+        Shape::Box([x, _, _]) => [0.0, 0.5 * x],
+        Shape::Disc(disc) => [0.0, disc.radius],
+    };
+    let bottom = -solid.shape.thickness();
+    let is_inside = |[x, z]: Place| (low..=high).contains(&x) && (bottom..=0.0).contains(&z);
+    let mut whole = Vec::new();
+    for (i, notch) in solid.notches.iter().enumerate() {
+        let message = "a notch has a length";
+        checker.require(notch.from != notch.to, &path.index(i), message, "`to` away from `from`");
+        for (key, end) in [("from", notch.from), ("to", notch.to)] {
+            let allowed = format!("[{} to {}, {} to 0]", number(low), number(high), number(bottom));
+            let message = "a notch ends outside of the meshed section";
+            checker.require(is_inside(end), &path.index(i).key(key), message, allowed);
+        }
+        if !is_inside(notch.from) || !is_inside(notch.to) {
+            continue;
+        }
+        let was_cut = cut(&whole, [[-high, bottom], [high, 0.0]]);
+        whole.push([notch.from, notch.to]);
+        // Half a section stands for a whole one; a notch in its plane of symmetry is its own image.
+        if low == 0.0 && [notch.from, notch.to].iter().any(|at| at[0] != 0.0) {
+            whole.push([notch.from, notch.to].map(|[x, z]| [-x, z]));
+        }
+        let fine = was_cut || !cut(&whole, [[-high, bottom], [high, 0.0]]);
+        let message = "notches cut the section in two";
+        checker.require(fine, &path.index(i), message, "notches that leave it in one piece");
+    }
+}
+
+/// Returns true if notches cut a rectangle between two corners in two: a way along them and its edge then closes. It does
+/// if contacts of notches with each other and with the edge are no forest.
+fn cut(notches: &[Segment], [low, high]: [Place; 2]) -> bool {
+    let reach = TOUCHING * (high[0] - low[0]).max(high[1] - low[1]);
+    let sides = |at: &Place| {
+        [at[0] - low[0], high[0] - at[0], at[1] - low[1], high[1] - at[1]]
+            .map(|own| own.abs() <= reach)
+    };
+    let is_along = |own: &Segment| {
+        let [a, b] = [sides(&own[0]), sides(&own[1])];
+        (0..4).any(|side| a[side] && b[side])
+    };
+    let inner: Vec<Segment> = notches.iter().copied().filter(|own| !is_along(own)).collect();
+    let inner = united(&inner, reach);
+    let (mut places, mut contacts) = (Vec::new(), BTreeSet::new());
+    // The edge is number 0, and notches follow.
+    let mut touch = |owners: [usize; 2], at: Place| {
+        let known = places.iter().position(|own| distance(*own, at) <= reach);
+        let place = known.unwrap_or_else(|| {
+            places.push(at);
+            places.len() - 1
+        });
+        contacts.extend(owners.map(|owner| (owner, place)));
+    };
+    for (i, own) in inner.iter().enumerate() {
+        for &end in own.iter().filter(|end| sides(end).contains(&true)) {
+            touch([0, i + 1], end);
+        }
+        for (j, other) in inner[..i].iter().enumerate() {
+            if let Some(at) = contact(own, other, reach) {
+                touch([i + 1, j + 1], at);
+            }
+        }
+    }
+    let owners = inner.len() + 1;
+    let vertices = owners + places.len();
+    let mut parts = Parts::new(vertices);
+    contacts.iter().for_each(|&(owner, place)| parts.join([owner, owners + place]));
+    contacts.len() + parts.count() > vertices
+}
+
+/// Notches of which those that lie on each other are one.
+fn united(notches: &[Segment], reach: f64) -> Vec<Segment> {
+    let mut all: Vec<Segment> = Vec::new();
+    for own in notches {
+        let mut own = *own;
+        let is_one = |own: &Segment, other: &Segment| {
+            is_parallel(own, other) && contact(own, other, reach).is_some()
+        };
+        while let Some(place) = all.iter().position(|other| is_one(&own, other)) {
+            let other = all.swap_remove(place);
+            let ends = [own[0], own[1], other[0], other[1]];
+            let pairs = ends.iter().flat_map(|a| ends.map(|b| [*a, b]));
+            let length = |pair: &Segment| distance(pair[0], pair[1]);
+            own = pairs.max_by(|a, b| length(a).total_cmp(&length(b))).unwrap_or(own);
+        }
+        all.push(own);
+    }
+    all
+}
+
+fn is_parallel(a: &Segment, b: &Segment) -> bool {
+    let (r, s) = (difference(a[1], a[0]), difference(b[1], b[0]));
+    cross(r, s).abs() <= PARALLEL * (dot(r, r) * dot(s, s)).sqrt()
+}
+
+/// A place that two notches share.
+fn contact(a: &Segment, b: &Segment, reach: f64) -> Option<Place> {
+    let on = |at: &Place, [from, to]: &Segment| {
+        let along = difference(*to, *from);
+        let part = dot(difference(*at, *from), along) / dot(along, along);
+        let part = part.clamp(0.0, 1.0);
+        let nearest = [from[0] + part * along[0], from[1] + part * along[1]];
+        distance(*at, nearest) <= reach
+    };
+    let end = a.iter().find(|at| on(at, b)).or_else(|| b.iter().find(|at| on(at, a)));
+    if let Some(end) = end {
+        return Some(*end);
+    }
+    let (r, s, apart) = (difference(a[1], a[0]), difference(b[1], b[0]), difference(b[0], a[0]));
+    if is_parallel(a, b) {
+        return None;
+    }
+    let sine = cross(r, s);
+    let parts = [cross(apart, s) / sine, cross(apart, r) / sine];
+    let crosses = parts.iter().all(|part| (0.0..=1.0).contains(part));
+    crosses.then(|| [a[0][0] + parts[0] * r[0], a[0][1] + parts[0] * r[1]])
+}
+
+fn difference(a: Place, b: Place) -> Place {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+fn distance(a: Place, b: Place) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+fn dot(a: Place, b: Place) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+fn cross(a: Place, b: Place) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SECTION: [Place; 2] = [[-2.0, -1.0], [2.0, 0.0]];
+
+    #[test]
+    fn notches_that_leave_one_piece_do_not_cut() {
+        let edge = [[0.0, 0.0], [0.0, -0.4]];
+        let cases: [&[Segment]; 7] = [
+            &[edge],
+            &[[[-1.0, -0.5], [1.0, -0.5]]],
+            // Towards each other, and one that branches.
+            &[edge, [[0.0, -1.0], [0.0, -0.6]]],
+            &[edge, [[0.0, -0.4], [1.0, -0.6]], [[0.0, -0.4], [-1.0, -0.6]]],
+            // A cross, the same notch twice, and one along an edge.
+            &[[[-1.0, -0.5], [1.0, -0.5]], [[0.0, -0.2], [0.0, -0.8]]],
+            &[edge, edge, [[0.0, -0.2], [0.0, -0.6]]],
+            &[[[-2.0, 0.0], [1.0, 0.0]], edge],
+        ];
+        for notches in cases {
+            assert!(!cut(notches, SECTION), "{notches:?}");
+        }
+    }
+
+    #[test]
+    fn notches_from_edge_to_edge_and_round_a_part_cut() {
+        let cases: [&[Segment]; 5] = [
+            &[[[0.5, 0.0], [0.5, -1.0]]],
+            // Off a corner.
+            &[[[1.5, 0.0], [2.0, -0.5]]],
+            &[[[0.0, 0.0], [0.0, -0.6]], [[0.0, -1.0], [0.0, -0.6]]],
+            &[[[0.0, 0.0], [0.2, -0.6]], [[-0.2, -1.0], [0.3, -0.4]]],
+            // A triangle within.
+            &[[[-1.0, -0.8], [1.0, -0.8]], [[1.0, -0.8], [0.0, -0.2]], [[0.0, -0.2], [-1.0, -0.8]]],
+        ];
+        for notches in cases {
+            assert!(cut(notches, SECTION), "{notches:?}");
+        }
+    }
+}
