@@ -13,13 +13,16 @@ const BALANCED: f64 = 1e-9;
 const BALANCED_BY_PARTICLES: f64 = 5e-2;
 
 /// Totals of a body with a history of deformation.
-const IS_FLOW: [&str; 12] = [
+const IS_FLOW: [&str; 15] = [
     ".max_plastic_strain",
     ".plastic_work",
     ".dissipated",
     ".stored",
     "failure_probability",
     ".failure_risk",
+    ".failure_place_x",
+    ".failure_place_y",
+    ".failure_place_z",
     ".max_damage",
     ".crack_area",
     ".first_crack_time",

@@ -1,6 +1,7 @@
 //! Solids that sink into a bath: the steady profile about its surface, heat, complete immersion, states, parameters.
 
 use closed_form::dipped_plate::DippedPlate;
+use impinge::model::tolerance::estimates;
 use impinge::scene;
 
 use crate::common::{Trial, off};
@@ -46,6 +47,15 @@ fn sinking_strip_has_the_steady_profile_about_the_surface() {
         assert!((found - wanted).abs() < 5e-3, "{i}: {found} {wanted}");
     }
     assert!(trial.heat_residual("strip") < 1e-9);
+}
+
+#[test]
+fn errors_of_bodies_in_a_bath_are_not_estimated() {
+    let dry = "faces = { left = { flux = 0.0 }, right = { flux = 0.0 } }";
+    let scene = scene::parse(&strip(&format!("{dry}\n{SINKS}"), AXIS), "strip.toml").unwrap();
+    let (_, all) = estimates(&scene);
+    let found = &all[0];
+    assert!(found.outputs.is_empty() && found.notes == ["no estimate: the body sinks into a bath"]);
 }
 
 #[test]

@@ -371,16 +371,18 @@ const BLOCK_ON_PLANE: &str = "shape = { box = [12e-3, 8e-3, 6e-3] }\ninertia = t
 /// A block is slowed by μ g until it rests; what it had goes into heat, and its momentum into the plane.
 #[test]
 fn blocks_slide_as_far_as_friction_lets_them() {
-    for (keys, friction) in [("", 0.4), ("dimension = 2", 0.2), ("mechanics = \"sph\"", 0.8)] {
+    for (keys, friction) in [("", 0.4), ("dimension = 2", 0.2), ("mechanics = \"sph\"", 0.3)] {
         let text = gel(&format!("{BLOCK_ON_PLANE}\n{keys}\nfriction = {friction:?}"));
         let mut trial = Trial::new(&text.replace("young = 5600.0", "young = 1e6"));
         let [mass, kinetic] = ["mass", "kinetic"].map(|key| trial.get(&format!("gel.{key}")));
         let deceleration = friction * 9.81;
         let until = 0.5 / deceleration;
-        // Half of the way, and long after the end.
+        // Half of the time, in which it hops by fractions of a micrometre, and long after the end.
         trial.step(0.5 * until);
-        let speed = trial.get("gel.momentum_x") / mass;
-        assert!(off(speed, 0.25) < 0.02, "{keys}: {speed} m/s");
+        let [speed, along, down] = ["momentum_x", "impulse_x", "impulse_z"]
+            .map(|key| trial.get(&format!("gel.{key}")) / mass);
+        assert!(off(along, -friction * down) < 0.002, "{keys}: {along} {down} m/s");
+        assert!(off(speed, 0.25) < 0.03, "{keys}: {speed} m/s");
         trial.step(1.5 * until);
         let [momentum, impulse, heat, left, stored] =
             ["momentum_x", "impulse_x", "friction_heat", "kinetic", "stored"]
@@ -421,7 +423,7 @@ fn plates_bear_the_friction_of_what_slides_on_them() {
         "{}\n[body.plate]\nkind = \"solid\"\nshape = {{ box = [60e-3, 40e-3, 1e-3] }}\nmaterial = \"alumina\"\n\
          initial_temperature = 293.15\nmesh = {{ spacing = 1.5e-3, depth_spacing = 0.25e-3 }}\nfaces = {{ bottom = {{ clamped = true }} }}\n\
          [[coupling]]\nfrom = \"gel\"\nto = \"plate.top\"\ninterval = 2e-3\n\
-         [[probe]]\nname = \"below\"\nin = \"plate\"\nat = [0.0, 0.0, -0.5e-3]\ngives = [\"stress\"]\n",
+         [[field]]\nname = \"below\"\nin = \"plate\"\nplane = {{ z = -0.5e-3 }}\ngrid = [61, 41]\ngives = [\"stress\"]\n",
         gel(&format!("{BLOCK_ON_PLANE}\nfriction = 0.5"))
             .replace("young = 5600.0", "young = 1e5")
             .replace("[0.5, 0.0, 0.0]", "[0.05, 0.0, 0.0]")
@@ -432,9 +434,10 @@ fn plates_bear_the_friction_of_what_slides_on_them() {
     let state = trial.state.clone();
     trial.step(2e-3);
     let force = (trial.get("gel.impulse_x") - before) / 2e-3;
-    let shear = trial.get("below.stress_xz");
-    let wanted = force / (12e-3 * 8e-3);
-    assert!(force > 0.0 && off(shear, wanted) < 0.2, "{shear} Pa, not {wanted} Pa");
+    // What crosses the middle of the plate, by the trapezoidal rule; its stress vanishes towards the edges.
+    let places = (1..=61).flat_map(|i| (1..=41).map(move |j| format!("below.stress_xz[{i},{j}]")));
+    let borne: f64 = places.map(|name| trial.get(&name) * 1e-6).sum();
+    assert!(force > 0.0 && off(borne, force) < 0.05, "{borne} N, not {force} N");
     let end = trial.state.bodies.clone();
     trial.restart(&state);
     trial.step(2e-3);

@@ -70,6 +70,10 @@ pub fn estimate(scene: &Scene, name: &str) -> BodyEstimate {
         found.notes.push("no estimate: heat comes from a strand".to_owned());
         return found;
     }
+    if scene.meshed(name).is_some_and(|solid| solid.bath.is_some()) {
+        found.notes.push("no estimate: the body sinks into a bath".to_owned());
+        return found;
+    }
     if scene.asks_mechanics(name) && Twin::of(scene, name, Physics::Deformation).is_none() {
         let solid = scene.meshed(name);
         let why = match solid.is_some_and(Solid::cracks) {
