@@ -247,9 +247,7 @@ fn upper_half(drop: DropletSph) -> (DropletSph, Vec<f64>) {
         density: of(&whole.density),
         pressure: of(&whole.pressure),
         temperature: of(&whole.temperature),
-        solid_fraction: Vec::new(),
-        width: Vec::new(),
-        damage: Vec::new(),
+        ..ParticleFields::default()
     });
     (drop, state)
 }

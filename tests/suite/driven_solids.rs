@@ -489,6 +489,32 @@ fn bodies_of_four_corners_have_a_depth() {
     assert!((trial.get("pad.mass") / (1000.0 * 8e-3 * 6e-3 * 5e-3) - 1.0).abs() < 1e-9);
 }
 
+/// Files have the way and the stress of every node: those of a bar that is pressed, on each of its mirror images.
+#[test]
+fn nodes_are_drawn_with_their_way_and_stress() {
+    let law = Rubber::of_young(1e6, 0.4);
+    let keys = "shape = { box = [8e-3, 6e-3, 10e-3] }\nmesh = { spacing = 2e-3 }\n\
+                faces = { bottom = { roller = true }, top = { pressure = 0.0 } }";
+    for method in METHODS {
+        let mut trial = Trial::new(&rubber(&format!("{keys}\n{method}")));
+        trial.set("pad.top.pressure", 1e5);
+        trial.step(1.0);
+        let stretch = trial.get("pad.height") / 10e-3;
+        let stress = law.force(stretch, Sides::Free) / law.lateral(stretch, Sides::Free).powi(2);
+        let drawn = trial.model.particle_fields(&trial.state, "pad");
+        assert!(drawn.displacement.len() == drawn.position.len());
+        assert!(drawn.von_mises.len() == drawn.position.len());
+        for ((at, u), von_mises) in
+            drawn.position.iter().zip(&drawn.displacement).zip(&drawn.von_mises)
+        {
+            assert!(off(*von_mises, stress.abs()) < 1e-6, "{method}: {von_mises} {stress}");
+            let wanted = (stretch - 1.0) * (at[2] - u[2] + 10e-3);
+            assert!((u[2] - wanted).abs() < 1e-10, "{method}: {u:?} {wanted}");
+            assert!(u[0] * at[0] >= 0.0 && u[1] * at[1] >= 0.0, "{method}: {u:?} at {at:?}");
+        }
+    }
+}
+
 /// Slender bodies with one or two elements across are warned of: their deflection is wrong by a fifth or more, or by
 /// some per cent. Stout ones, planes of finer meshes and other methods are not.
 #[test]

@@ -172,7 +172,7 @@ fn above_plane(mesh: &Mesh, law: LargeStrainLaw, spacing: f64, speed: f64) -> (D
     let body = Deformable::new(finite_elements(mesh), law, 1000.0, mirrors, 2);
     let lowest = body.space.nodes.iter().map(|at| at[2]).fold(f64::INFINITY, f64::min);
     let stiffness = body.wave_modulus() / spacing;
-    let plane = Plane { stiffness, height: -lowest, width: spacing };
+    let plane = Plane { stiffness, height: -lowest, width: spacing, friction: None };
     let gravity = if speed > 1.0 { 9.81 } else { 0.0 };
     let own = (body, LoadedFaces::default());
     (Dynamics::new(own, plane, gravity, mirrors, None), speed)

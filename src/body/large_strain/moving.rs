@@ -335,7 +335,9 @@ impl Structured for MovingBody {
 
     fn drawn(&self, state: Motion, _: &[f64]) -> Result<ParticleFields, BodyError> {
         let over = self.over(&state).map_err(|failure| named(&self.name, failure))?;
-        Ok(self.seen(&state, &over).particles(self.temperatures(&state)))
+        let seen = self.seen(&state, &over);
+        let stresses = seen.stresses().map_err(|failure| named(&self.name, failure))?;
+        Ok(seen.particles(&stresses, self.temperatures(&state)))
     }
 }
 

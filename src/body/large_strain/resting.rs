@@ -438,7 +438,9 @@ impl Structured for RestingBody {
     fn drawn(&self, state: Resting, inputs: &[f64]) -> Result<ParticleFields, BodyError> {
         let present = self.present(state, inputs)?;
         let over = self.over(&present).map_err(|failure| named(&self.name, failure))?;
-        Ok(self.seen(&present, &over).particles(temperatures(&present)))
+        let seen = self.seen(&present, &over);
+        let stresses = seen.stresses().map_err(|failure| named(&self.name, failure))?;
+        Ok(seen.particles(&stresses, temperatures(&present)))
     }
 }
 

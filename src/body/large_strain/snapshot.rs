@@ -165,10 +165,11 @@ impl Seen<'_> {
     }
 
     /// All nodes as particles, mirror images included; a node of a ring has its radius as x.
-    pub fn particles(&self, temperatures: Temperatures) -> ParticleFields {
+    pub fn particles(&self, stresses: &Stresses, temperatures: Temperatures) -> ParticleFields {
         let body = self.body;
         let mut fields = ParticleFields::default();
         let swelling = self.swelling();
+        let von_mises = self.von_mises(stresses);
         let is_concrete = body.layers.iter().any(|layer| layer.law.concrete().is_some());
         let damage = match is_concrete {
             true => body.damages_at_nodes(&body.damages(self.history)),
@@ -189,7 +190,9 @@ impl Seen<'_> {
                     fields.position.push(turn([place[0], place[1], place[2] + self.lifted]));
                     let velocity = velocities.as_ref().map_or([0.0; 3], |all| all[node]);
                     fields.velocity.push(turn(velocity));
+                    fields.displacement.push(turn(u));
                 }
+                fields.von_mises.extend(&von_mises);
                 fields.mass.extend(&body.mass);
                 fields.density.extend(&density);
                 fields.pressure.extend(&pressure);
@@ -198,6 +201,23 @@ impl Seen<'_> {
             }
         }
         fields
+    }
+
+    /// Von Mises stress at each node [Pa]: the mean over the points around it.
+    fn von_mises(&self, stresses: &Stresses) -> Vec<f64> {
+        let body = self.body;
+        let of_points = body.von_mises(self.displacement, stresses, &body.team());
+        let points = &body.space.volume;
+        let mut sums = vec![[0.0; 2]; body.nodes()];
+        for (point, stress) in of_points.into_iter().enumerate() {
+            for value in points.row(point) {
+                let share = value.value * points.weights[point];
+                let sum = &mut sums[value.node as usize];
+                sum[0] += share;
+                sum[1] += share * stress;
+            }
+        }
+        sums.into_iter().map(|[whole, stress]| stress / whole).collect()
     }
 
     /// Density [kg/m³] and pressure of the dilatation [Pa] at each node: means over the points around it.

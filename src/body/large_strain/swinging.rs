@@ -256,7 +256,9 @@ impl Structured for SwingingBody {
         Swinging { motion, .. }: Swinging,
         _: &[f64],
     ) -> Result<ParticleFields, BodyError> {
-        Ok(self.seen(&motion).particles(self.temperatures()))
+        let seen = self.seen(&motion);
+        let stresses = seen.stresses().map_err(|failure| named(&self.name, failure))?;
+        Ok(seen.particles(&stresses, self.temperatures()))
     }
 }
 

@@ -482,8 +482,13 @@ impl Deformable {
 
     /// Largest von Mises stress of a point [Pa].
     pub fn greatest_von_mises(&self, u: &[[f64; 3]], stresses: &Stresses, team: &Team) -> f64 {
+        self.von_mises(u, stresses, team).into_iter().fold(0.0, f64::max)
+    }
+
+    /// Von Mises stress of each point [Pa].
+    pub fn von_mises(&self, u: &[[f64; 3]], stresses: &Stresses, team: &Team) -> Vec<f64> {
         let of_point = |point: usize| von_mises(packed(&self.cauchy(u, stresses, point)));
-        team.map(stresses.loads.len(), of_point).into_iter().fold(0.0, f64::max)
+        team.map(stresses.loads.len(), of_point)
     }
 
     /// Largest frequency of the undeformed body [1/s], by power iteration.

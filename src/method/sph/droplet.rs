@@ -87,8 +87,11 @@ pub struct ParticleFields {
     pub solid_fraction: Vec<f64>,
     /// Width of each segment of a strand; empty for particles [m].
     pub width: Vec<f64>,
-    /// Largest damage of the links of each particle of a lattice; empty for others.
+    /// Largest damage of the links of each particle of a lattice, damage of concrete; empty for others.
     pub damage: Vec<f64>,
+    /// Displacement [m] and von Mises stress [Pa] of each node of a solid of large strain; empty for others.
+    pub displacement: Vec<[f64; 3]>,
+    pub von_mises: Vec<f64>,
 }
 
 impl DropletSph {
@@ -344,8 +347,7 @@ impl DropletSph {
             pressure: cloud.density.iter().map(|&r| pressure(r) * units.pressure()).collect(),
             temperature: cloud.temperature.iter().map(|t| t + reference).collect(),
             solid_fraction: frozen::solid_fractions(&self.method, &cloud),
-            width: Vec::new(),
-            damage: Vec::new(),
+            ..ParticleFields::default()
         }
     }
 

@@ -28,6 +28,10 @@ pub fn write_particles(out: impl Write, time: f64, fields: &ParticleFields) -> i
     if !fields.damage.is_empty() {
         points.push(Array::scalar("damage", "1", &fields.damage));
     }
+    if !fields.displacement.is_empty() {
+        points.push(Array::vector("displacement", "m", &fields.displacement));
+        points.push(Array::scalar("von_mises", "Pa", &fields.von_mises));
+    }
     let places = [Array::vector("position", "m", &fields.position)];
     // Viewers draw cells, so each point is one.
     let own: Vec<i64> = (0..count as i64).collect();
@@ -60,6 +64,8 @@ mod tests {
             solid_fraction: vec![0.0, 0.75],
             width: vec![1e-3, 2e-3],
             damage: vec![0.0, 1.0],
+            displacement: vec![[0.0, 1e-3, 0.0], [2e-3, 0.0, -1e-6]],
+            von_mises: vec![3e6, 0.0],
         };
         let mut bytes = Vec::new();
         write_particles(&mut bytes, 2e-6, &fields).unwrap();
@@ -69,6 +75,7 @@ mod tests {
         assert_eq!(read.arrays["TimeValue"].1, [2e-6]);
         assert_eq!(read.arrays["position"].1, fields.position.as_flattened());
         assert_eq!(read.arrays["velocity"].1, fields.velocity.as_flattened());
+        assert_eq!(read.arrays["displacement"].1, fields.displacement.as_flattened());
         for (name, values) in [
             ("mass", &fields.mass),
             ("density", &fields.density),
@@ -77,6 +84,7 @@ mod tests {
             ("solid_fraction", &fields.solid_fraction),
             ("width", &fields.width),
             ("damage", &fields.damage),
+            ("von_mises", &fields.von_mises),
         ] {
             assert_eq!(&read.arrays[name].1, values, "{name}");
         }
