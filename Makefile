@@ -83,7 +83,8 @@ fuzz: ## drive the C ABI with random calls for SECONDS seconds
 verify: build $(VENV)/ready-verify $(MASTERS)/ready ## slow: closed forms, and an independent finite-element code
 	SWEEP_ALL=1 cargo test --release --test fmi -- too_little at_any_start
 	SWEEP_ALL=1 cargo test --release --test suite -- layers_freeze layers_cool any_number_of_drops like_drops faces_of_different half_a_turn \
-		every_pair_takes the_time_until_edges balances_close_for_all_fluids
+		every_pair_takes the_time_until_edges balances_close_for_all_fluids \
+		sheets_of_four_corners
 	cargo test --release --features verification --test verification -- --nocapture --test-threads 1
 	$(BIN)/python tests/verification/particles.py target/tmp out/verification/particles.png
 	$(BIN)/python tests/verification/flows.py target/tmp out/verification

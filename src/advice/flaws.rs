@@ -30,16 +30,17 @@ pub fn review(reviewer: &mut Reviewer) {
     }
 }
 
-/// Returns true if the surface temperature may jump, seen from a depth [m]: it is prescribed, or convection or another
-/// body brings it about faster than heat reaches the depth.
+/// Returns true if the surface temperature may jump, seen from a depth [m]: it is prescribed, or convection, a bath or
+/// another body brings it about faster than heat reaches the depth.
 pub(super) fn is_shocked(scene: &Scene, (name, solid): (&str, &Solid), depth: f64) -> bool {
     let conductivity = solid.strata().into_iter().map(|layer| layer.constants.conductivity);
     let conductivity = conductivity.fold(f64::INFINITY, f64::min);
+    let is_strong = |coefficient: f64| coefficient * depth / conductivity > SUDDEN;
     let is_sudden = |face: &Face| {
-        let biot = face.convection.map_or(0.0, |own| own.coefficient * depth / conductivity);
-        face.temperature.is_some() || biot > SUDDEN
+        face.temperature.is_some() || face.convection.is_some_and(|own| is_strong(own.coefficient))
     };
-    solid.faces.values().any(is_sudden) || scene.couplings_to(name).next().is_some()
+    let is_dipped = solid.bath.is_some_and(|bath| is_strong(bath.coefficient));
+    is_dipped || solid.faces.values().any(is_sudden) || scene.couplings_to(name).next().is_some()
 }
 
 /// Warns of steps in which the highest stress intensity after a shock comes and goes.

@@ -70,7 +70,7 @@ fn immersed_body_cools_as_one_with_convection_on_all_faces() {
         (0..3).for_each(|_| trial.step(0.1));
     }
     for key in ["strip.max_temperature", "strip.heat_lost", "strip.heat_stored"] {
-        // Inner steps err by 0.1 K at most, their systems by a fiftieth of that.
+        // The error of inner steps is 0.1 K at most, that of their linear systems a fiftieth of it.
         assert!(off(one.get(key), other.get(key)) < 1e-4, "{key}");
     }
 }

@@ -269,15 +269,24 @@ fn damage_as_wide_as_the_body_is_warned_of() {
 /// Stress in the surfaces of a strip of 0.4 mm has fallen to half its peak 0.7 ms after a shock.
 #[test]
 fn steps_that_miss_a_shock_are_warned_of() {
-    let warned = |step: &str, faces: &str| {
-        let text = scene(STRIP, &alumina(AT1), faces, "");
+    let warned_of = |shape: &str, step: &str, faces: &str| {
+        let text = scene(shape, &alumina(AT1), faces, "");
         let text = text.replace("\nstep = 1.0", &format!("\nstep = {step}"));
         let (_, warnings) = parse_with_warnings(&text, "scene").unwrap();
         warnings.iter().map(|warning| warning.finding().id).collect::<Vec<_>>()
     };
+    let warned = |step: &str, faces: &str| warned_of(STRIP, step, faces);
     let slow = "top = { convection = { coefficient = 10.0, ambient = 300.0 } }\nbottom = { roller = true }\n\
                 left = { roller = true }";
     assert_eq!(warned("1e-3", HELD), ["crack_peak_missed"]);
     assert_eq!(warned("5e-4", HELD), Vec::<&str>::new());
     assert_eq!(warned("1.0", slow), Vec::<&str>::new());
+    let dry = "bottom = { roller = true }\nleft = { roller = true }";
+    for (coefficient, missed) in [(1e6, &["crack_peak_missed"][..]), (10.0, &[])] {
+        let dipped = format!(
+            "{STRIP}\nbath = {{ coefficient = {coefficient:e}, ambient = 300.0, speed = 1e-2 }}\n\
+             mesh = {{ spacing = 2e-5, depth_spacing = 2e-5, growth = 1.0 }}"
+        );
+        assert_eq!(warned_of(&dipped, "1e-3", dry), missed, "{coefficient}");
+    }
 }

@@ -194,46 +194,44 @@ impl RestingBody {
         let expansion = self.work_of_expansion(state, end)?;
         let from = self.loads_at(&state.rest, &self.held(state).loads);
         let before = state.rest.clone();
-        match self.equilibrium.step(&mut state.rest, &conditions, &course, allowance) {
-            Ok(found) => {
-                if found.passed > PASSED && halvings > 0 {
-                    let mut finer = Resting { rest: before.clone(), ..state.clone() };
-                    match self.settle_in_halves(&mut finer, to, dt, halvings - 1, allowance) {
-                        Ok(()) => {
-                            *state = finer;
-                            return Ok(());
-                        }
-                        Err(failure @ Failure::Halted(_)) => return Err(failure),
-                        // Where loads fall faster than held faces move, only a jump has an end.
-                        Err(_) => {}
-                    }
+        let found = match self.equilibrium.step(&mut state.rest, &conditions, &course, allowance) {
+            Ok(found) => found,
+            Err(failure @ Failure::Halted(_)) => return Err(failure),
+            Err(failure) if halvings == 0 => return Err(failure),
+            Err(_) => return self.settle_in_halves(state, to, dt, halvings - 1, allowance),
+        };
+        if found.passed > PASSED && halvings > 0 {
+            let mut finer = Resting { rest: before.clone(), ..state.clone() };
+            match self.settle_in_halves(&mut finer, to, dt, halvings - 1, allowance) {
+                Ok(()) => {
+                    *state = finer;
+                    return Ok(());
                 }
-                let forces = self.loads_at(&state.rest, &to.loads);
-                let of_node = |node: usize| -> f64 {
-                    let force = |a: usize| 0.5 * (from[node][a] + forces[node][a]);
-                    let way =
-                        |a: usize| state.rest.displacement[node][a] - before.displacement[node][a];
-                    (0..3).map(|a| force(a) * way(a)).sum()
-                };
-                state.load_work += (0..forces.len()).map(of_node).sum::<f64>();
-                state.loads = to.loads.iter().map(FaceLoad::numbers).collect();
-                state.work += match self.remembers() {
-                    // Elastic work is what is stored.
-                    false => found.stored - state.stored,
-                    true => found.work + expansion,
-                };
-                state.stored = found.stored;
-                state.time += dt;
-                state.temperature = to.temperature;
-                state.warmth.rise.clone_from(&to.rise);
-                state.steps += 1.0;
-                state.forces = self.faces.forces(&found.reactions);
-                Ok(())
+                Err(failure @ Failure::Halted(_)) => return Err(failure),
+                // Where loads fall faster than held faces move, only a jump has an end.
+                Err(_) => {}
             }
-            Err(failure @ Failure::Halted(_)) => Err(failure),
-            Err(failure) if halvings == 0 => Err(failure),
-            Err(_) => self.settle_in_halves(state, to, dt, halvings - 1, allowance),
         }
+        let forces = self.loads_at(&state.rest, &to.loads);
+        let of_node = |node: usize| -> f64 {
+            let force = |a: usize| 0.5 * (from[node][a] + forces[node][a]);
+            let way = |a: usize| state.rest.displacement[node][a] - before.displacement[node][a];
+            (0..3).map(|a| force(a) * way(a)).sum()
+        };
+        state.load_work += (0..forces.len()).map(of_node).sum::<f64>();
+        state.loads = to.loads.iter().map(FaceLoad::numbers).collect();
+        state.work += match self.remembers() {
+            // Elastic work is what is stored.
+            false => found.stored - state.stored,
+            true => found.work + expansion,
+        };
+        state.stored = found.stored;
+        state.time += dt;
+        state.temperature = to.temperature;
+        state.warmth.rise.clone_from(&to.rise);
+        state.steps += 1.0;
+        state.forces = self.faces.forces(&found.reactions);
+        Ok(())
     }
 
     fn settle_in_halves(

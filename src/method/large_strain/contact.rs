@@ -55,6 +55,8 @@ pub struct Touch {
     /// Energy of the penetration [J].
     pub energy: f64,
     pub spots: Vec<Spot>,
+    /// x and y of all points of the boundary, touching or not, where there is friction [m].
+    pub places: Vec<[f64; 2]>,
     /// Force on each node along z, where any acts.
     nodes: Vec<(u32, f64)>,
 }
@@ -71,7 +73,15 @@ impl Plane {
         let samples = &body.space.boundary.samples;
         let mut touch = Touch::default();
         for point in 0..samples.len() {
-            let at = self.place(body, u, point);
+            let mut at = samples.at[point];
+            at[2] += self.height;
+            for value in samples.row(point) {
+                let u = u[value.node as usize];
+                (0..3).for_each(|a| at[a] += value.value * u[a]);
+            }
+            if self.friction.is_some() {
+                touch.places.push([at[0], at[1]]);
+            }
             if at[2] >= 0.0 {
                 continue;
             }
@@ -83,26 +93,5 @@ impl Plane {
             touch.nodes.extend(row.map(|value| (value.node, force * value.value)));
         }
         touch
-    }
-
-    /// Places of the points of the boundary along the plane [m].
-    pub fn places(&self, body: &Deformable, u: &[[f64; 3]]) -> Vec<[f64; 2]> {
-        let along = |point: usize| {
-            let [x, y, _] = self.place(body, u, point);
-            [x, y]
-        };
-        (0..body.space.boundary.samples.len()).map(along).collect()
-    }
-
-    /// Place of a point of the boundary in space [m].
-    fn place(&self, body: &Deformable, u: &[[f64; 3]], point: usize) -> [f64; 3] {
-        let samples = &body.space.boundary.samples;
-        let mut at = samples.at[point];
-        at[2] += self.height;
-        for value in samples.row(point) {
-            let u = u[value.node as usize];
-            (0..3).for_each(|a| at[a] += value.value * u[a]);
-        }
-        at
     }
 }

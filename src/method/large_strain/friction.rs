@@ -76,17 +76,12 @@ impl Shear {
 impl Plane {
     /// Lets the points in contact cling or slip. Those above the plane take their grips along, so that one that lands
     /// bears the shear of its way since.
-    pub fn rub(
-        &self,
-        (body, u): (&Deformable, &[[f64; 3]]),
-        touch: &Touch,
-        friction: &mut Friction,
-    ) -> Shear {
+    pub fn rub(&self, body: &Deformable, touch: &Touch, friction: &mut Friction) -> Shear {
         let mut shear = Shear::default();
         let (Some(coefficient), samples) = (self.friction, &body.space.boundary.samples) else {
             return shear;
         };
-        let before = std::mem::replace(&mut friction.grips, self.places(body, u));
+        let before = std::mem::replace(&mut friction.grips, touch.places.clone());
         for spot in &touch.spots {
             let [x, y] = spot.at;
             let [grip_x, grip_y] = before[spot.point];

@@ -127,16 +127,15 @@ impl Dynamics {
         let mut forces = sum(&body.forces(&stresses, team), &of_loads);
         let touch = self.plane.touch(body, u);
         touch.add_to(&mut forces);
-        let shear = self.plane.rub((body, u), &touch, &mut motion.friction);
+        let shear = self.plane.rub(body, &touch, &mut motion.friction);
         shear.add_to(&mut forces);
         Ok(Moment { stresses, touch, shear, loads: of_loads, forces })
     }
 
     /// Contact and friction of a motion at this moment.
     pub fn contact(&self, motion: &Motion) -> Touch {
-        let own = (&self.body, &motion.displacement[..]);
-        let mut touch = self.plane.touch(own.0, own.1);
-        touch.energy += self.plane.rub(own, &touch, &mut motion.friction.clone()).energy;
+        let mut touch = self.plane.touch(&self.body, &motion.displacement);
+        touch.energy += self.plane.rub(&self.body, &touch, &mut motion.friction.clone()).energy;
         touch
     }
 

@@ -27,7 +27,9 @@ pub fn check(checker: &mut Checker, path: &Path, solid: &Solid) {
     };
     let bottom = -solid.shape.thickness();
     let is_inside = |[x, z]: Place| (low..=high).contains(&x) && (bottom..=0.0).contains(&z);
-    let mut whole = Vec::new();
+    let whole = [[-high, bottom], [high, 0.0]];
+    // Notches and their mirror images, with their places in the list.
+    let mut inside = Vec::new();
     for (i, notch) in solid.notches.iter().enumerate() {
         let message = "a notch has a length";
         checker.require(notch.from != notch.to, &path.index(i), message, "`to` away from `from`");
@@ -39,16 +41,28 @@ pub fn check(checker: &mut Checker, path: &Path, solid: &Solid) {
         if !is_inside(notch.from) || !is_inside(notch.to) {
             continue;
         }
-        let was_cut = cut(&whole, [[-high, bottom], [high, 0.0]]);
-        whole.push([notch.from, notch.to]);
+        let own = [notch.from, notch.to];
+        inside.push((i, own));
         // Half a section stands for a whole one; a notch in its plane of symmetry is its own image.
-        if low == 0.0 && [notch.from, notch.to].iter().any(|at| at[0] != 0.0) {
-            whole.push([notch.from, notch.to].map(|[x, z]| [-x, z]));
+        if low == 0.0 && own.iter().any(|at| at[0] != 0.0) {
+            inside.push((i, own.map(|[x, z]| [-x, z])));
         }
-        let fine = was_cut || !cut(&whole, [[-high, bottom], [high, 0.0]]);
-        let message = "notches cut the section in two";
-        checker.require(fine, &path.index(i), message, "notches that leave it in one piece");
     }
+    let (places, notches): (Vec<usize>, Vec<Segment>) = inside.into_iter().unzip();
+    if let Some(first) = first_that_cuts(&notches, whole) {
+        let message = "notches cut the section in two";
+        checker.refuse(&path.index(places[first]), message, "notches that leave it in one piece");
+    }
+}
+
+/// The first of some notches that, with those before it, cuts a rectangle in two.
+fn first_that_cuts(notches: &[Segment], whole: [Place; 2]) -> Option<usize> {
+    if !cut(notches, whole) {
+        return None;
+    }
+    // What is cut stays so with more notches.
+    let counts: Vec<usize> = (1..=notches.len()).collect();
+    Some(counts.partition_point(|&count| !cut(&notches[..count], whole)))
 }
 
 /// Returns true if notches cut a rectangle between two corners in two: a way along them and its edge then closes. It does
