@@ -34,11 +34,13 @@ pub fn omissions(scene: &Scene, forecast: &Forecast) -> Vec<String> {
     if scene.large_strains().next().is_some() {
         let conduct = scene.large_strains().all(|(_, solid)| solid.conducts());
         let heat = if conduct {
-            "heating by deformation"
+            "heat that deformation and friction make"
         } else {
             "heat without `conductance` or thermal faces"
         };
-        list.push(format!("{heat} and friction of solids of large strain"));
+        let rubs = scene.large_strains().any(|(_, solid)| solid.friction.is_some());
+        let friction = if rubs { "" } else { ", friction" };
+        list.push(format!("{heat}{friction} of solids of large strain"));
     }
     if scene.filaments().next().is_some() {
         list.push(

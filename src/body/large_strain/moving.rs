@@ -139,9 +139,6 @@ impl MovingBody {
         if let Some(warming) = &self.warming {
             warming.check(&motion.warmth)?;
         }
-        if !motion.friction.is_sound() {
-            return Err("heat of friction is not negative".to_owned());
-        }
         let ledger = &motion.ledger;
         if ledger.time < 0.0 || ledger.steps < 0.0 || ledger.duration < 0.0 {
             return Err("time, steps and their lengths are not negative".to_owned());

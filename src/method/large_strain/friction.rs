@@ -14,7 +14,7 @@ use crate::state::{Field, Per};
 pub struct Friction {
     /// Place on the plane to which each point of the boundary clings, or above which it was last [m].
     pub grips: Vec<[f64; 2]>,
-    /// Heat that slip has made [J].
+    /// Heat that slip has made: the work done against shear that the springs do not store [J].
     pub heat: f64,
     /// Impulse on the plane along x and y [N s].
     pub impulse: [f64; 2],
@@ -58,11 +58,6 @@ impl Friction {
             ),
         ]
     }
-
-    /// Returns true of a state that steps can reach.
-    pub fn is_sound(&self) -> bool {
-        self.heat >= 0.0
-    }
 }
 
 impl Shear {
@@ -70,6 +65,21 @@ impl Shear {
         for &(node, force) in &self.nodes {
             (0..2).for_each(|a| forces[node as usize][a] += force[a]);
         }
+    }
+
+    /// Work on the body on a way of its nodes [J].
+    fn work(&self, way: &[[f64; 3]]) -> f64 {
+        let along = |&(node, force): &(u32, [f64; 2])| {
+            let [x, y, _] = way[node as usize];
+            force[0] * x + force[1] * y
+        };
+        self.nodes.iter().map(along).sum()
+    }
+
+    /// Heat of slip on a way of the nodes at the end of which this is the shear, and `before` at its beginning [J]: by the
+    /// trapezoidal rule, as steps change the kinetic energy.
+    pub fn heat(&self, before: &Self, way: &[[f64; 3]]) -> f64 {
+        before.energy - self.energy - 0.5 * (before.work(way) + self.work(way))
     }
 }
 
@@ -90,7 +100,6 @@ impl Plane {
             let spring = self.stiffness * samples.weights[spot.point];
             let most = coefficient * spot.force / spring;
             let kept = if length > most { most / length } else { 1.0 };
-            friction.heat += spring * kept * length * (1.0 - kept) * length;
             let stretch = stretch.map(|part| kept * part);
             friction.grips[spot.point] = [x - stretch[0], y - stretch[1]];
             let force = stretch.map(|part| -spring * part);

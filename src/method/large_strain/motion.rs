@@ -193,6 +193,7 @@ impl Dynamics {
         let ledger = &mut motion.ledger;
         ledger.internal_work += 0.5 * (work[0] + work[1]);
         ledger.load_work += 0.5 * (along(&now.loads) + along(&next.loads));
+        motion.friction.heat += next.shear.heat(&now.shear, &way);
         motion.warmth.swelling += 0.5 * dt * (now.stresses.swelling + next.stresses.swelling);
         ledger.time += dt;
         ledger.steps += 1.0;
