@@ -5,6 +5,7 @@ mod faces;
 mod kind;
 mod quadrilateral;
 mod shape;
+mod strand;
 
 use std::collections::BTreeMap;
 
@@ -23,6 +24,7 @@ use faces::{displacement, displacement_key, load_key};
 pub use kind::{KIND, name_kind, with_names};
 pub use quadrilateral::Quadrilateral;
 pub use shape::{Ball, SolidShape};
+pub use strand::Strand;
 
 use crate::laws::Material;
 use crate::laws::solid::SolidLaw;
@@ -194,6 +196,10 @@ impl LargeStrain {
                 let [x, z] = own.ranges().map(|[low, high]| high - low);
                 [x, own.depth.unwrap_or(1.0), z]
             }
+            SolidShape::Strand(own) => {
+                let [x, y, z] = own.sweep(self.form()).ranges().map(|[low, high]| high - low);
+                [x, if self.dimension == 2 { 1.0 } else { y }, z]
+            }
             SolidShape::Part(part) => {
                 let [x, y, z] = part.ranges().map(|[low, high]| high - low);
                 match self.form() {
@@ -226,6 +232,19 @@ impl LargeStrain {
         }
     }
 
+    /// The strand along a path, if the shape is one.
+    pub fn strand(&self) -> Option<&Strand> {
+        match &self.shape {
+            SolidShape::Strand(strand) => Some(strand),
+            _ => None,
+        }
+    }
+
+    /// Returns true if the face `sides` is made of four that have names of their own.
+    pub fn has_four_sides(&self) -> bool {
+        matches!(self.shape, SolidShape::Box(_) | SolidShape::Quadrilateral(_))
+    }
+
     /// Coordinates of the model.
     pub fn form(&self) -> Form {
         match (self.is_axisymmetric(), self.dimension) {
@@ -240,6 +259,7 @@ impl LargeStrain {
         let [x, y, z] = self.extents();
         let in_plane = match &self.shape {
             SolidShape::Quadrilateral(own) => own.edges().into_iter().fold(x.min(z), f64::min),
+            SolidShape::Strand(own) => return 2.0 * own.radius,
             _ => x.min(z),
         };
         if self.dimension == 2 { in_plane } else { in_plane.min(y) }
@@ -316,7 +336,9 @@ impl LargeStrain {
             _ if self.is_axisymmetric() => [false; 2],
             LargeStrainSymmetry::Quarter => [true, self.dimension == 3],
             LargeStrainSymmetry::Auto if self.smoothing().is_some() => [false; 2],
-            LargeStrainSymmetry::Auto if self.part().is_some() => [false; 2],
+            LargeStrainSymmetry::Auto if self.part().is_some() || self.strand().is_some() => {
+                [false; 2]
+            }
             LargeStrainSymmetry::Auto => [
                 u == 0.0 && x && right && straight && !self.is_quadrilateral(),
                 v == 0.0 && y && back && straight && self.dimension == 3,
@@ -330,7 +352,10 @@ impl LargeStrain {
         match self.shape {
             SolidShape::Box(extents) => Some(Shape::Box(extents)),
             SolidShape::Disc(disc) => Some(Shape::Disc(disc)),
-            SolidShape::Ball(_) | SolidShape::Quadrilateral(_) | SolidShape::Part(_) => None,
+            SolidShape::Ball(_)
+            | SolidShape::Quadrilateral(_)
+            | SolidShape::Strand(_)
+            | SolidShape::Part(_) => None,
         }
     }
 

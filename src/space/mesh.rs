@@ -1,8 +1,11 @@
 //! Meshes of quadrilaterals or hexahedra of simple shapes, whose nodes are those of any discretisation.
 
+mod sweep;
+
 use std::collections::HashMap;
 
 use super::Form;
+pub use sweep::{BadPath, Sweep};
 
 /// Part of a boundary.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -145,6 +148,15 @@ impl Mesh {
                 () => None,
             }
         })
+    }
+
+    /// Area of a plane mesh.
+    fn area(&self) -> f64 {
+        let of_cell = |cell: &Vec<u32>| {
+            let [a, b, c, d] = [0, 1, 2, 3].map(|n| self.nodes[cell[n] as usize]);
+            0.5 * ((d[0] - a[0]) * (c[2] - b[2]) - (d[2] - a[2]) * (c[0] - b[0])).abs()
+        };
+        self.cells.iter().map(of_cell).sum()
     }
 
     /// A ball (in a plane a circle) about the origin, of which only the part with positive x (and y) is meshed where

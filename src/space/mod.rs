@@ -15,7 +15,7 @@ mod samples;
 pub use cloud::{BadCloud, Cloud, Patch};
 pub use finite_elements::finite_elements;
 pub use given::BadMesh;
-pub use mesh::{Mesh, Side};
+pub use mesh::{BadPath, Mesh, Side, Sweep};
 pub use particles::{particles, particles_of_cloud};
 pub use places::{contains, fit, linear_row};
 pub use reproducing::{

@@ -23,7 +23,7 @@ const CONCRETE: &str = include_str!("../scenes/concrete.toml");
 /// stands there with a key that there is not, and keys that choose the section's type.
 type Section = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
-const SECTIONS: [Section; 68] = [
+const SECTIONS: [Section; 69] = [
     ("The whole", PLATE, "stop_time =", "zz = 1\nstop_time =", &[]),
     ("`fidelity`", PLATE, "level =", "zz = 1\nlevel =", &[]),
     ("`solver`", PLATE, "stop_time =", "solver = { zz = 1 }\nstop_time =", &[]),
@@ -207,6 +207,13 @@ const SECTIONS: [Section; 68] = [
         PLATE,
         "[body.plate]",
         "[body.gel]\nkind = \"solid\"\nstrain = \"finite\"\nshape = { quadrilateral = { zz = 1 } }\n[body.plate]",
+        &[],
+    ),
+    (
+        "`shape.strand`",
+        PLATE,
+        "[body.plate]",
+        "[body.gel]\nkind = \"solid\"\nstrain = \"finite\"\nshape = { strand = { zz = 1 } }\n[body.plate]",
         &[],
     ),
     (

@@ -35,6 +35,13 @@ pub fn large_strains(scene: &Scene) -> String {
                         let [bottom, right, top, left] = own.edges().map(metres);
                         format!("quadrilateral, edges {bottom}, {right}, {top}, {left}")
                     }
+                    (SolidShape::Strand(own), _) => {
+                        format!(
+                            "strand of {} points, radius {}",
+                            own.path.len(),
+                            metres(own.radius)
+                        )
+                    }
                     (SolidShape::Part(part), _) => format!("part of {}", part.file),
                     (_, Some(plate)) => shape(&plate),
                     (_, None) => String::new(),

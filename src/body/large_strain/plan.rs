@@ -51,6 +51,7 @@ pub fn mesh(solid: &LargeStrain) -> Mesh {
                 [x, y, z]
             })
         }
+        SolidShape::Strand(strand) => strand.sweep(form).mesh(spacing),
         SolidShape::Part(part) => match part.body().expect(CHECKED) {
             PartBody::Cells(mesh) => mesh.clone(),
             PartBody::Points(cloud) => cloud.surface(),
@@ -210,6 +211,5 @@ pub fn is_on(solid: &LargeStrain, face: FaceName, side: Side) -> bool {
         Side::Round => FaceName::Sides,
         Side::Free => return false,
     };
-    // Each face of a part has a name of its own.
-    own == face || solid.part().is_none() && face == FaceName::Sides && own.is_one_of_four_sides()
+    own == face || solid.has_four_sides() && face == FaceName::Sides && own.is_one_of_four_sides()
 }

@@ -69,6 +69,7 @@ fn check_large_strain(
     }
     let kind = match solid.part() {
         _ if solid.is_quadrilateral() => Some("a quadrilateral"),
+        _ if solid.strand().is_some() => Some("a strand along a path"),
         part => part.map(|_| "a part of a file"),
     };
     if let Some(kind) = kind {

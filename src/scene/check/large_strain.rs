@@ -1,6 +1,7 @@
 //! Checks that solids of large strain can be modelled.
 
 mod part;
+mod strand;
 
 use super::layers::Materials;
 use super::{Checker, fits, layers, material};
@@ -70,6 +71,11 @@ fn check_shape(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
     {
         return;
     }
+    if let Some(own) = solid.strand()
+        && !strand::check(checker, path, solid, own)
+    {
+        return;
+    }
     let smallest = solid.smallest();
     let spacing = solid.spacing();
     let path_of_spacing = path.at("mesh.spacing");
@@ -90,7 +96,10 @@ fn check_shape(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
     );
     let across = if solid.is_axisymmetric() { [0.5 * x, spacing, z] } else { [x, y, z] };
     let count = |a: usize| if is_flat && a == 1 { 1.0 } else { (across[a] / spacing).max(1.0) };
-    let nodes = count(0) * count(1) * count(2);
+    let nodes = match solid.strand() {
+        Some(own) => own.sweep(solid.form()).volume() / spacing.powi(solid.dimension as i32),
+        None => count(0) * count(1) * count(2),
+    };
     checker.require(
         nodes <= MOST_NODES,
         &path_of_spacing,
@@ -110,6 +119,11 @@ fn check_shape(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
     if solid.symmetry == LargeStrainSymmetry::Quarter && solid.is_quadrilateral() {
         let message = "a quadrilateral does not mirror itself in x = 0";
         checker.refuse(&path.key("symmetry"), message, "auto, none");
+    }
+    if solid.symmetry == LargeStrainSymmetry::Quarter && solid.strand().is_some() {
+        let message = "a strand is modelled along the whole of its path";
+        let allowed = "auto, none; half of the path, with a roller";
+        checker.refuse(&path.key("symmetry"), message, allowed);
     }
     if solid.symmetry == LargeStrainSymmetry::Quarter && solid.part().is_some() {
         let message = "a part is modelled as the file has it";
@@ -306,6 +320,9 @@ fn check_faces(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
                 own.filter(|&face| is_there(solid, face)).collect()
             }
             None if solid.part().is_some() => solid.part().map(Part::faces).unwrap_or_default(),
+            None if solid.strand().is_some() => {
+                vec![FaceName::Left, FaceName::Right, FaceName::Sides]
+            }
             None if solid.is_quadrilateral() => {
                 FaceName::ALL.into_iter().filter(|&face| is_there(solid, face)).collect()
             }
@@ -330,7 +347,7 @@ fn check_faces(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
         let allowed = "one of temperature, flux, convection";
         checker.require(thermal.len() < 2, &at, message, allowed);
         let is_twice = name.is_one_of_four_sides()
-            && solid.part().is_none()
+            && solid.has_four_sides()
             && solid
                 .faces
                 .get(&FaceName::Sides)
@@ -345,11 +362,12 @@ fn check_faces(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
             }
             SolidShape::Disc(_) => name != FaceName::Sides || solid.is_axisymmetric(),
             SolidShape::Quadrilateral(own) => own.is_straight(name),
+            SolidShape::Strand(own) => own.is_along(name),
             SolidShape::Box(_) | SolidShape::Ball(_) => true,
         };
         let is_of_kernels = matches!(solid.mechanics, Mechanics::Rkpm | Mechanics::Efg);
         let is_held = !face.is_loaded() && !conditions.is_empty() || face.temperature.is_some();
-        let may_slip = solid.is_quadrilateral() || solid.part().is_some();
+        let may_slip = solid.plate().is_none();
         if is_of_kernels && may_slip && is_held && !is_along {
             let message =
                 "kernels hold faces along the axes alone: a slanted one would slip between nodes";

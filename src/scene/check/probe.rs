@@ -45,6 +45,12 @@ fn large_strain(checker: &mut Checker, path: &Path, probe: &Probe, solid: &Large
                 let fine = !own.is_convex() || own.contains([x, z]) && deep;
                 checker.require(fine, &at, message, "x and z between the corners, |y| <= depth/2");
             }
+            (None, SolidShape::Strand(own)) => {
+                let sweep = own.sweep(solid.form());
+                let fine = sweep.fault().is_some() || sweep.contains(probe.at);
+                let allowed = format!("a place up to {} m from the path", number(own.radius));
+                checker.require(fine, &at, message, allowed);
+            }
             (None, SolidShape::Part(part)) => {
                 let [x, y, z] = probe.at;
                 let place = match solid.form() {

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Quadrilateral;
+use super::{Quadrilateral, Strand};
 use crate::limits::{length, plausible};
 use crate::scene::part::Part;
 use crate::scene::types::Disc;
@@ -24,6 +24,8 @@ pub enum SolidShape {
     Ball(Ball),
     /// Four corners in x and z; its faces are those of a box, `left` and `right` between the corners there.
     Quadrilateral(Quadrilateral),
+    /// A round strand along a path; in a plane model a strip.
+    Strand(Strand),
     /// Cells or points from a file.
     Part(Part),
 }

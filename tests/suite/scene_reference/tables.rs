@@ -4,7 +4,7 @@ use impinge::limits::keyword;
 use serde_json::Value;
 
 /// Headings of `docs/scene.md` with a table, and where in the schema the table that they describe stands.
-pub const SECTIONS: [(&str, &str); 70] = [
+pub const SECTIONS: [(&str, &str); 71] = [
     ("The whole", ""),
     ("`fidelity`", "/$defs/Fidelity"),
     ("`solver`", "/$defs/Solver"),
@@ -45,6 +45,7 @@ pub const SECTIONS: [(&str, &str); 70] = [
     ("`sph` of a solid of large strain", "/$defs/ParticleSettings"),
     ("`shape.ball`", "/$defs/Ball"),
     ("`shape.quadrilateral`", "/$defs/Quadrilateral"),
+    ("`shape.strand`", "/$defs/Strand"),
     ("`shape.part`", "/$defs/Part"),
     ("`faces.FACE` of a solid of large strain", "/$defs/HeldFace"),
     ("`[body.NAME]` of a droplet", "/$defs/Body/oneOf/1"),
