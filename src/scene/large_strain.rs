@@ -287,16 +287,23 @@ impl LargeStrain {
         }
     }
 
-    /// Axes along which the displacement of a face is an input: its normal on rollers, else those that the model
-    /// neither lacks nor mirrors. A face without rollers is held along the others.
+    /// Axes along which the displacement of a face is an input; see [`Self::held_axes`]. A face without rollers is held
+    /// along the others.
     pub fn moved_axes(&self, face: FaceName) -> Vec<usize> {
-        let Some(held) = self.faces.get(&face).filter(|held| held.displacement.is_some()) else {
+        let is_moved = self.faces.get(&face).is_some_and(|held| held.displacement.is_some());
+        if is_moved { self.held_axes(face) } else { Vec::new() }
+    }
+
+    /// Axes along which a held or moved face bears a force: its normal on rollers, on those of all four sides x and y,
+    /// else those that the model neither lacks nor mirrors.
+    pub fn held_axes(&self, face: FaceName) -> Vec<usize> {
+        let Some(held) = self.faces.get(&face).filter(|held| held.is_held()) else {
             return Vec::new();
         };
-        let is_taken = |axis: &usize| face.normal() == Some(*axis);
-        match held.roller {
-            true => (0..3).filter(is_taken).collect(),
-            false => self.free_axes(),
+        match (held.roller, face.normal()) {
+            (true, Some(axis)) => vec![axis],
+            (true, None) => self.free_axes().into_iter().filter(|&axis| axis < 2).collect(),
+            (false, _) => self.free_axes(),
         }
     }
 

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::plan;
 use super::snapshot::copies;
-use super::totals::{loaded_faces, moved_faces};
+use super::totals::{held_faces, loaded_faces, moved_faces};
 use crate::inputs::InputLayout;
 use crate::method::large_strain::{Deformable, FaceLoad, LoadedFaces};
 use crate::scene::{LargeStrain, LoadComponent};
@@ -14,6 +14,10 @@ use crate::space::{Form, Mesh, Side};
 pub struct Faces {
     /// Conditions on each node along x, y and z.
     holds: Vec<[Hold; 3]>,
+    /// Number among held faces of that which bears the force on each node along x, y and z.
+    bearers: Vec<[Option<usize>; 3]>,
+    /// Number of held faces, moved ones included.
+    held: usize,
     /// Axes along which the displacements of faces are prescribed, face by face.
     moved: Vec<Vec<usize>>,
     /// Components of the loads on faces, face by face.
@@ -22,6 +26,8 @@ pub struct Faces {
     is_round: bool,
     /// Places of displacements, loads and the temperature, if it acts, among the inputs.
     inputs: Range<usize>,
+    /// Names of these within the body, and their units.
+    keys: Vec<(&'static str, &'static str)>,
     /// Temperature without an input [K].
     temperature: f64,
 }
@@ -69,20 +75,24 @@ impl Faces {
         let moved = moved_faces(solid).into_iter().map(|face| solid.moved_axes(face)).collect();
         let loaded =
             loaded_faces(solid).into_iter().map(|face| solid.load_components(face)).collect();
+        let (holds, bearers) = holds(solid, mesh, body);
         Self {
-            holds: holds(solid, mesh, body),
+            holds,
+            bearers,
+            held: held_faces(solid).len(),
             moved,
             loaded,
             mirrors: solid.mirrors(),
             is_round: body.space.form == Form::Axisymmetric,
             inputs: layout.of_body(name),
+            keys: solid.inputs().iter().map(|input| (input.key, input.quantity.unit())).collect(),
             temperature: solid.initial_temperature,
         }
     }
 
-    /// Number of moved faces.
-    pub fn moved(&self) -> usize {
-        self.moved.len()
+    /// The forces on held faces before time starts [N].
+    pub fn no_forces(&self) -> Vec<[f64; 3]> {
+        vec![[0.0; 3]; self.held]
     }
 
     /// Number of loaded faces.
@@ -143,19 +153,52 @@ impl Faces {
         places
     }
 
-    /// Forces on the moved faces, images included; those of images along mirrored axes cancel.
+    /// Forces on the held faces, moved ones included, with their images. Along a mirrored axis, where those of images
+    /// are opposite, it is the force on the face of the model; about an axis of rotation they cancel.
     pub fn forces(&self, reactions: &[[f64; 3]]) -> Vec<[f64; 3]> {
-        let mut forces = vec![[0.0; 3]; self.moved.len()];
-        for (holds, reaction) in self.holds.iter().zip(reactions) {
-            for a in 0..3 {
-                if let Hold::With(face) = holds[a] {
-                    let mirrored = a < 2 && (self.mirrors[a] || self.is_round);
-                    let copies = if mirrored { 0.0 } else { copies(self.mirrors) };
-                    forces[face][a] += copies * reaction[a];
+        let mut forces = self.no_forces();
+        let images = [0, 1, 2].map(|axis| match axis < 2 && self.mirrors[axis] {
+            true => 0.5 * copies(self.mirrors),
+            false if axis == 0 && self.is_round => 0.0,
+            false => copies(self.mirrors),
+        });
+        for (bearers, reaction) in self.bearers.iter().zip(reactions) {
+            for axis in 0..3 {
+                if let Some(face) = bearers[axis] {
+                    forces[face][axis] += images[axis] * reaction[axis];
                 }
             }
         }
         forces
+    }
+
+    /// The inputs that change between two conditions, with their values.
+    pub fn change(&self, from: &Prescribed, to: &Prescribed) -> String {
+        let pairs = self.numbers(from).into_iter().zip(self.numbers(to));
+        let changes = self.keys.iter().zip(pairs).filter(|(_, (before, after))| before != after);
+        let words: Vec<String> = changes
+            .map(|((key, unit), (before, after))| {
+                format!("{key} = {before:.6e} and {after:.6e} {unit}")
+            })
+            .collect();
+        match (words.is_empty(), from.rise == to.rise) {
+            (false, _) => format!("between {}", words.join(", ")),
+            (true, false) => "as its temperatures change".to_owned(),
+            (true, true) => "under its weight".to_owned(),
+        }
+    }
+
+    /// Values of the inputs under conditions, in the order of the inputs.
+    fn numbers(&self, own: &Prescribed) -> Vec<f64> {
+        let places = self.moved.iter().zip(&own.places);
+        let places = places.flat_map(|(axes, place)| axes.iter().map(|&axis| place[axis]));
+        let loads = self.loaded.iter().zip(&own.loads).flat_map(|(components, load)| {
+            components.iter().map(|component| match component {
+                LoadComponent::Pressure => load.pressure,
+                LoadComponent::Traction(axis) => load.traction[*axis],
+            })
+        });
+        places.chain(loads).chain([own.temperature]).collect()
     }
 
     /// Refuses displacements of nodes that are fixed.
@@ -179,12 +222,19 @@ pub fn loaded(solid: &LargeStrain, body: &Deformable) -> LoadedFaces {
     LoadedFaces::new(body, &predicates)
 }
 
-/// Conditions on the nodes of a mesh by the faces of a solid; where faces meet, fixed prevails over moved.
-fn holds(solid: &LargeStrain, mesh: &Mesh, body: &Deformable) -> Vec<[Hold; 3]> {
+/// Conditions on the nodes of a mesh by the faces of a solid, and the number of the held face that bears each. Where
+/// faces meet, fixed prevails over moved, the first fixed one over others.
+fn holds(
+    solid: &LargeStrain,
+    mesh: &Mesh,
+    body: &Deformable,
+) -> (Vec<[Hold; 3]>, Vec<[Option<usize>; 3]>) {
     let fixed = |fixed: &[bool; 3]| fixed.map(|fixed| if fixed { Hold::Fixed } else { Hold::Free });
     let mut holds: Vec<[Hold; 3]> = body.fixed.iter().map(fixed).collect();
+    let mut bearers = vec![[None; 3]; holds.len()];
     let moved = moved_faces(solid);
-    for (&face, held) in solid.faces.iter().filter(|(_, held)| held.is_held()) {
+    for (bearer, face) in held_faces(solid).into_iter().enumerate() {
+        let held = solid.faces[&face];
         let number = moved.iter().position(|&other| other == face);
         for (side, corners) in mesh.faces.iter().filter(|(side, _)| plan::is_on(solid, face, *side))
         {
@@ -193,10 +243,11 @@ fn holds(solid: &LargeStrain, mesh: &Mesh, body: &Deformable) -> Vec<[Hold; 3]> 
                     let is_free = held.roller && plan::normal(*side) != axis;
                     if *hold != Hold::Fixed && !is_free {
                         *hold = number.map_or(Hold::Fixed, Hold::With);
+                        bearers[node as usize][axis] = Some(bearer);
                     }
                 }
             }
         }
     }
-    holds
+    (holds, bearers)
 }

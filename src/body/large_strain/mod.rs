@@ -30,7 +30,7 @@ use totals::Sums;
 pub struct View {
     snapshot: Snapshot,
     sums: Sums,
-    /// Forces on the faces that are moved [N].
+    /// Forces on the faces that are held or moved [N].
     forces: Vec<[f64; 3]>,
     probed: Vec<Probed>,
 }

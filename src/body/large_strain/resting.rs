@@ -61,7 +61,7 @@ pub struct Resting {
     loads: Vec<[f64; 4]>,
     rest: Rest,
     warmth: Warmth,
-    /// Forces on the faces that are moved [N].
+    /// Forces on the faces that are held or moved [N].
     forces: Vec<[f64; 3]>,
 }
 
@@ -94,7 +94,7 @@ impl Fields for Resting {
                 self.loads.as_flattened_mut(),
             ),
             (
-                of("forces", "forces on moved faces [N]", Per::Face, 3),
+                of("forces", "forces on held faces [N]", Per::Face, 3),
                 self.forces.as_flattened_mut(),
             ),
             (of("displacement", "displacement [m]", Per::Node, 3), displacement),
@@ -124,7 +124,7 @@ impl RestingBody {
         let warming = Warming::new(layout, (name, solid), &mesh, &body).map_err(named)?;
         let warmth = warming.as_ref().map(|own| own.start(0, false)).unwrap_or_default();
         let equilibrium = Equilibrium::new(body, &faces.held(), loaded).map_err(named)?;
-        let forces = vec![[0.0; 3]; faces.moved()];
+        let forces = faces.no_forces();
         let loads = vec![[0.0; 4]; faces.loaded()];
         let columns = columns(&equilibrium.body.space, solid.is_box());
         let temperature = solid.initial_temperature;
@@ -197,6 +197,10 @@ impl RestingBody {
         let found = match self.equilibrium.step(&mut state.rest, &conditions, &course, allowance) {
             Ok(found) => found,
             Err(failure @ Failure::Halted(_)) => return Err(failure),
+            Err(Failure::NoEquilibrium { residual }) if halvings == 0 => {
+                let change = self.faces.change(&self.held(state), to);
+                return Err(Failure::NoEquilibriumThere { change, residual });
+            }
             Err(failure) if halvings == 0 => return Err(failure),
             Err(_) => return self.settle_in_halves(state, to, dt, halvings - 1, allowance),
         };

@@ -41,7 +41,7 @@ pub struct SwingingBody {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Swinging {
     motion: Motion,
-    /// Forces on the faces that are moved, means over the last step [N].
+    /// Forces on the faces that are held or moved, means over the last step [N].
     forces: Vec<[f64; 3]>,
 }
 
@@ -60,7 +60,7 @@ impl Fields for Swinging {
             (body("load_work", "work of loads on faces [J]"), from_mut(&mut ledger.load_work)),
             (body("face_work", "work of held faces [J]"), from_mut(&mut ledger.face_work)),
             (
-                of("forces", "forces on moved faces in the last step [N]", Per::Face, 3),
+                of("forces", "forces on held faces in the last step [N]", Per::Face, 3),
                 self.forces.as_flattened_mut(),
             ),
             (of("displacement", "displacement [m]", Per::Node, 3), displacement.as_flattened_mut()),
@@ -97,7 +97,7 @@ impl SwingingBody {
         let dynamics = dynamics.map_err(named)?;
         let still = dynamics.body.in_all(Course::NONE);
         let motion = dynamics.start(solid.start.velocity);
-        let start = Swinging { motion, forces: vec![[0.0; 3]; faces.moved()] };
+        let start = Swinging { motion, forces: faces.no_forces() };
         Ok(Self {
             name: name.to_owned(),
             dynamics,

@@ -273,7 +273,7 @@ const fn conducting(
 }
 
 /// Returns the totals that a solid offers, each with its place: first those of the table, then the forces of faces
-/// whose displacement is prescribed. In a plane model they are amounts per metre of depth.
+/// that are held or moved. In a plane model they are amounts per metre of depth.
 pub fn offered_totals(solid: &LargeStrain, is_coupled: bool) -> Vec<(usize, Descriptor)> {
     let is_plane = solid.dimension == 2;
     let is_offered = |place: usize| match TOTALS[place].of {
@@ -300,14 +300,20 @@ pub fn offered_totals(solid: &LargeStrain, is_coupled: bool) -> Vec<(usize, Desc
         let Total { key, words, quantity, .. } = TOTALS[place];
         (place, described(key, words, quantity))
     });
-    let of_faces = moved_faces(solid).into_iter().enumerate().flat_map(|(n, face)| {
-        solid.moved_axes(face).into_iter().map(move |axis| {
-            let words = "force on the face that its displacement takes";
+    let of_faces = held_faces(solid).into_iter().enumerate().flat_map(|(n, face)| {
+        solid.held_axes(face).into_iter().map(move |axis| {
+            let words = "force on the face by which it is held or moved";
             let key = force_key(face, axis);
             (TOTALS.len() + 3 * n + axis, described(key, words, Quantity::Force))
         })
     });
     own.chain(of_faces).collect()
+}
+
+/// Faces that are held or moved, in their order.
+pub fn held_faces(solid: &LargeStrain) -> Vec<FaceName> {
+    let held = solid.faces.iter().filter(|(_, face)| face.is_held());
+    held.map(|(&face, _)| face).collect()
 }
 
 /// Faces whose displacement is prescribed, in their order.

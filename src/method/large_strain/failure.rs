@@ -24,6 +24,17 @@ pub enum Failure {
          steps, or loads that change less in a step)"
     )]
     NotConverged { residual: f64 },
+    /// Without inertia, before it is known what was prescribed.
+    #[error("no equilibrium was found: forces of {residual:.1e} of the largest remain unbalanced")]
+    NoEquilibrium { residual: f64 },
+    /// The same, with the inputs that change after the last equilibrium.
+    #[error(
+        "no equilibrium was found {change}, in the shortest part of the step: forces of {residual:.1e} of the largest remain unbalanced. \
+         The body may have reached the largest load that it bears, buckle, or soften faster than its own elasticity gives way \
+         (snap-back) (allowed: smaller values; `inertia = true` with `motion = \"implicit\"`, as inertia carries a body \
+         over these)"
+    )]
+    NoEquilibriumThere { change: String, residual: f64 },
     #[error(
         "{energy:.1e} J of the body's energy would have no cause: its stress changes too much in a step (allowed: shorter \
          communication steps, or loads that change less in a step)"

@@ -129,7 +129,7 @@ impl Equilibrium {
         }
         while now.norm > TOLERANCE * now.scale + self.rounding {
             if residuals.len() == ITERATIONS {
-                return Err(Failure::NotConverged { residual: now.norm / now.scale });
+                return Err(Failure::NoEquilibrium { residual: now.norm / now.scale });
             }
             let before = now.norm;
             (u, now) = self.improve(&step, &u, &now)?;
@@ -182,7 +182,7 @@ impl Equilibrium {
                 _ => change.iter_mut().flatten().for_each(|x| *x *= 0.5),
             }
         }
-        Err(Failure::NotConverged { residual: now.norm / now.scale })
+        Err(Failure::NoEquilibrium { residual: now.norm / now.scale })
     }
 
     fn factor(&self, step: &Step, u: &[[f64; 3]], trial: &Trial) -> Result<Factor, Failure> {
