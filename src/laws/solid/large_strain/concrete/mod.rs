@@ -14,6 +14,9 @@
 //!   does so only close to the axis of pressure, where it is needed.
 //! - Compaction: `p ≤ p_c(ε_c)` over the plastic change of volume ε_c, if there is a table.
 //!
+//! Over a step dλ/dε̄ᵖ is the mean of its ends and Δσ′ that of its middle, of second order in the step: softening that is
+//! nearly as fast as elastic strain recovers makes errors of λ grow.
+//!
 //! Sources: L. J. Malvar et al. 1997, doi 10.1016/S0734-743X(97)00023-7; Y. Wu, D. Wang & C.-T. Wu 2014 use the law in
 //! meshfree bodies. Effects of the rate are left out.
 
@@ -64,17 +67,18 @@ struct Principal {
 }
 
 impl Concrete {
-    /// `C_p⁻¹ − 1` (xx, yy, zz, xy, yz, xz), ε̄ᵖ, λ and ε_c.
-    pub const HISTORY: usize = 9;
+    /// `C_p⁻¹ − 1` (xx, yy, zz, xy, yz, xz), ε̄ᵖ, λ, ε_c and p.
+    pub const HISTORY: usize = 10;
     /// Place of ε̄ᵖ.
     pub const STRAIN: usize = 6;
     /// Place of λ.
     pub const LAMBDA: usize = 7;
     const COMPACTION: usize = 8;
+    const PRESSURE: usize = 9;
 
     /// Returns true if a run may produce a history of a point.
     pub fn is_sound(history: &[f64]) -> bool {
-        history[Self::STRAIN..Self::HISTORY].iter().all(|own| *own >= 0.0)
+        history[Self::STRAIN..=Self::COMPACTION].iter().all(|own| *own >= 0.0)
     }
 
     /// Part of the strength that a history of a point has lost.
@@ -105,7 +109,8 @@ impl Concrete {
             compaction: history[Self::COMPACTION],
         };
         let before = [trial.p, trial.q];
-        let point = self.returned(moduli, cosine(&principal.deviator), trial);
+        let from = history[Self::PRESSURE];
+        let point = self.returned(moduli, cosine(&principal.deviator), from, trial);
         let left = if before[1] > 0.0 { point.q / before[1] } else { 1.0 };
         let deviator = principal.deviator.map(|own| left * own);
         if before != [point.p, point.q] {
@@ -121,6 +126,7 @@ impl Concrete {
         history[Self::STRAIN] = point.strain;
         history[Self::LAMBDA] = point.lambda;
         history[Self::COMPACTION] = point.compaction;
+        history[Self::PRESSURE] = point.p;
         let stress = turned(&principal.axes, deviator.map(|own| 2.0 * shear * own - point.p));
         let square: f64 = deviator.iter().map(|own| own * own).sum();
         Isochoric {
@@ -185,13 +191,13 @@ impl Concrete {
         if p >= 0.0 { base.powf(-compressed) } else { base.max(least).powf(-drawn) }
     }
 
-    /// Brings a point back to the surfaces.
-    fn returned(&self, moduli: [f64; 2], cosine: f64, trial: Point) -> Point {
+    /// Brings a point back to the surfaces, in a step from a pressure.
+    fn returned(&self, moduli: [f64; 2], cosine: f64, from: f64, trial: Point) -> Point {
         let mut point = trial;
         self.compact(moduli[0], &mut point);
         // Flow that dilates closes what would open, so it comes first.
         for _ in 0..PASSES {
-            self.flow(moduli, cosine, &mut point);
+            self.flow(moduli, cosine, from, &mut point);
             if !self.open(moduli[0], &mut point) {
                 break;
             }
@@ -225,31 +231,59 @@ impl Concrete {
         true
     }
 
-    /// Lets a point flow beyond its strength.
-    fn flow(&self, [bulk, shear]: [f64; 2], cosine: f64, point: &mut Point) {
+    /// Lets a point flow beyond its strength, in a step from a pressure.
+    fn flow(&self, moduli: [f64; 2], cosine: f64, from: f64, point: &mut Point) {
         let section = |p: f64| Surfaces::section(self.surfaces.ratio(p), cosine);
         let (p, q, lambda) = (point.p, point.q, point.lambda);
         if q <= (1.0 + ROUNDING) * section(p) * self.strength(p, lambda) {
             return;
         }
-        let growth = self.dilatancy * section(p) * self.slope(p, |p| self.strength(p, lambda));
-        // ε̄ᵖ of a flow with this growth of the volume, per flow of the deviator.
+        let growth = |p: f64, lambda: f64| {
+            self.dilatancy * section(p) * self.slope(p, |p| self.strength(p, lambda))
+        };
+        let (mut middle, mut flowed) = ([p, lambda], None);
+        for _ in 0..MIDDLES {
+            let own = self.flowed(moduli, &section, (growth(middle[0], middle[1]), from), point);
+            middle = [0.5 * (from + own.p), 0.5 * (lambda + own.lambda)];
+            flowed = Some(own);
+        }
+        if let Some(own) = flowed {
+            *point = own;
+        }
+    }
+
+    /// A point after its flow with a growth of the volume per flow of the deviator.
+    fn flowed(
+        &self,
+        [bulk, shear]: [f64; 2],
+        section: &dyn Fn(f64) -> f64,
+        (growth, from): (f64, f64),
+        &Point { p, q, strain, lambda, compaction }: &Point,
+    ) -> Point {
+        // ε̄ᵖ per flow of the deviator.
         let whole = (1.0 + 2.0 / 9.0 * growth * growth).sqrt();
         let pressed = |flow: f64| p + bulk * growth * flow;
-        let damaged = |flow: f64| lambda + self.damaging(pressed(flow)) * whole * flow;
+        let at_first = self.damaging(from);
+        let damaged =
+            |flow: f64| lambda + 0.5 * (at_first + self.damaging(pressed(flow))) * whole * flow;
         let excess = |flow: f64| {
             let pressure = pressed(flow);
             let bound = section(pressure) * self.strength(pressure, damaged(flow));
             q - 3.0 * shear * flow - bound
         };
         let flow = root(&excess, q / (3.0 * shear));
-        point.lambda = damaged(flow);
-        point.p = pressed(flow);
-        point.q = (q - 3.0 * shear * flow).max(0.0);
-        point.strain += whole * flow;
+        Point {
+            p: pressed(flow),
+            q: (q - 3.0 * shear * flow).max(0.0),
+            strain: strain + whole * flow,
+            lambda: damaged(flow),
+            compaction,
+        }
     }
 }
 
+/// Rounds in which the middle of a flow is found.
+const MIDDLES: usize = 2;
 /// Change of an entry of F in differences.
 const DIFFERENCE: f64 = 1e-7;
 /// Part of a strength that is rounding.
