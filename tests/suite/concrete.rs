@@ -132,3 +132,44 @@ fn cylinders_bear_their_strength_in_steps_of_any_length() {
     let peaks = [10, 100].map(|steps| largest(&of(-0.2e-3, steps)));
     assert!(peaks.iter().all(|peak| (peak / strength - 1.0).abs() < 0.02), "{peaks:?}");
 }
+
+/// What is left of a crushed cylinder at twice the strain of its peak and beyond follows no steps.
+#[test]
+fn crushed_cylinders_bear_the_same_in_steps_of_any_length() {
+    let scene = include_str!("../../examples/concrete_cylinder/scene.toml");
+    let stresses = |steps: usize| {
+        let mut trial = Trial::new(scene);
+        let mut found = Vec::new();
+        for n in 1..=steps {
+            trial.set("cylinder.top.displacement_z", -0.36e-3 * n as f64 / steps as f64);
+            trial.step(1e-3);
+            // 0.36, 0.54 and 0.72 % of strain.
+            if 4 * n % steps == 0 && 2 * n >= steps {
+                let area = std::f64::consts::PI * 50e-3 * 50e-3;
+                found.push(-trial.get("cylinder.top.force_z") / area);
+            }
+        }
+        found
+    };
+    let [coarse, fine] = [40, 400].map(stresses);
+    assert!(fine[0] < 28.5e6 && fine[2] < 14e6, "{fine:?}");
+    for (a, b) in coarse.iter().zip(&fine) {
+        assert!((a / b - 1.0).abs() < 0.01, "{coarse:?} {fine:?}");
+    }
+}
+
+/// A bar that is drawn by more than it bears loses its equilibrium at its strength, which the message names.
+#[test]
+fn lost_equilibrium_names_its_load() {
+    let faces = "left = { roller = true }, right = { traction = [0.0, 0.0, 0.0] }";
+    let shape = "dimension = 2\nshape = { box = [160e-3, 1.0, 40e-3] }\nmesh = { spacing = 20e-3 }";
+    let mut trial = Trial::new(&held(shape, faces));
+    trial.set("block.right.traction_x", 3e6);
+    trial.step(1e-3);
+    trial.set("block.right.traction_x", 6e6);
+    let message = trial.try_step(1e-3).unwrap_err().to_string();
+    let start = message.find("right.traction_x = ").expect(&message) + "right.traction_x = ".len();
+    let stress: f64 = message[start..start + 12].split(' ').next().unwrap().parse().unwrap();
+    assert!((stress / 4e6 - 1.0).abs() < 0.02, "{message}");
+    assert!(message.contains("no equilibrium was found between") && message.contains("snap-back"));
+}
