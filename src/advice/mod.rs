@@ -19,6 +19,7 @@ mod resolution;
 mod retraced;
 mod strands;
 mod substances;
+mod symmetry;
 mod values;
 mod viscosity;
 mod warm_bodies;
@@ -68,6 +69,7 @@ fn found(scene: &Scene, (source, names_lines): (&Source, bool), schema: &Schema)
     films::review(&mut reviewer);
     flaws::review(&mut reviewer);
     cracks::review(&mut reviewer);
+    symmetry::review(&mut reviewer);
     freezing::review(&mut reviewer);
     strands::review(&mut reviewer);
     bending::review(&mut reviewer);

@@ -126,6 +126,10 @@ rules! {
     "after a thermal shock the stress intensity of a flaw this deep is highest after {time} s, within a communication \
      step of {step} s: outputs miss it"; "set a `step` of {time} s or less"
 
+    Check bath_wets_symmetry(face)
+    "the bath wets `{face}`, which is held along its normal alone: no heat passes a plane of symmetry";
+    "set `faces.{face}.flux = 0.0` if it is one"
+
     Check crack_peak_missed(step, time)
     "after a thermal shock stress has fallen to half its peak after {time} s, within a communication step of {step} s: \
      cracks that it opens may be missed"; "set a `step` of {time} s or less"

@@ -281,12 +281,19 @@ fn steps_that_miss_a_shock_are_warned_of() {
     assert_eq!(warned("1e-3", HELD), ["crack_peak_missed"]);
     assert_eq!(warned("5e-4", HELD), Vec::<&str>::new());
     assert_eq!(warned("1.0", slow), Vec::<&str>::new());
-    let dry = "bottom = { roller = true }\nleft = { roller = true }";
+    let dry = "bottom = { roller = true }\nleft = { roller = true, flux = 0.0 }";
     for (coefficient, missed) in [(1e6, &["crack_peak_missed"][..]), (10.0, &[])] {
         let dipped = format!(
             "{STRIP}\nbath = {{ coefficient = {coefficient:e}, ambient = 300.0, speed = 1e-2 }}\n\
              mesh = {{ spacing = 2e-5, depth_spacing = 2e-5, growth = 1.0 }}"
         );
         assert_eq!(warned_of(&dipped, "1e-3", dry), missed, "{coefficient}");
+        // A plane of symmetry that the bath wets.
+        let wet = dry.replace(", flux = 0.0", "");
+        let found = warned_of(&dipped, "1e-3", &wet);
+        assert!(
+            found.contains(&"bath_wets_symmetry") && found.len() == missed.len() + 1,
+            "{found:?}"
+        );
     }
 }

@@ -488,7 +488,14 @@ fn check_rest(checker: &mut Checker, path: &Path, name: &str, solid: &LargeStrai
             free.push(words);
         }
     }
-    let message = format!("nothing holds the body along {}", free.join(", "));
-    let allowed = "`faces.bottom = { clamped = true }`, say; or `inertia = true`";
+    let mut message = format!("nothing holds the body along {}", free.join(", "));
+    let mut allowed = "`faces.bottom = { clamped = true }`, say; or `inertia = true`";
+    if solid.smoothing().is_some() {
+        message.push_str(
+            ": with `rkpm.smoothing` the whole body is modelled, without planes of symmetry",
+        );
+        allowed = "`faces.bottom = { clamped = true }`; `roller = true` on a face across each of these axes, such as \
+                   `faces.left` for x and `faces.front` for y; or `inertia = true`";
+    }
     checker.require(free.is_empty(), path, message, allowed);
 }

@@ -123,6 +123,8 @@ pub fn read(text: &str, part: &Part, form: Form) -> Result<PartBody, BadPart> {
 }
 
 const ALLOWED: &str = "VTK's XML of an unstructured grid";
+const AS_TEXT: &str = "format=\"ascii\", numbers as text: `meshio.write(file, mesh, binary=False)`, the data mode `Ascii` of \
+                       ParaView";
 
 fn allowed(form: Form) -> String {
     match form {
@@ -243,7 +245,7 @@ impl<'a> Grid<'a> {
         if format != "ascii" {
             let (line, own) = line_at(text, place);
             let message = format!("the numbers are `{format}`");
-            return Err(BadPart::at((line, own), message, "format=\"ascii\", numbers as text"));
+            return Err(BadPart::at((line, own), message, AS_TEXT));
         }
         let rest = &text[place..];
         let content = &rest[..rest.find('<').unwrap_or(rest.len())];
