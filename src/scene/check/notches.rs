@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::{Checker, number};
 use crate::math::parts::Parts;
 use crate::scene::locate::Path;
-use crate::scene::types::{Shape, Solid, Symmetry};
+use crate::scene::types::{Mesh, Shape, Solid, Symmetry};
 
 /// Place in a section [m].
 type Place = [f64; 2];
@@ -17,7 +17,8 @@ const TOUCHING: f64 = 1e-9;
 /// Sine of the angle below which notches are parallel.
 const PARALLEL: f64 = 1e-9;
 
-/// Refuses notches outside of the meshed section, those without length, and those that cut it in two.
+/// Refuses notches outside of the meshed section, those without length, those that leave less than an element at an
+/// edge, and those that cut the section in two.
 pub fn check(checker: &mut Checker, path: &Path, solid: &Solid) {
     let is_half = solid.symmetry == Symmetry::Quarter;
     let [low, high] = match solid.shape {
@@ -42,6 +43,7 @@ pub fn check(checker: &mut Checker, path: &Path, solid: &Solid) {
             continue;
         }
         let own = [notch.from, notch.to];
+        ligaments(checker, &path.index(i), (own, [[low, bottom], [high, 0.0]]), solid);
         inside.push((i, own));
         // Half a section stands for a whole one; a notch in its plane of symmetry is its own image.
         if low == 0.0 && own.iter().any(|at| at[0] != 0.0) {
@@ -53,6 +55,38 @@ pub fn check(checker: &mut Checker, path: &Path, solid: &Solid) {
         let message = "notches cut the section in two";
         checker.refuse(&path.index(places[first]), message, "notches that leave it in one piece");
     }
+}
+
+/// Refuses a notch of which an end is off an edge of the meshed section by less than an element, all of which it breaks.
+fn ligaments(
+    checker: &mut Checker,
+    path: &Path,
+    (ends, [low, high]): (Segment, [Place; 2]),
+    solid: &Solid,
+) {
+    let Some(law) = solid.damage() else { return };
+    let spacing = solid.mesh.spacing_of_cracks(law.length);
+    for (key, end) in ["from", "to"].into_iter().zip(ends) {
+        for axis in 0..2 {
+            let extent = high[axis] - low[axis];
+            let size = extent / Mesh::elements_of_cracks(extent, spacing[axis]) as f64;
+            let left = (end[axis] - low[axis]).min(high[axis] - end[axis]);
+            let message = format!(
+                "a notch leaves {} m to the edge of the meshed section, less than an element, which is {} m long: it \
+                 would break through",
+                short(left),
+                short(size)
+            );
+            let fine = left <= TOUCHING * extent || left > size * (1.0 + TOUCHING);
+            let allowed = format!("an end on the edge, or more than {} m off it", short(size));
+            checker.require(fine, &path.key(key), message, allowed);
+        }
+    }
+}
+
+/// A length to three digits.
+fn short(length: f64) -> String {
+    number(format!("{length:.2e}").parse().unwrap_or(length))
 }
 
 /// The first of some notches that, with those before it, cuts a rectangle in two.
