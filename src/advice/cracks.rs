@@ -1,8 +1,11 @@
-//! Cracks whose damage is as wide as the body, and those that a shock opens within one step.
+//! Cracks whose damage is as wide as the body, those that a shock opens within one step, and those of plates that a bath
+//! cools unevenly.
 
 use super::Reviewer;
 use super::flaws::is_shocked;
+use crate::laws::heat::unevenness;
 use crate::limits::number;
+use crate::quantity::percent;
 use crate::scene::locate::Path;
 use crate::scene::{Shape, Solid};
 use crate::warning;
@@ -17,6 +20,11 @@ const PASSED: f64 = 0.04;
 pub fn review(reviewer: &mut Reviewer) {
     let scene = reviewer.scene;
     for (name, solid) in scene.solids() {
+        if let Some(biot) = solid.biot_in_bath().filter(|&biot| biot > Solid::THIN) {
+            let path = Path::default().key("body").key(name).key("bath");
+            let part = percent(unevenness(biot));
+            reviewer.warn(&path, warning::plate_unevenly_warm(format!("{biot:.2}"), part));
+        }
         let Some(law) = solid.damage() else { continue };
         let extent = smallest_extent(solid);
         if law.length > LARGEST_PART * extent {

@@ -146,6 +146,13 @@ rules! {
     "damage spreads over {length} m, more than a third of the body's extent of {extent} m: it fails as a whole, before a \
      crack has formed"; "did you mean a higher `strength` or a lower `toughness`?"
 
+    Check plate_unevenly_warm(biot, part)
+    "the temperature is taken as even through the thickness of a section in plane stress, and its Biot number in the bath \
+     is {biot}: middle and surfaces differ by {part} of the difference to the bath, and the tension that this makes in \
+     the surfaces is left out";
+    "set a thickness or a `bath.coefficient` with which hW/(2k) is 0.1 or less, or model the section across the thickness, \
+     in plane strain with x along the thickness"
+
     Check load_unresolved(apart, spacing)
     "the mesh does not resolve a load this small: nodes are {apart} m apart";
     "did you mean a `mesh.spacing` of {spacing} m or less?"

@@ -8,12 +8,14 @@ use super::fineness::{Fineness, Resolution};
 use super::heat::ThermalFace;
 use super::solver_choice::note_on_solver;
 use crate::laws::fracture::GradientDamage;
+use crate::laws::heat::unevenness;
 use crate::laws::{Conduction, Constants, FlawStatistics, FlowLaw, Thermoelastic};
 use crate::method::mesh::{Axis, Weight};
 use crate::method::mesh::{Geometry, Mesh, MeshFace};
+use crate::quantity::percent;
 use crate::scene::{
-    Bath, Face, FaceName, HeatMethod, Notch, PlaneSection, Radiation, Shape, Solid, SphOperator,
-    SphSettings, Stratum, Symmetry,
+    Bath, Face, FaceName, HeatMethod, Notch, Radiation, Shape, Solid, SphOperator, SphSettings,
+    Stratum, Symmetry,
 };
 
 /// Everything from which a solid's model is built.
@@ -163,7 +165,7 @@ impl Plan {
         let supports = supports(solid, &mesh);
         let newton = newton.map(|tolerance| newton_plan(solid, &mesh, tolerance));
         notes.extend(newton.as_ref().map(note_on_newton));
-        notes.extend(solid.bath.map(|bath| note_on_bath(solid, &bath)));
+        notes.extend(solid.bath.map(|_| note_on_bath(solid)));
         let inelastic = is_inelastic.then(|| inelastic_laws(solid, &mesh));
         notes.extend(inelastic.as_ref().map(|laws| note_on_history(solid, laws)));
         notes.extend(damage.as_ref().map(|damage| note_on_cracks(damage, &mesh)));
@@ -436,23 +438,19 @@ fn flaws(solid: &Solid) -> Vec<Option<FlawStatistics>> {
     materials.map(|own| own.fracture.weibull.map(|weibull| weibull.statistics())).collect()
 }
 
-/// Note on what a bath wets. Through the thickness of a plane section temperatures are even, as they are in a plate of
-/// small Biot number h W/(2k).
-fn note_on_bath(solid: &Solid, bath: &Bath) -> String {
+/// Note on what a bath wets. Through the thickness of a section in plane stress temperatures are even, as they are in a plate
+/// of small Biot number.
+fn note_on_bath(solid: &Solid) -> String {
     let faces: Vec<&str> = solid.wetted_faces().into_iter().map(FaceName::as_str).collect();
     let faces = faces.join(", ");
     let wets = format!("the bath wets what is below its surface of the faces {faces}");
-    match (solid.shape, solid.section) {
-        (Shape::Box([_, thickness, _]), Some(PlaneSection::PlaneStress)) => {
-            let conductivity = solid.strata()[0].constants.conductivity;
-            let biot = 0.5 * bath.coefficient * thickness / conductivity;
-            format!(
-                "{wets}; the temperature is even through the thickness of the section, whose Biot number hW/(2k) is \
-                 {biot:.2e}"
-            )
-        }
-        _ => wets,
-    }
+    let Some(biot) = solid.biot_in_bath() else { return wets };
+    let verdict = if biot <= Solid::THIN { "which holds" } else { "which does not hold" };
+    format!(
+        "{wets}; the temperature is taken as even through the thickness of the section, {verdict}: its Biot number is \
+         {biot:.2e}, with which its middle and surfaces differ by {} of the difference to the bath",
+        percent(unevenness(biot))
+    )
 }
 
 fn note_on_newton(NewtonPlan { tolerance, bath, .. }: &NewtonPlan) -> String {
