@@ -44,6 +44,11 @@ pub fn expected(scene: &Scene) -> Result<Option<String>, CliError> {
     let steps = forecast.droplets.iter().map(|body| {
         format!(", {:.2e} time steps of `{}` of {:.1e} s", body.steps, body.name, body.time_step)
     });
-    let told = || format!("this takes about {}{}", lasting(time), steps.collect::<String>());
+    let savings = forecast.bodies.iter().filter_map(|body| body.savings.as_ref());
+    let savings = savings.map(|savings| format!("; {savings}"));
+    let told = || {
+        let further: String = steps.chain(savings).collect();
+        format!("this takes about {}{further}", lasting(time))
+    };
     Ok((time > REPORTED).then(told))
 }

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use super::front::may_melt;
 use super::rows::Choice;
+use super::savings::savings;
 use super::{is_large, plan};
 use crate::body::threads_for;
 use crate::channel::{Channel, Direction};
@@ -41,6 +42,8 @@ pub struct BodyForecast {
     pub reduced: Option<Option<usize>>,
     /// Notes on choices and simplifications.
     pub notes: Vec<String>,
+    /// Keys that shorten a long run.
+    pub savings: Option<String>,
 }
 
 /// Work of particles in a communication step of the default experiment.
@@ -129,6 +132,7 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
     let modes: f64 = if particles.is_none() { modes.sum() } else { 0.0 };
     let nodes = unknowns[0] as f64;
     let (mut further_memory, mut nonlinear_time) = (0.0, 0.0);
+    let mut proposed = None;
     if plan.newton.is_some() {
         further_memory += EnthalpyHeat::expected_bytes(plan.mesh.sided_counts());
         nonlinear_time += NONLINEAR_HEAT * nodes;
@@ -148,6 +152,8 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
         further_memory +=
             CRACKING_MEMORY * nodes + 2.0 * factor_memory(Geometry::Axisymmetric, unknowns[1]);
         nonlinear_time += CRACKING * nodes;
+        let time = CRACKING * nodes * (scene.stop_time / scene.step).ceil();
+        proposed = savings(scene, (name, solid), (nodes, time));
     }
     if scene.meets_rings(name) {
         further_memory += FaceRings::expected_bytes(&plan.mesh);
@@ -177,7 +183,8 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
             + 1e-7 * unknowns[0] as f64
             + columns / SOLVE_RATE
             + passes * links / PRODUCT_RATE,
-        notes: plan.notes,
+        notes: plan.notes.into_iter().chain(proposed.clone()).collect(),
+        savings: proposed,
     }
 }
 

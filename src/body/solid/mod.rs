@@ -19,6 +19,7 @@ mod point;
 mod port;
 mod reader;
 mod rows;
+mod savings;
 mod totals;
 mod warnings;
 mod yielding;
