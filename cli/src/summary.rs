@@ -13,7 +13,7 @@ const BALANCED: f64 = 1e-9;
 const BALANCED_BY_PARTICLES: f64 = 5e-2;
 
 /// Totals of a body with a history of deformation.
-const IS_FLOW: [&str; 15] = [
+const IS_FLOW: [&str; 18] = [
     ".max_plastic_strain",
     ".plastic_work",
     ".dissipated",
@@ -26,10 +26,16 @@ const IS_FLOW: [&str; 15] = [
     ".max_damage",
     ".crack_area",
     ".first_crack_time",
+    ".first_crack_x",
+    ".first_crack_z",
+    ".crack_growth",
     ".crack_length",
     ".crack_count",
     ".crack_depth",
 ];
+
+/// Start of the names of a body's time and place of the first crack.
+const FIRST_CRACK: &str = ".first_crack_";
 
 /// Heat balance of a body [J].
 #[derive(Debug, Clone, PartialEq)]
@@ -141,7 +147,8 @@ pub fn balance_table(balances: &[Balance]) -> String {
 /// and reservoirs, and what flows of solids that yield.
 pub fn totals_table(model: &Model, state: &State, cache: &mut Cache) -> Result<String, ModelError> {
     let mut rows = Vec::new();
-    for variable in Registry::of(model.scene()).variables {
+    let registry = Registry::of(model.scene());
+    for variable in &registry.variables {
         let Slot::Output(output) = &variable.slot else { continue };
         let Some(quantity) = variable.quantity else { continue };
         let is_total = matches!(output.reading, Reading::Total(_));
@@ -150,10 +157,29 @@ pub fn totals_table(model: &Model, state: &State, cache: &mut Cache) -> Result<S
             || IS_FLOW.iter().any(|key| variable.name.ends_with(key));
         if is_total && is_shown {
             let value = model.output(state, cache, output)?;
-            rows.push([variable.name.clone(), shown(value, quantity)]);
+            let value = match variable.name.split_once(FIRST_CRACK) {
+                Some((body, _)) if !has_cracked((model, state, cache), &registry, body)? => {
+                    "no crack".into()
+                }
+                _ => shown(value, quantity),
+            };
+            rows.push([variable.name.clone(), value]);
         }
     }
     Ok(table(["at the end", "value"], &rows))
+}
+
+/// Returns true if a body that cracks has done so.
+fn has_cracked(
+    (model, state, cache): (&Model, &State, &mut Cache),
+    registry: &Registry,
+    body: &str,
+) -> Result<bool, ModelError> {
+    let time = registry.find(&format!("{body}{FIRST_CRACK}time"));
+    match time.map(|place| &registry.variables[place].slot) {
+        Some(Slot::Output(output)) => Ok(model.output(state, cache, output)? > 0.0),
+        _ => Ok(false),
+    }
 }
 
 /// Formats the running maxima at `state` as a table, each with its time and position; empty if none are kept.

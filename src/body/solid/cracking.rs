@@ -4,15 +4,16 @@ use std::ops::Range;
 
 use super::SolidBody;
 use super::memo::SolidMemo;
+use super::notched::Notched;
 use crate::body::{Acts, BodyError};
 use crate::laws::fracture::Components;
 use crate::method::damage::{
-    Cracks, DamageError, DamageProblem, DamageState, Elements, Energies, Form, Section, Side,
+    BreakingOrder, Cracks, DamageError, DamageProblem, DamageState, Elements, Energies, Form,
+    Section, Side,
 };
 use crate::method::fem::elastic::Support;
 use crate::method::fem::{Deformation, Geometry, Mesh, Plan, Remembered, SolidLoads};
 use crate::runtime::allowance::Allowance;
-use crate::scene::Notch;
 use crate::state::{Field, Layout, Per};
 
 /// Largest number of halvings of a step in which temperatures change much.
@@ -31,10 +32,8 @@ pub struct Cracking {
     copies: f64,
     /// Width of the body along the normal of a plane section [m].
     width: Option<f64>,
-    /// The state at time zero, if the body has notches, without load.
-    notched: Option<DamageState>,
-    /// Nodes of notches.
-    cut: Vec<bool>,
+    /// Its notches, if it has any.
+    notched: Option<Notched>,
     /// Kinds of the section's sides.
     sides: [[Side; 2]; 2],
     /// Largest change of temperature in a part of a step [K].
@@ -67,15 +66,13 @@ impl Cracking {
         let breaking = law.strength() / (law.elastic.young * law.expansion.abs());
         let elements = Elements::new(Section { axes, form }, law);
         let problem = DamageProblem::new(elements, held(plan), threads);
-        let start = notched(&problem, &plan.notches);
-        let damage = start.as_ref().map(|state| state.damage.as_slice());
+        let width = (mesh.geometry == Geometry::Box).then_some(along_y * thickness);
         Some(Self {
-            cut: damage.map_or(vec![false; problem.elements.grid.nodes()], Section::broken),
-            notched: start,
+            notched: Notched::of(&problem, &plan.notches, (mesh, width)),
             problem,
             counts: mesh.node_counts(),
             copies: mesh.copies(),
-            width: (mesh.geometry == Geometry::Box).then_some(along_y * thickness),
+            width,
             sides: sides(plan),
             most_change: PART_OF_BREAKING * breaking,
         })
@@ -88,7 +85,8 @@ impl Cracking {
 
     /// Returns the state at time zero: in equilibrium at a temperature above the stress-free one [K], without forces.
     pub fn initial_state(&self, rise: f64) -> Vec<f64> {
-        let mut state = self.notched.clone().unwrap_or_else(|| self.problem.initial_state());
+        let notched = self.notched.as_ref().map(|notched| notched.state.clone());
+        let mut state = notched.unwrap_or_else(|| self.problem.initial_state());
         if rise != 0.0 {
             let rises = vec![rise; self.nodes()];
             let none = vec![0.0; 2 * self.nodes()];
@@ -112,11 +110,12 @@ impl Cracking {
             .with(field("rise", "temperature of the equilibrium [K]", Per::Node, 1), nodes)
             .with(field("work", "work of loads and thermal strain [J]", Per::Body, 1), 1)
             .with(field("clock", "time since the start [s]", Per::Body, 1), 1)
+            .with(field("first_crack_place", "place of the first crack, or 0 [m]", Per::Body, 2), 1)
             .with(field("first_crack", "clock at the first crack, or 0 [s]", Per::Body, 1), 1)
     }
 
-    /// Places of displacement, damage and temperature in the mechanical part of a state; work, clock and time of the
-    /// first crack follow.
+    /// Places of displacement, damage and temperature in the mechanical part of a state; work, clock, place and time of
+    /// the first crack follow.
     fn places(&self) -> [Range<usize>; 3] {
         let nodes = self.nodes();
         [0..2 * nodes, 2 * nodes..3 * nodes, 3 * nodes..4 * nodes]
@@ -137,23 +136,40 @@ impl Cracking {
 
     /// Time since the start and that of the first crack, zero before it [s].
     fn times(&self, flat: &[f64]) -> [f64; 2] {
-        [1, 2].map(|after| flat[4 * self.nodes() + after])
+        [1, 4].map(|after| flat[4 * self.nodes() + after])
     }
 
-    /// Advances the clock, and notes its time at the end of the first part of a step that leaves a crack.
-    fn note_time(&self, flat: &mut [f64], duration: f64) {
+    /// Place of the first crack: x, or the radius, and z; zero before it [m].
+    fn place_of_first(&self, flat: &[f64]) -> [f64; 2] {
+        [2, 3].map(|after| flat[4 * self.nodes() + after])
+    }
+
+    /// Advances the clock, and notes its time at the end of the first part of a step that leaves a crack, with the
+    /// place that broke first.
+    fn note_time(&self, flat: &mut [f64], duration: f64, order: &BreakingOrder) {
         let [clock, first] = self.times(flat);
         let clock = clock + duration;
-        flat[4 * self.nodes() + 1] = clock;
-        if first == 0.0 && self.has_cracked(flat) {
-            flat[4 * self.nodes() + 2] = clock;
+        let own = 4 * self.nodes();
+        flat[own + 1] = clock;
+        if first != 0.0 {
+            return;
+        }
+        let cracked = self.cracked(flat);
+        if let Some(node) = order.first_of(&cracked) {
+            let place = self.problem.elements.section.place(node);
+            flat[own + 2..own + 4].copy_from_slice(&place);
+            flat[own + 4] = clock;
         }
     }
 
-    /// Returns true if there are cracks other than notches.
-    fn has_cracked(&self, flat: &[f64]) -> bool {
+    /// Nodes of cracks that are not those of notches.
+    fn cracked(&self, flat: &[f64]) -> Vec<usize> {
         let [_, damage, _] = self.places();
-        self.problem.elements.section.has_grown(&flat[damage], &self.cut)
+        let (section, damage) = (&self.problem.elements.section, &flat[damage]);
+        match &self.notched {
+            Some(notched) => section.grown(damage, &notched.cut),
+            None => section.grown(damage, &vec![false; damage.len()]),
+        }
     }
 
     fn cracks(&self, flat: &[f64]) -> Cracks {
@@ -172,9 +188,20 @@ impl Cracking {
         wrong.map_or(Ok(()), |value| Err(format!("equilibrium at {value:e} K")))?;
         let [clock, first] = self.times(flat);
         let is_possible = (0.0..=clock).contains(&first) && clock < f64::INFINITY;
-        match is_possible && (first == 0.0 || self.has_cracked(flat)) {
+        if !is_possible || first != 0.0 && self.cracked(flat).is_empty() {
+            return Err(format!("a first crack at {first:e} s, {clock:e} s from the start"));
+        }
+        let place @ [along, z] = self.place_of_first(flat);
+        let axes = &self.problem.elements.section.axes;
+        let is_inside = axes.iter().zip(place).all(|(axis, at)| {
+            axis.first().is_some_and(|&low| low <= at)
+                && axis.last().is_some_and(|&high| at <= high)
+        });
+        match if first == 0.0 { place == [0.0; 2] } else { is_inside } {
             true => Ok(()),
-            false => Err(format!("a first crack at {first:e} s, {clock:e} s from the start")),
+            false => {
+                Err(format!("a first crack at [{along:e}, {z:e}] m, {first:e} s from the start"))
+            }
         }
     }
 
@@ -214,25 +241,6 @@ impl Cracking {
             None => nodal.into_flattened(),
         }
     }
-}
-
-/// A section with notches, whose damage is the least that they need; `None` without any.
-fn notched(problem: &DamageProblem, notches: &[Notch]) -> Option<DamageState> {
-    if notches.is_empty() {
-        return None;
-    }
-    let mut state = problem.initial_state();
-    for notch in notches {
-        for node in problem.elements.section.nodes_along([notch.from, notch.to]) {
-            state.damage[node] = 1.0;
-        }
-    }
-    let cut = state.clone();
-    let rise = vec![0.0; state.damage.len()];
-    let none = vec![0.0; state.displacement.len()];
-    // Without load the damage beside notches has no reason to fail; the first step would report it.
-    let spread = problem.advance(&mut state, (&rise, &none), &Allowance::default());
-    Some(if spread.is_ok() { state } else { cut })
 }
 
 /// Kinds of the section's sides. Cracks along a face that is held begin elsewhere.
@@ -310,12 +318,14 @@ impl SolidBody {
         let (rise, forces) = self.section_loads(cracking, state, acts)?;
         let changes = rise.iter().zip(&mechanics.rise).map(|(new, old)| (new - old).abs());
         if halves == 0 || changes.fold(0.0, f64::max) <= cracking.most_change {
-            let advanced = cracking.problem.advance(&mut mechanics, (&rise, &forces), allowance);
+            let (mut order, loads) = (BreakingOrder::default(), (&rise[..], &forces[..]));
+            let advanced =
+                cracking.problem.advance_noting(&mut mechanics, loads, allowance, &mut order);
             advanced.map_err(|error| self.damage_error(error))?;
             let length = cracking.layout().len();
             let own = &mut state[self.heat_len..][..length];
             cracking.store(&mechanics, own);
-            cracking.note_time(own, acts.duration);
+            cracking.note_time(own, acts.duration, &order);
             return Ok(());
         }
         state.copy_from_slice(&start);
@@ -399,6 +409,12 @@ impl SolidBody {
         first
     }
 
+    /// Place of the first crack: x, or the radius, and z [m]; zero before it, and without cracks.
+    pub(super) fn place_of_first_crack(&self, state: &[f64]) -> [f64; 2] {
+        let Some(cracking) = &self.cracking else { return [0.0; 2] };
+        cracking.place_of_first(self.mechanics_of(state))
+    }
+
     /// Returns true if a crack of the later state is not part of one of the earlier.
     pub(super) fn has_new_crack(&self, before: &[f64], after: &[f64]) -> bool {
         let Some(cracking) = &self.cracking else { return false };
@@ -424,9 +440,20 @@ impl SolidBody {
         cracking.copies * self.mechanics_of(state)[4 * cracking.nodes()]
     }
 
-    /// Energy of cracks per area [J/m²], and the width of a plane section [m].
-    pub(super) fn measures_of_cracks(&self) -> Option<(f64, Option<f64>)> {
-        let cracking = self.cracking.as_ref()?;
-        Some((cracking.problem.elements.law.energy, cracking.width))
+    /// Area of notches and cracks, and that of notches [m²]; zero without cracks.
+    pub(super) fn areas_of_cracks(&self, state: &[f64], memo: &mut SolidMemo) -> [f64; 2] {
+        let Some(cracking) = &self.cracking else { return [0.0; 2] };
+        let by_energy =
+            self.energies(state, memo).dissipated / cracking.problem.elements.law.energy;
+        let Some(notched) = &cracking.notched else { return [by_energy, 0.0] };
+        let [_, damage, _] = cracking.places();
+        let damage = &self.mechanics_of(state)[damage];
+        let section = &cracking.problem.elements.section;
+        [notched.area_of_cracks(section, damage, by_energy), notched.area]
+    }
+
+    /// Width of a plane section that cracks [m].
+    pub(super) fn width_of_section(&self) -> Option<f64> {
+        self.cracking.as_ref()?.width
     }
 }

@@ -13,6 +13,7 @@ mod linear;
 mod loads;
 mod means;
 mod memo;
+mod notched;
 mod peaks;
 mod plan;
 mod point;

@@ -179,10 +179,10 @@ impl SolidReader<'_> {
         self.body.work_of_cracks(self.state)
     }
 
-    /// Area of cracks: their energy over that per area [m²].
+    /// Area of notches and of cracks: the energy of cracks over that per area [m²].
     pub fn crack_area(&mut self) -> f64 {
-        let dissipated = self.energies().dissipated;
-        self.body.measures_of_cracks().map_or(0.0, |(energy, _)| dissipated / energy)
+        let [all, _] = self.body.areas_of_cracks(self.state, self.memo);
+        all
     }
 
     /// Number of cracks [1].
@@ -195,15 +195,27 @@ impl SolidReader<'_> {
         self.body.time_of_first_crack(self.state)
     }
 
+    /// Place of the first crack: x, or the radius, and z [m].
+    pub fn place_of_first_crack(&self) -> [f64; 2] {
+        self.body.place_of_first_crack(self.state)
+    }
+
     /// Depth of the deepest crack [m].
     pub fn crack_depth(&self) -> f64 {
         self.body.cracks_of(self.state).depth
     }
 
-    /// Length of cracks in a plane section [m].
+    /// Length of notches and cracks in a plane section [m].
     pub fn crack_length(&mut self) -> f64 {
-        let width = self.body.measures_of_cracks().and_then(|(_, width)| width);
+        let width = self.body.width_of_section();
         width.map_or(0.0, |width| self.crack_area() / width)
+    }
+
+    /// Length of cracks in a plane section without that of notches [m].
+    pub fn crack_growth(&mut self) -> f64 {
+        let Some(width) = self.body.width_of_section() else { return 0.0 };
+        let [all, notches] = self.body.areas_of_cracks(self.state, self.memo);
+        (all - notches) / width
     }
 
     pub fn fallback_particles(&self) -> f64 {

@@ -29,13 +29,15 @@ enum Offered {
     /// Those that crack, and their plane sections.
     Cracking,
     CrackingSections,
+    /// Plane sections that crack and have notches.
+    Notched,
     /// Those whose mechanics is modelled.
     Mechanical,
     /// Those with a distribution of flaws.
     Breaking,
 }
 
-const TOTALS: [Total; 28] = [
+const TOTALS: [Total; 31] = [
     Total {
         descriptor: Descriptor {
             key: "max_temperature",
@@ -133,7 +135,7 @@ const TOTALS: [Total; 28] = [
     }),
     of_cracks(
         "crack_area",
-        "area of cracks: the energy that damage has dissipated over that of cracks per area",
+        "area of notches and cracks: of cracks the energy that damage has dissipated over that per area",
         Quantity::Area,
         |reader| Ok(reader.crack_area()),
     ),
@@ -141,9 +143,18 @@ const TOTALS: [Total; 28] = [
         of: Offered::CrackingSections,
         ..of_cracks(
             "crack_length",
-            "length of cracks in the section: their area over the width of the body",
+            "length of notches and cracks in the section: their area over the width of the body",
             Quantity::Length,
             |reader| Ok(reader.crack_length()),
+        )
+    },
+    Total {
+        of: Offered::Notched,
+        ..of_cracks(
+            "crack_growth",
+            "length of cracks in the section beyond notches, 0 until a place outside of these is broken",
+            Quantity::Length,
+            |reader| Ok(reader.crack_growth()),
         )
     },
     of_cracks(
@@ -154,9 +165,21 @@ const TOTALS: [Total; 28] = [
     ),
     of_cracks(
         "first_crack_time",
-        "time from the start to the first crack, 0 before it",
+        "time from the start to the first crack, 0 until then",
         Quantity::Time,
         |reader| Ok(reader.time_of_first_crack()),
+    ),
+    of_cracks(
+        "first_crack_x",
+        "x, or the radius in a disc, of the place outside of notches that broke first, 0 until then",
+        Quantity::Length,
+        |reader| Ok(reader.place_of_first_crack()[0]),
+    ),
+    of_cracks(
+        "first_crack_z",
+        "z of the place outside of notches that broke first, 0 until then",
+        Quantity::Length,
+        |reader| Ok(reader.place_of_first_crack()[1]),
     ),
     of_cracks(
         "crack_depth",
@@ -281,6 +304,7 @@ pub fn offered_totals(scene: &Scene, (name, solid): (&str, &Solid)) -> Vec<(usiz
         Offered::Mechanical => scene.asks_mechanics(name),
         Offered::Cracking => solid.cracks(),
         Offered::CrackingSections => solid.cracks() && solid.section.is_some(),
+        Offered::Notched => solid.cracks() && solid.section.is_some() && !solid.notches.is_empty(),
         Offered::Breaking => solid.has_flaws(),
     };
     let totals = TOTALS.iter().enumerate().filter(|(_, total)| is_offered(total));

@@ -96,9 +96,36 @@ impl Section {
         (0..=parts as usize).flat_map(of_part).collect()
     }
 
-    /// Returns true if a crack has a node that is not among those broken from the start.
-    pub fn has_grown(&self, damage: &[f64], from_start: &[bool]) -> bool {
-        regions(self.grid(), damage).iter().flatten().any(|&node| !from_start[node])
+    /// Nodes of cracks that are not among those broken from the start.
+    pub fn grown(&self, damage: &[f64], from_start: &[bool]) -> Vec<usize> {
+        let nodes = regions(self.grid(), damage).into_iter().flatten();
+        nodes.filter(|&node| !from_start[node]).collect()
+    }
+
+    /// Number of ends within the section of the cracks that have a node among those broken from the start: two of each,
+    /// less the sides that it touches.
+    pub fn ends(&self, damage: &[f64], from_start: &[bool]) -> usize {
+        let [columns, rows] = self.grid().counts;
+        let of_region = |region: &Vec<usize>| {
+            let is_at = |side: usize| {
+                region.iter().any(|node| match side {
+                    0 => node % columns == 0,
+                    1 => node % columns == columns - 1,
+                    2 => node / columns == 0,
+                    _ => node / columns == rows - 1,
+                })
+            };
+            2_usize.saturating_sub((0..4).filter(|&side| is_at(side)).count())
+        };
+        let regions = regions(self.grid(), damage);
+        let own = regions.iter().filter(|region| region.iter().any(|&node| from_start[node]));
+        own.map(of_region).sum()
+    }
+
+    /// Place of a node in the section [m].
+    pub fn place(&self, node: usize) -> [f64; 2] {
+        let columns = self.axes[0].len();
+        [self.axes[0][node % columns], self.axes[1][node / columns]]
     }
 
     /// Broken nodes.
@@ -240,8 +267,21 @@ mod tests {
         let from_start = Section::broken(&start);
         let (_, longer) = broken(&[[2, 4], [2, 3], [2, 2]]);
         let (_, point) = broken(&[[2, 4], [2, 3], [6, 1]]);
-        let grown = [&start, &longer, &point].map(|damage| section.has_grown(damage, &from_start));
-        assert_eq!(grown, [false, true, false]);
+        let grown = [&start, &longer, &point].map(|damage| section.grown(damage, &from_start));
+        assert_eq!(grown, [vec![], vec![2 + 9 * 2], vec![]]);
+        let place = section.place(2 + 9 * 2);
+        assert!((place[0] - 2e-3).abs() < 1e-15 && (place[1] - 2e-3).abs() < 1e-15);
+    }
+
+    #[test]
+    fn ends_are_those_within_the_section() {
+        let (section, start) = broken(&[[2, 4], [2, 3], [5, 2], [6, 2]]);
+        let from_start = Section::broken(&start);
+        let (_, through) =
+            broken(&[[2, 4], [2, 3], [2, 2], [2, 1], [2, 0], [5, 2], [6, 2], [7, 1], [8, 0]]);
+        let (_, other) = broken(&[[2, 4], [2, 3], [5, 2], [6, 2], [8, 1], [8, 2]]);
+        let ends = [&start, &through, &other].map(|damage| section.ends(damage, &from_start));
+        assert_eq!(ends, [3, 0, 3]);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 mod acceleration;
 mod balance;
 mod bounded;
+mod breaking;
 mod broken;
 mod elements;
 mod problem;
@@ -10,6 +11,7 @@ mod section;
 #[cfg(test)]
 mod tests;
 
+pub use breaking::BreakingOrder;
 pub use broken::{Cracks, Side};
 pub use elements::{Elements, Energies};
 pub use problem::{DamageProblem, DamageState, Effort};

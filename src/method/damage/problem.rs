@@ -4,6 +4,7 @@ use super::DamageError;
 use super::acceleration::{Acceleration, Alternated};
 use super::balance::{Balance, Unknowns};
 use super::bounded::minimise;
+use super::breaking::BreakingOrder;
 use super::elements::{Elements, Energies, Nodal};
 use crate::laws::fracture::Components;
 use crate::math::nine_point::{NinePoint, Padded};
@@ -73,9 +74,21 @@ impl DamageProblem {
         (rise, forces): (&[f64], &[f64]),
         allowance: &Allowance,
     ) -> Result<Effort, DamageError> {
+        self.advance_noting(state, (rise, forces), allowance, &mut BreakingOrder::default())
+    }
+
+    /// The same, noting the order in which places break.
+    pub fn advance_noting(
+        &self,
+        state: &mut DamageState,
+        (rise, forces): (&[f64], &[f64]),
+        allowance: &Allowance,
+        order: &mut BreakingOrder,
+    ) -> Result<Effort, DamageError> {
         let team = Team::new(self.threads);
         let before = state.clone();
-        let effort = self.minimise(state, (rise, forces), &team, allowance)?;
+        let mut balance = Balance::new(&self.elements, &self.unknowns, &team, allowance);
+        let effort = self.minimise(state, (rise, forces), &mut balance, order)?;
         state.rise.copy_from_slice(rise);
         state.work += self.work([&before, state], &team);
         Ok(effort)
@@ -98,10 +111,10 @@ impl DamageProblem {
         &self,
         state: &mut DamageState,
         (rise, forces): (&[f64], &[f64]),
-        team: &Team,
-        allowance: &Allowance,
+        balance: &mut Balance,
+        order: &mut BreakingOrder,
     ) -> Result<Effort, DamageError> {
-        let mut balance = Balance::new(&self.elements, &self.unknowns, team, allowance);
+        let team = balance.team;
         let low = state.damage.clone();
         let grid = self.elements.grid;
         let mut matrix = NinePoint::<1>::zeros(grid);
@@ -117,6 +130,7 @@ impl DamageProblem {
             let before = damage.inner().to_vec();
             let gradient = minimise(&matrix, &load, &low, &mut damage, 0.1 * TOLERANCE, team);
             let after = damage.inner();
+            order.note(alternation, after);
             change = after.iter().zip(&before).fold(0.0, |most, (a, b)| most.max((a - b).abs()));
             if change <= TOLERANCE && tolerance <= TOLERANCE_OF_FORCES {
                 state.damage.copy_from_slice(damage.inner());

@@ -1,0 +1,89 @@
+//! Notches of a body that cracks: their state at time zero, and what they add to its measures of cracks.
+
+use std::f64::consts::PI;
+
+use crate::method::damage::{DamageProblem, DamageState, Section};
+use crate::method::fem::{Geometry, Mesh};
+use crate::runtime::allowance::Allowance;
+use crate::scene::Notch;
+
+/// The notches of a body.
+pub struct Notched {
+    /// The state at time zero, without load.
+    pub state: DamageState,
+    /// Nodes that are broken in it.
+    pub cut: Vec<bool>,
+    /// Area of the notches [m²], mirror images included.
+    pub area: f64,
+    /// Area by which the energy of that state exceeds it [m²]: damage around the ends, and elements cut in part.
+    excess: f64,
+    /// Ends of notches within the section.
+    ends: usize,
+}
+
+impl Notched {
+    /// The notches of a section, whose damage is the least that they need; `None` without any. `width` is that of a
+    /// plane section [m].
+    pub fn of(
+        problem: &DamageProblem,
+        notches: &[Notch],
+        (mesh, width): (&Mesh, Option<f64>),
+    ) -> Option<Self> {
+        if notches.is_empty() {
+            return None;
+        }
+        let section = &problem.elements.section;
+        let state = at_start(problem, notches);
+        let cut = Section::broken(&state.damage);
+        let area = notches.iter().map(|notch| area_of(notch, mesh, width)).sum();
+        let dissipated = mesh.copies() * problem.energies(&state).dissipated;
+        let excess = dissipated / problem.elements.law.energy - area;
+        Some(Self { ends: section.ends(&state.damage, &cut), state, cut, area, excess })
+    }
+
+    /// Area of notches and cracks [m²] whose energy is that of this area: less that of the damage around the ends of
+    /// notches, which moves with them, and goes where they reach a side.
+    pub fn area_of_cracks(&self, section: &Section, damage: &[f64], by_energy: f64) -> f64 {
+        if section.grown(damage, &self.cut).is_empty() {
+            return self.area;
+        }
+        let part = match self.ends {
+            0 => 1.0,
+            ends => (section.ends(damage, &self.cut) as f64 / ends as f64).min(1.0),
+        };
+        (by_energy - part * self.excess).max(self.area)
+    }
+}
+
+/// The state of a section with notches in equilibrium without load.
+fn at_start(problem: &DamageProblem, notches: &[Notch]) -> DamageState {
+    let mut state = problem.initial_state();
+    for notch in notches {
+        for node in problem.elements.section.nodes_along([notch.from, notch.to]) {
+            state.damage[node] = 1.0;
+        }
+    }
+    let cut = state.clone();
+    let rise = vec![0.0; state.damage.len()];
+    let none = vec![0.0; state.displacement.len()];
+    // Without load the damage beside notches has no reason to fail; the first step would report it.
+    match problem.advance(&mut state, (&rise, &none), &Allowance::default()) {
+        Ok(_) => state,
+        Err(_) => cut,
+    }
+}
+
+/// Area of a notch and its mirror image [m²]; one in the plane of symmetry is its own.
+fn area_of(notch: &Notch, mesh: &Mesh, width: Option<f64>) -> f64 {
+    let Notch { from, to } = *notch;
+    let length = (to[0] - from[0]).hypot(to[1] - from[1]);
+    match (mesh.geometry, width) {
+        (Geometry::Box, Some(width)) => {
+            let is_in_plane = from[0] == 0.0 && to[0] == 0.0;
+            let images = if mesh.mirrored[0] && !is_in_plane { 2.0 } else { 1.0 };
+            images * length * width
+        }
+        // The lateral face of a frustum.
+        _ => PI * (from[0] + to[0]) * length,
+    }
+}
