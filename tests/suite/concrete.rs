@@ -133,7 +133,7 @@ fn cylinders_bear_their_strength_in_steps_of_any_length() {
     assert!(peaks.iter().all(|peak| (peak / strength - 1.0).abs() < 0.02), "{peaks:?}");
 }
 
-/// What is left of a crushed cylinder at twice the strain of its peak and beyond follows no steps.
+/// Crushed to twice the strain of its peak and beyond, a cylinder bears the same stress in steps of any length.
 #[test]
 fn crushed_cylinders_bear_the_same_in_steps_of_any_length() {
     let scene = include_str!("../../examples/concrete_cylinder/scene.toml");

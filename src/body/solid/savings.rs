@@ -46,8 +46,8 @@ fn finer_than_needed(solid: &Solid, law: &GradientDamage) -> Option<String> {
     let part = spacing[0].min(needed) * spacing[1].min(needed) / (needed * needed);
     (part < 1.0 / WORTH).then(|| {
         format!(
-            "`mesh.spacing = {:.2e}` and no `depth_spacing`, ℓ/3, take {} of this time and keep the energy of cracks \
-             to some per cent",
+            "`mesh.spacing = {:.2e}` (ℓ/3) without a `depth_spacing` takes {} of this time, with the energy of cracks \
+             right to some per cent",
             needed,
             percent(part)
         )
@@ -66,13 +66,13 @@ fn longer(solid: &Solid, law: &GradientDamage, time: f64) -> Option<String> {
     let strength = rounded(law.strength() / factor.sqrt());
     let is_by_strength = solid.material.as_ref()?.material().fracture.cracking?.strength.is_some();
     let key = match is_by_strength {
-        true => format!("`fracture.strength = {strength:e}` makes ℓ = {} m, which", number(length)),
+        true => format!("`fracture.strength = {strength:e}` (ℓ = {} m)", number(length)),
         false => format!("`fracture.length = {length:e}`"),
     };
     Some(format!(
-        "{key} makes steps {:.0} times as short, as ℓ goes with 1/strength²: cracks then begin at {strength:.1e} Pa \
-         instead of {:.1e} Pa, so that more of them begin, and earlier, where there is no notch; those longer than \
-         some ℓ run as before, since G_c stays",
+        "{key} takes a {:.0}th of this time, as ℓ goes with 1/strength²: cracks then begin at {strength:.1e} Pa instead \
+         of {:.1e} Pa, so that more of them begin, and earlier, where there is no notch; those longer than some ℓ run \
+         as before, since G_c stays",
         factor * factor,
         law.strength()
     ))

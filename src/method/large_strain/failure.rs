@@ -29,10 +29,10 @@ pub enum Failure {
     NoEquilibrium { residual: f64 },
     /// The same, with the inputs that change after the last equilibrium.
     #[error(
-        "no equilibrium was found {change}, in the shortest part of the step: forces of {residual:.1e} of the largest remain unbalanced. \
-         The body may have reached the largest load that it bears, buckle, or soften faster than its own elasticity gives way \
-         (snap-back) (allowed: smaller values; `inertia = true` with `motion = \"implicit\"`, as inertia carries a body \
-         over these)"
+        "no equilibrium was found {change}, in the shortest part of the step: forces of {residual:.1e} of the largest \
+         remain unbalanced. The body may have reached the largest load that it bears, buckle, or soften faster than its \
+         own elasticity gives way (snap-back) (allowed: smaller values; `inertia = true` with `motion = \"implicit\"`, \
+         as inertia carries a body over these)"
     )]
     NoEquilibriumThere { change: String, residual: f64 },
     #[error(
