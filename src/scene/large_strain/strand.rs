@@ -13,7 +13,7 @@ use crate::space::{Form, Sweep};
 pub struct Strand {
     /// Points `[x, y, z]` of its axis, in order; `left` is the face at the first, `right` at the last [m].
     #[schemars(length(min = 2, max = 1000))]
-    #[schemars(transform = signed("m", "a point of a path").condition("2 to 1000 points"))]
+    #[schemars(transform = signed("m", "a point of a path"))]
     pub path: Vec<[f64; 3]>,
     /// Radius, of a strip half of its width [m].
     #[schemars(transform = length("the radius of a strand").plausible(&plausible::EXTENT))]
