@@ -5,11 +5,18 @@ use crate::scene::large_strain::{LargeStrain, Strand};
 use crate::scene::locate::Path;
 use crate::space::BadPath;
 
+/// Most points of a path, each of whose pieces is compared with all others.
+const MOST_POINTS: usize = 1000;
+
 /// Refuses a path that is that of no strand; returns true if it is that of one.
 pub fn check(checker: &mut Checker, path: &Path, solid: &LargeStrain, own: &Strand) -> bool {
     let path = path.at("shape.strand.path");
+    let message = "the path has too few or too many points";
+    let fine = (2..=MOST_POINTS).contains(&own.path.len());
+    let allowed = format!("2 to {MOST_POINTS} points");
+    // A number that is none is reason enough.
     let has_radius = own.radius > 0.0 && own.radius.is_finite();
-    if !checker.is_fine(&path) || own.path.len() < 2 || !has_radius {
+    if !checker.is_fine(&path) || !checker.require(fine, &path, message, allowed) || !has_radius {
         return false;
     }
     if solid.dimension == 2
