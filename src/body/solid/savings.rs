@@ -70,10 +70,10 @@ fn longer(solid: &Solid, law: &GradientDamage, time: f64) -> Option<String> {
         false => format!("`fracture.length = {length:e}`"),
     };
     Some(format!(
-        "{key} takes a {:.0}th of this time, as ℓ goes with 1/strength²: cracks then begin at {strength:.1e} Pa instead \
+        "{key} takes {} of this time, as ℓ goes with 1/strength²: cracks then begin at {strength:.1e} Pa instead \
          of {:.1e} Pa, so that more of them begin, and earlier, where there is no notch; those longer than some ℓ run \
          as before, since G_c stays",
-        factor * factor,
+        percent(1.0 / (factor * factor)),
         law.strength()
     ))
 }

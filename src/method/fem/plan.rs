@@ -438,8 +438,8 @@ fn flaws(solid: &Solid) -> Vec<Option<FlawStatistics>> {
     materials.map(|own| own.fracture.weibull.map(|weibull| weibull.statistics())).collect()
 }
 
-/// Note on what a bath wets. Through the thickness of a section in plane stress temperatures are even, as they are in a plate
-/// of small Biot number.
+/// Note on what a bath wets. Through the thickness of a section in plane stress temperatures are even, as they are in a
+/// plate of small Biot number.
 fn note_on_bath(solid: &Solid) -> String {
     let faces: Vec<&str> = solid.wetted_faces().into_iter().map(FaceName::as_str).collect();
     let faces = faces.join(", ");

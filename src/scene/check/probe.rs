@@ -46,8 +46,8 @@ fn large_strain(checker: &mut Checker, path: &Path, probe: &Probe, solid: &Large
                 checker.require(fine, &at, message, "x and z between the corners, |y| <= depth/2");
             }
             (None, SolidShape::Strand(own)) => {
-                let sweep = own.sweep(solid.form());
-                let fine = sweep.fault().is_some() || sweep.contains(probe.at);
+                let shape = Path::default().key("body").key(&probe.body).at("shape");
+                let fine = !checker.is_fine(&shape) || own.sweep(solid.form()).contains(probe.at);
                 let allowed = format!("a place up to {} m from the path", number(own.radius));
                 checker.require(fine, &at, message, allowed);
             }

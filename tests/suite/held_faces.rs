@@ -1,0 +1,76 @@
+//! Forces on the faces by which solids of large strain are held or moved.
+
+use impinge::closed_form::{Rubber, Sides};
+
+use crate::common::{Trial, off};
+use crate::driven_solids::{BLOCK, DISC, rubber};
+
+/// Supports bear what pulls and presses a body, and its weight, in every model of it.
+#[test]
+fn held_faces_bear_the_loads() {
+    let clamped = "faces = { bottom = { clamped = true }, top = { traction = [0.0, 0.0, 3e4] } }";
+    let [area, height, weight] = [80e-6, 12e-3, 9.81e3];
+    for (keys, area) in [
+        (format!("{BLOCK}\nsymmetry = \"none\""), area),
+        (format!("{BLOCK}\nsymmetry = \"quarter\""), area),
+        (format!("{BLOCK}\nsymmetry = \"none\"\nmechanics = \"rkpm\""), area),
+        (format!("{BLOCK}\nsymmetry = \"none\"\nmechanics = \"sph\""), area),
+        (BLOCK.replace("8e-3", "1.0") + "\ndimension = 2\nsymmetry = \"none\"", 10e-3),
+        (DISC.replace("6e-3", "12e-3"), std::f64::consts::PI * 25e-6),
+    ] {
+        let mut trial = Trial::new(&rubber(&format!("{keys}\ngravity = 9.81\n{clamped}")));
+        trial.step(1.0);
+        let expected = -3e4 * area + weight * area * height;
+        let force = trial.get("pad.bottom.force_z");
+        assert!(off(force, expected) < 1e-8, "{keys}: {force} {expected}");
+    }
+    // Drawn by one face, held by rollers on three.
+    let faces = "faces = { bottom = { roller = true }, left = { roller = true }, front = { roller = true }, \
+                 right = { traction = [2e4, 1e4, 0.0] } }";
+    let mut trial = Trial::new(&rubber(&format!("{BLOCK}\n{faces}")));
+    trial.step(1.0);
+    let found = [trial.get("pad.left.force_x"), trial.get("pad.front.force_y")];
+    let expected = [-2e4 * 96e-6, -1e4 * 96e-6];
+    let is_balanced = |(own, wanted): (f64, f64)| off(own, wanted) < 1e-8;
+    assert!(found.into_iter().zip(expected).all(is_balanced), "{found:?}");
+    assert!(trial.get("pad.bottom.force_z").abs() < 1e-10);
+    // Four rollers about a block that is pressed: what opposite ones bear cancels.
+    let faces = "faces = { bottom = { clamped = true }, sides = { roller = true }, top = { pressure = 1e5 } }";
+    let mut trial = Trial::new(&rubber(&format!("{BLOCK}\nsymmetry = \"none\"\n{faces}")));
+    trial.step(1.0);
+    assert!(off(trial.get("pad.bottom.force_z"), 1e5 * 80e-6) < 1e-8);
+    assert!(trial.get("pad.sides.force_x").abs() < 1e-9);
+}
+
+/// In a model of a quarter a face on rollers bears the force on one of its two images.
+#[test]
+fn models_of_a_quarter_give_the_force_on_one_image() {
+    let faces = "faces = { bottom = { roller = true }, right = { roller = true, displacement = [1e-3, 0.0, 0.0] } }";
+    let mut trial = Trial::new(&rubber(&format!("{BLOCK}\nsymmetry = \"quarter\"\n{faces}")));
+    trial.step(1.0);
+    // Half of the length, 5 mm, becomes 6 mm, and the sides are free.
+    let expected = 96e-6 * Rubber::of_young(1e6, 0.4).force(1.2, Sides::Free);
+    let found = trial.get("pad.right.force_x");
+    assert!(off(found, expected) < 1e-8, "{found} {expected}");
+}
+
+/// Forces on held faces over a step are the change of momentum beyond loads and weight.
+#[test]
+fn held_faces_bear_what_moves() {
+    let faces = "faces = { bottom = { clamped = true }, right = { traction = [2e4, 0.0, 1e4] } }";
+    let keys = "inertia = true\nmotion = \"implicit\"\nsymmetry = \"none\"\ngravity = 9.81";
+    let mut trial = Trial::new(&rubber(&format!("{BLOCK}\n{keys}\n{faces}")));
+    let weight = 9.81 * 0.96e-6 * 1e3;
+    let loads = [2e4 * 96e-6, 0.0, 1e4 * 96e-6 - weight];
+    let mut before = [0.0; 3];
+    for _ in 0..20 {
+        trial.step(1e-3);
+        let momentum = ["x", "y", "z"].map(|a| trial.get(&format!("pad.momentum_{a}")));
+        let forces = ["x", "y", "z"].map(|a| trial.get(&format!("pad.bottom.force_{a}")));
+        for axis in 0..3 {
+            let missing = (momentum[axis] - before[axis]) / 1e-3 - forces[axis] - loads[axis];
+            assert!(missing.abs() < 1e-8, "{missing}: {forces:?}");
+        }
+        before = momentum;
+    }
+}
