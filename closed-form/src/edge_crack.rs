@@ -29,6 +29,33 @@ pub fn penny(radius: f64, stress: f64) -> f64 {
     2.0 * stress * (radius / PI).sqrt()
 }
 
+/// K of a penny-shaped crack of a radius [m] in the middle of a cylinder of a radius [m] under the tension far from it
+/// [Pa], within 1 % (H. Tada, P. C. Paris and G. R. Irwin, as above): `σ_n √(πa) ((2/π)(1 + λ/2 − 5λ²/8) + 0.268 λ³)
+/// √(1 − λ)` with λ the ratio of the radii and `σ_n = σ/(1 − λ²)`.
+pub fn penny_in_cylinder(radius: f64, cylinder: f64, stress: f64) -> f64 {
+    let ratio = radius / cylinder;
+    let of_ratio = (1.0 + 0.5 * ratio - 0.625 * ratio * ratio) / FRAC_PI_2 + 0.268 * ratio.powi(3);
+    stress / (1.0 - ratio * ratio) * (PI * radius).sqrt() * of_ratio * (1.0 - ratio).sqrt()
+}
+
+/// Energy release rate [J/m²] of a crack of a length a between two arms of a height H [m], whose ends are drawn apart:
+/// `3/2 PΔ/(a + 0.677 H)` by the product of load per width and opening [J/m], as the compliance goes with the cube of
+/// the length and the turning in front of the crack makes it longer (R. M. L. Foote & V. T.
+/// Buchwald 1985, Int. J. Fracture 29, 125).
+pub fn cantilever_release(work: f64, length: f64, height: f64) -> f64 {
+    1.5 * work / (length + TURNED * height)
+}
+
+/// Opening [m] at which the crack of those arms runs at an energy release rate of 1 J/m², by the modulus in plane
+/// strain [Pa]: the compliance is `8 (a + 0.677 H)³/(E'H³)`.
+pub fn cantilever_opening(length: f64, height: f64, modulus: f64) -> f64 {
+    let length = length + TURNED * height;
+    (8.0 / 1.5 * length.powi(4) / (modulus * height.powi(3))).sqrt()
+}
+
+/// Length that the turning in front of a crack adds to arms, over their height.
+const TURNED: f64 = 0.677;
+
 /// Energy release rate `(1 − ν²) K²/E` [J/m²].
 pub fn energy_release(intensity: f64, young: f64, poisson: f64) -> f64 {
     (1.0 - poisson * poisson) * intensity * intensity / young
@@ -51,6 +78,28 @@ mod tests {
         }
         let [below, most, above] = [1.0, 1.1305, 1.26].map(shocked);
         assert!(most > below && most > above && (most - 1.34485).abs() < 1e-5);
+    }
+
+    #[test]
+    fn wide_cylinders_leave_pennies_alone() {
+        let [alone, wide] = [penny(1.0, 3.0), penny_in_cylinder(1.0, 1e4, 3.0)];
+        assert!((wide / alone - 1.0).abs() < 1e-4, "{alone} {wide}");
+        // A thin ligament is a deep crack whose ends cannot turn: 2/√(π² − 4) σ_n √(πc).
+        let (left, stress) = (1e-3, 1.0);
+        let net = stress / (1.0 - (1.0 - left) * (1.0 - left));
+        let found = penny_in_cylinder(1.0 - left, 1.0, stress) / (net * (PI * left).sqrt());
+        assert!((found / (2.0 / (PI * PI - 4.0).sqrt()) - 1.0).abs() < 2e-3, "{found}");
+    }
+
+    #[test]
+    fn arms_release_the_fall_of_their_energy() {
+        // 12 P²a²/(E'H³) of slender arms.
+        let (length, height, modulus) = (1e4, 2.0, 3.0);
+        let opening = cantilever_opening(length, height, modulus);
+        let load = opening * modulus * height.powi(3) / (8.0 * length.powi(3));
+        let slender = 12.0 * load * load * length * length / (modulus * height.powi(3));
+        assert!((slender - 1.0).abs() < 1e-3, "{slender}");
+        assert!((cantilever_release(load * opening, length, height) - 1.0).abs() < 1e-3);
     }
 
     #[test]

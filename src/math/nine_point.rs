@@ -62,6 +62,12 @@ impl<const B: usize> NinePoint<B> {
         self.values.copy_from_slice(&other.values);
     }
 
+    /// Takes the row of a node of a matrix of the same grid.
+    pub fn copy_row_from(&mut self, node: usize, other: &Self) {
+        let row = node * STENCIL * B * B..(node + 1) * STENCIL * B * B;
+        self.values[row.clone()].copy_from_slice(&other.values[row]);
+    }
+
     /// Adds the matrix of an element, row by row, with the `B` unknowns of a corner together.
     pub fn add_element(&mut self, element: [usize; 2], matrix: &[f64]) {
         let size = STENCIL * B * B;

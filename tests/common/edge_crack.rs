@@ -9,7 +9,7 @@ use impinge::runtime::allowance::Allowance;
 
 pub const YOUNG: f64 = 100.0;
 pub const POISSON: f64 = 0.2;
-const EXPANSION: f64 = 1e-3;
+pub const EXPANSION: f64 = 1e-3;
 
 /// Distance of the tip of the equivalent crack of linear fracture mechanics from that of broken elements, which
 /// `moving_crack_dissipates_its_energy_per_length` of `tests/verification/cracks.rs` measures.
@@ -26,8 +26,18 @@ pub struct Cracked {
 }
 
 impl Cracked {
-    /// `distance` is that of a place from the crack, whose row of elements is broken.
+    /// A section in plane strain; `distance` is that of a place from the crack, whose row of elements is broken.
     pub fn new(
+        axes: [Vec<f64>; 2],
+        held: impl Fn([usize; 2], [usize; 2]) -> [bool; 2],
+        distance: impl Fn([f64; 2]) -> f64,
+        threads: usize,
+    ) -> Self {
+        Self::of_form(Form::PlaneStrain { thickness: 1.0 }, axes, held, distance, threads)
+    }
+
+    pub fn of_form(
+        form: Form,
         axes: [Vec<f64>; 2],
         held: impl Fn([usize; 2], [usize; 2]) -> [bool; 2],
         distance: impl Fn([f64; 2]) -> f64,
@@ -43,7 +53,7 @@ impl Cracked {
             scatter: 0.0,
             seed: 0,
         };
-        let section = Section { axes: axes.clone(), form: Form::PlaneStrain { thickness: 1.0 } };
+        let section = Section { axes: axes.clone(), form };
         let counts = section.grid().counts;
         let nodes: Vec<[usize; 2]> =
             (0..counts[0] * counts[1]).map(|n| [n % counts[0], n / counts[0]]).collect();
@@ -80,14 +90,32 @@ pub fn even(from: f64, to: f64, count: usize) -> Vec<f64> {
 
 /// Places with a distance from 0 to `fine`, and ever larger ones up to `end`.
 fn growing(fine: f64, end: f64, distance: f64) -> Vec<f64> {
+    growing_to(f64::INFINITY, fine, end, distance)
+}
+
+/// The same with distances up to `most`.
+fn growing_to(most: f64, fine: f64, end: f64, distance: f64) -> Vec<f64> {
     let mut places = even(0.0, fine, (fine / distance).round() as usize);
     let mut step = 1.15 * distance;
     while places[places.len() - 1] + 1.5 * step < end {
         places.push(places[places.len() - 1] + step);
-        step *= 1.15;
+        step = most.min(1.15 * step);
     }
     places.push(end);
     places
+}
+
+/// Places from one end to the other: a distance apart in a fine part, in whose middle is that of an element, and up to
+/// `most` apart elsewhere.
+pub fn fine_within(fine: [f64; 2], ends: [f64; 2], distance: f64, most: f64) -> Vec<f64> {
+    let (middle, half) = (0.5 * (fine[0] + fine[1]), 0.5 * distance);
+    let side = |fine: f64, end: f64| {
+        let places = growing_to(most, fine - half, end - half, distance).into_iter();
+        places.map(move |place| place + half).collect::<Vec<f64>>()
+    };
+    let below = side(middle - fine[0], middle - ends[0]).into_iter().rev();
+    let above = side(fine[1] - middle, ends[1] - middle).into_iter();
+    below.map(|place| middle - place).chain(above.map(|place| middle + place)).collect()
 }
 
 /// The half plane under a shock.

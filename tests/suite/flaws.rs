@@ -42,7 +42,7 @@ fn diffusion() -> f64 {
 
 #[test]
 fn shocked_edge_cracks_have_the_intensity_of_the_half_plane() {
-    let depths = [0.1, 0.5, 1.0, 2.0, 3.0];
+    let depths = [0.1, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0];
     let flaws = depths
         .iter()
         .enumerate()
@@ -63,6 +63,15 @@ fn shocked_edge_cracks_have_the_intensity_of_the_half_plane() {
     let worst = trial.get("worst.stress_intensity");
     assert!(off(worst, 1.34485 * scale) < 1e-3, "{worst}");
     assert!(off(trial.get("worst.depth"), 1.1305 * diffusion()) < 0.05);
+}
+
+#[test]
+fn shocks_tell_when_flaws_can_grow_at_the_earliest() {
+    // l_c = (3.8/128.7)² m, 0.5529 l_c, and the time in which heat goes that far.
+    let notes = Trial::new(&plate(1.0, "", &scratch("own", "1e-5"))).model.notes().join("\n");
+    for part in ["falls by 36.9 K", "1.29e8 Pa", "8.72e-4 m", "4.82e-4 m", "2.63e-2 s"] {
+        assert!(notes.contains(part), "{part} in {notes}");
+    }
 }
 
 #[test]

@@ -47,7 +47,7 @@ fn peak(loads: &[f64]) -> f64 {
 }
 
 /// Peaks are within 2 % of those of an independent program of secant iterations (A: links across, B: along), and so
-/// within 3 % of each other over four spacings.
+/// within 3 % of each other where the spacing is halved.
 #[test]
 fn peaks_are_those_of_another_program() {
     for (depth, spacing, arrangement, wanted) in [

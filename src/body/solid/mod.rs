@@ -21,6 +21,7 @@ mod port;
 mod reader;
 mod rows;
 mod savings;
+mod shock;
 mod totals;
 mod warnings;
 mod yielding;

@@ -1,6 +1,7 @@
 //! Converts a solid of a scene to its plan: refinements of its mesh, and the mechanics it needs.
 
 use super::rows::Choice;
+use super::shock;
 use crate::body::{droplet, filament, large_strain};
 use crate::method::fem::{Mechanics, Plan, PlanRequest, Refinement};
 use crate::scene::{
@@ -40,6 +41,7 @@ pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
     plan.notes.extend(chosen);
     plan.notes.extend(solid.has_stress_peaks().then(|| NOTE_ON_PEAKS.to_owned()));
     plan.notes.extend(solid.has_flaws().then(|| NOTE_ON_FLAWS.to_owned()));
+    plan.notes.extend(shock::note(scene, (name, solid)));
     plan.notes.extend(scene.has_growing_flaws(name).then(|| NOTE_ON_GROWTH.to_owned()));
     plan.notes.extend(Choice::of(scene, (name, solid), &plan).note());
     plan

@@ -100,9 +100,12 @@ impl PrincipalStiffness {
     }
 }
 
-/// `g(d) = (1 − d)²`, plus the residual part.
+/// Part of the stiffness that damage takes: `g(d) = (1 − k)(1 − d)² + k`.
+pub const DEGRADED: f64 = 1.0 - RESIDUAL;
+
+/// `(1 − k)(1 − d)² + k`, with the residual part k.
 pub fn degradation(damage: f64) -> f64 {
-    (1.0 - damage) * (1.0 - damage) + RESIDUAL
+    DEGRADED * (1.0 - damage) * (1.0 - damage) + RESIDUAL
 }
 
 impl GradientDamage {

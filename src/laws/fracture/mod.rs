@@ -14,7 +14,7 @@ mod weibull;
 
 pub use crack_growth::CrackGrowth;
 pub use cracking::Cracking;
-pub use damage::{Components, Dissipation, GradientDamage, PointResponse, degradation};
+pub use damage::{Components, DEGRADED, Dissipation, GradientDamage, PointResponse, degradation};
 pub use quasi_brittle::{QuasiBrittle, SofteningKeys, SofteningModel};
 pub use scatter::scattered;
 pub use slow_growth::SlowGrowth;

@@ -8,7 +8,9 @@
 use std::sync::OnceLock;
 
 use super::DamageError;
+use super::damaged::Damaged;
 use super::elements::{Elements, Nodal, Released};
+use super::patch::{Extent, Patch, System};
 use crate::math::cholesky::{Elimination, RoundedCholesky};
 use crate::math::nested_dissection::nested_dissection;
 use crate::math::nine_point::{Grid, NinePoint, Padded};
@@ -35,6 +37,7 @@ pub struct Unknowns {
     grid: Grid,
     /// True where a displacement is prescribed, both components of a node together.
     pub held: Vec<bool>,
+    none_held: Vec<bool>,
     /// Number of each unknown; `usize::MAX` where it is held.
     number: Vec<usize>,
     /// Order of elimination, and the pattern of all factors, once known.
@@ -58,7 +61,25 @@ impl Unknowns {
             .filter(|&unknown| !held[unknown])
             .map(|unknown| number[unknown])
             .collect();
-        Self { grid, held, number, order, elimination: OnceLock::new(), count }
+        let none_held = vec![false; held.len()];
+        Self { grid, held, none_held, number, order, elimination: OnceLock::new(), count }
+    }
+
+    /// Unknowns of some nodes: their places among all components, their numbers by place (`usize::MAX` for others),
+    /// and their order of elimination.
+    pub fn within(&self, inside: &[bool]) -> (Vec<usize>, Vec<usize>, Vec<usize>) {
+        let mut number = vec![usize::MAX; self.number.len()];
+        // Numbers of the unknowns by those among all.
+        let mut own = vec![usize::MAX; self.count];
+        let mut places = Vec::new();
+        let is_inside = |place: &usize| inside[place / 2] && !self.held[*place];
+        for place in (0..number.len()).filter(is_inside) {
+            number[place] = places.len();
+            own[self.number[place]] = places.len();
+            places.push(place);
+        }
+        let order = self.order.iter().map(|&n| own[n]).filter(|&n| n != usize::MAX).collect();
+        (places, number, order)
     }
 }
 
@@ -69,9 +90,15 @@ pub struct Balance<'a> {
     pub team: &'a Team,
     pub allowance: &'a Allowance,
     stiffness: NinePoint<2>,
-    /// Stiffness without damage.
+    /// Stiffness without damage, and the forces of temperatures there [N], once known.
     intact: NinePoint<2>,
+    thermal: Option<Vec<f64>>,
+    /// Elements whose stiffness differs from the intact one.
+    damaged: Damaged,
     factor: Option<RoundedCholesky>,
+    /// Diagonal of the stiffness of that factor, and where the present stiffness differs from it.
+    factored: Vec<[f64; 2]>,
+    patch: Option<Patch>,
     /// Size of loads and of prevented thermal expansion [N], once known, and that of reactions.
     acting: Option<f64>,
     reactions: f64,
@@ -86,15 +113,21 @@ impl<'a> Balance<'a> {
         team: &'a Team,
         allowance: &'a Allowance,
     ) -> Self {
-        let stiffness = NinePoint::zeros(unknowns.grid);
+        let intact = elements.intact_stiffness(team);
+        let mut stiffness = NinePoint::zeros(unknowns.grid);
+        stiffness.copy_from(&intact);
         Self {
             elements,
             unknowns,
             team,
             allowance,
             stiffness,
-            intact: elements.intact_stiffness(team),
+            intact,
+            thermal: None,
+            damaged: Damaged::default(),
             factor: None,
+            factored: Vec::new(),
+            patch: None,
             acting: None,
             reactions: 0.0,
             factorings: 0,
@@ -111,16 +144,19 @@ impl<'a> Balance<'a> {
         load: &[f64],
         tolerance: f64,
     ) -> Result<Released, DamageError> {
+        self.damaged.restore(self.elements, &mut self.stiffness, &self.intact);
+        self.damaged = Damaged::of(self.elements, damage);
+        let released = |elements: &Elements, displacement: &[f64], team: &Team| {
+            elements.released(&Nodal { displacement, damage, rise }, team)
+        };
         let mut residual = vec![0.0; displacement.len()];
-        let mut released = self.evaluate(displacement, (damage, rise), load, &mut residual, true);
-        for step in 0..MOST_STEPS {
+        self.evaluate(displacement, (damage, rise), load, &mut residual);
+        for _ in 0..MOST_STEPS {
             let size = dot(&residual, &residual).sqrt();
             if size <= tolerance * self.scale(rise, load) {
-                return Ok(released);
+                return Ok(released(self.elements, displacement, self.team));
             }
-            if step > 0 {
-                self.evaluate(displacement, (damage, rise), load, &mut residual, true);
-            }
+            self.assemble(&Nodal { displacement, damage, rise });
             let change = self.change(&residual)?;
             let slope = dot(&residual, &change);
             let before = displacement.to_vec();
@@ -129,7 +165,7 @@ impl<'a> Balance<'a> {
                 for ((u, before), change) in displacement.iter_mut().zip(&before).zip(&change) {
                     *u = before + part * change;
                 }
-                released = self.evaluate(displacement, (damage, rise), load, &mut residual, false);
+                self.evaluate(displacement, (damage, rise), load, &mut residual);
                 // The energy is convex: a step is too long where it has passed the minimum by far.
                 if dot(&residual, &change) >= -0.5 * slope {
                     break;
@@ -139,26 +175,27 @@ impl<'a> Balance<'a> {
         }
         let left = dot(&residual, &residual).sqrt() / self.scale(rise, load);
         match left <= MOST_LEFT {
-            true => Ok(released),
+            true => Ok(released(self.elements, displacement, self.team)),
             false => Err(DamageError::NoEquilibrium { residual: left, tolerance: MOST_LEFT }),
         }
     }
 
-    /// Computes residual forces [N], and assembles the stiffness on request.
+    /// Assembles the stiffness.
+    fn assemble(&mut self, nodal: &Nodal) {
+        self.damaged.restore(self.elements, &mut self.stiffness, &self.intact);
+        self.damaged.correct_stiffness(self.elements, nodal, &mut self.stiffness, self.team);
+    }
+
+    /// Computes residual forces [N].
     fn evaluate(
         &mut self,
         displacement: &[f64],
         (damage, rise): (&[f64], &[f64]),
         load: &[f64],
         residual: &mut [f64],
-        with_stiffness: bool,
-    ) -> Released {
+    ) {
         let nodal = Nodal { displacement, damage, rise };
-        let stiffness = with_stiffness.then(|| {
-            self.stiffness.copy_from(&self.intact);
-            &mut self.stiffness
-        });
-        let (forces, released) = self.elements.forces(&nodal, stiffness, self.team);
+        let forces = self.forces(&nodal);
         let mut reactions = 0.0;
         for (n, residual) in residual.iter_mut().enumerate() {
             *residual = match self.unknowns.held[n] {
@@ -173,25 +210,48 @@ impl<'a> Balance<'a> {
         if self.iterations > 0 {
             self.reactions = self.reactions.max(reactions.sqrt());
         }
-        released
+    }
+
+    /// Forces of the stresses on all nodes [N].
+    fn forces(&mut self, nodal: &Nodal) -> Vec<f64> {
+        let mut displacement = Padded::<2>::zeros(self.unknowns.grid);
+        displacement.inner_mut().copy_from_slice(nodal.displacement);
+        let mut forces = vec![0.0; nodal.displacement.len()];
+        self.intact.product(&displacement, &self.unknowns.none_held, &mut forces, self.team);
+        let thermal = self.thermal(nodal.rise);
+        forces.iter_mut().zip(thermal).for_each(|(force, thermal)| *force += thermal);
+        self.damaged.correct_forces(self.elements, nodal, &mut forces, self.team);
+        forces
+    }
+
+    /// Forces that the temperatures of the step cause in the intact section at rest [N].
+    fn thermal(&mut self, rise: &[f64]) -> &[f64] {
+        let (elements, team) = (self.elements, self.team);
+        self.thermal.get_or_insert_with(|| {
+            let (zero, intact) = (vec![0.0; 2 * rise.len()], vec![0.0; rise.len()]);
+            elements.forces(&Nodal { displacement: &zero, damage: &intact, rise }, team)
+        })
     }
 
     /// Size of the forces that balance [N]: of loads, prevented thermal expansion, and the largest reactions since the
     /// first solution.
     fn scale(&mut self, rise: &[f64], load: &[f64]) -> f64 {
-        let own = *self.acting.get_or_insert_with(|| {
-            let (zero, intact) = (vec![0.0; load.len()], vec![0.0; rise.len()]);
-            let nodal = Nodal { displacement: &zero, damage: &intact, rise };
-            let (thermal, _) = self.elements.forces(&nodal, None, self.team);
-            (dot(load, load) + dot(&thermal, &thermal)).sqrt()
-        });
+        let own = match self.acting {
+            Some(own) => own,
+            None => {
+                let thermal = self.thermal(rise);
+                (dot(load, load) + dot(thermal, thermal)).sqrt()
+            }
+        };
+        self.acting = Some(own);
         (own * own + self.reactions * self.reactions).sqrt().max(f64::MIN_POSITIVE)
     }
 
     /// Change of displacements under a change of force.
     fn change(&mut self, force: &[f64]) -> Result<Vec<f64>, DamageError> {
-        if self.factor.is_none() {
-            self.refactor()?;
+        match self.factor.is_some() {
+            true => self.correct()?,
+            false => self.refactor()?,
         }
         let (mut change, left) = self.iterate(force, WORTH_A_FACTOR)?;
         if let Some(left) = left {
@@ -202,13 +262,26 @@ impl<'a> Balance<'a> {
         Ok(change)
     }
 
+    /// Corrects the factor where the stiffness has changed since.
+    fn correct(&mut self) -> Result<(), DamageError> {
+        self.patch = None;
+        match Patch::between(&self.stiffness, &self.factored, self.unknowns, self.team.threads())? {
+            Extent::Nothing => (),
+            Extent::Patch(patch) => self.patch = Some(patch),
+            Extent::TooMuch => self.refactor()?,
+        }
+        Ok(())
+    }
+
     fn refactor(&mut self) -> Result<(), DamageError> {
         self.factorings += 1;
         self.allowance.spend(WORK_OF_FACTOR, "factorisations", self.unknowns.count)?;
         let lower = self.stiffness.lower_triangle(&self.unknowns.number);
         let threads = self.team.threads();
         // The old factor goes before the new one comes.
-        self.factor = None;
+        (self.factor, self.patch) = (None, None);
+        let nodes = 0..self.unknowns.grid.nodes();
+        self.factored = nodes.map(|node| self.stiffness.diagonal(node)).collect();
         let known = &self.unknowns.elimination;
         let elimination = match known.get() {
             Some(elimination) => elimination,
@@ -231,7 +304,7 @@ impl<'a> Balance<'a> {
         let unknowns = self.unknowns;
         let mut residual = force.to_vec();
         let mut solution = vec![0.0; force.len()];
-        let mut improved = self.precondition(&residual);
+        let mut improved = self.improve(&residual);
         let mut direction = Padded::<2>::zeros(unknowns.grid);
         direction.inner_mut().copy_from_slice(&improved);
         let mut energy = dot(&residual, &improved);
@@ -249,7 +322,7 @@ impl<'a> Balance<'a> {
                 solution[k] += length * along;
                 residual[k] -= length * product[k];
             }
-            improved = self.precondition(&residual);
+            improved = self.improve(&residual);
             let next = dot(&residual, &improved);
             let part = next / energy;
             direction.inner_mut().iter_mut().zip(&improved).for_each(|(d, z)| *d = z + part * *d);
@@ -257,6 +330,23 @@ impl<'a> Balance<'a> {
         }
         let is_large = energy > wanted;
         Ok((solution, is_large.then_some(residual)))
+    }
+
+    /// Displacements that a force brings about, nearly.
+    fn improve(&self, force: &[f64]) -> Vec<f64> {
+        let Some(patch) = &self.patch else { return self.precondition(force) };
+        let system =
+            System { stiffness: &self.stiffness, held: &self.unknowns.held, team: self.team };
+        let mut displacement = Padded::zeros(self.unknowns.grid);
+        patch.solve(force, &mut displacement);
+        let mut left = force.to_vec();
+        patch.balance_around(&mut left, &displacement, &system);
+        let rest = self.precondition(&left);
+        displacement.inner_mut().iter_mut().zip(&rest).for_each(|(own, rest)| *own += rest);
+        let mut left = force.to_vec();
+        patch.balance_inside(&mut left, &displacement, &system);
+        patch.solve(&left, &mut displacement);
+        displacement.inner().to_vec()
     }
 
     fn precondition(&self, residual: &[f64]) -> Vec<f64> {

@@ -1,7 +1,7 @@
 //! Loops over the elements of a section: forces, stiffness, the energy that drives damage, and sums.
 
 use super::section::{POINTS, Point, Section};
-use crate::laws::fracture::{Components, GradientDamage, PointResponse, degradation};
+use crate::laws::fracture::{Components, DEGRADED, GradientDamage, PointResponse, degradation};
 use crate::math::nine_point::{Grid, NinePoint};
 use crate::runtime::parallel::Team;
 
@@ -37,12 +37,6 @@ pub struct Energies {
     pub dissipated: f64,
 }
 
-struct ElementForces {
-    forces: [f64; 8],
-    released: [f64; POINTS],
-    stiffness: Option<Box<[f64; 64]>>,
-}
-
 impl Elements {
     pub fn new(section: Section, law: GradientDamage) -> Self {
         Self { grid: section.grid(), section, law }
@@ -67,6 +61,18 @@ impl Elements {
         nodal: &Nodal,
         mut visit: impl FnMut(usize, &Point, &PointResponse),
     ) {
+        self.each_strain(element, nodal, |q, point, strain, damage| {
+            visit(q, point, &self.law.respond(strain, damage));
+        });
+    }
+
+    /// Calls back for the points of an element with their elastic strain and damage.
+    pub(super) fn each_strain(
+        &self,
+        element: [usize; 2],
+        nodal: &Nodal,
+        mut visit: impl FnMut(usize, &Point, Components, f64),
+    ) {
         let u: [f64; 8] = self.gather(element, nodal.displacement);
         let damage: [f64; 4] = self.gather(element, nodal.damage);
         let rise: [f64; 4] = self.gather(element, nodal.rise);
@@ -74,41 +80,28 @@ impl Elements {
             let thermal = self.law.expansion * point.interpolate(&rise);
             let mut strain = point.strain(&u);
             strain[..3].iter_mut().for_each(|strain| *strain -= thermal);
-            visit(q, point, &self.law.respond(strain, point.interpolate(&damage)));
+            visit(q, point, strain, point.interpolate(&damage));
         }
     }
 
-    /// Forces of an element, and on request the difference of its stiffness from that of a tangent.
-    fn respond(
+    /// Forces of an element by a stress of its points.
+    pub(super) fn nodal_forces(
         &self,
         element: [usize; 2],
         nodal: &Nodal,
-        reference: Option<&[Components; 4]>,
-    ) -> ElementForces {
-        let mut found = ElementForces {
-            forces: [0.0; 8],
-            released: [0.0; POINTS],
-            stiffness: reference.map(|_| Box::new([0.0; 64])),
-        };
-        self.each_point(element, nodal, |q, point, response| {
-            found.released[q] = response.released;
-            let strains: [Components; 8] =
-                std::array::from_fn(|k| point.unit_strains(k / 2)[k % 2]);
-            for (force, strain) in found.forces.iter_mut().zip(&strains) {
-                *force += point.volume * dot(strain, &response.stress);
-            }
-            if let (Some(stiffness), Some(reference)) = (&mut found.stiffness, reference) {
-                let mut tangent = response.stiffness.tangent();
-                let entries = tangent.as_flattened_mut().iter_mut().zip(reference.as_flattened());
-                entries.for_each(|(own, reference)| *own -= reference);
-                add_stiffness(stiffness, point, &strains, tangent);
+        stress: impl Fn(Components, f64) -> Components,
+    ) -> [f64; 8] {
+        let mut forces = [0.0; 8];
+        self.each_strain(element, nodal, |_, point, strain, damage| {
+            let stress = stress(strain, damage);
+            for (k, force) in forces.iter_mut().enumerate() {
+                *force += point.volume * dot(&point.unit_strains(k / 2)[k % 2], &stress);
             }
         });
-        found.stiffness.iter_mut().for_each(|stiffness| mirror(stiffness));
-        found
+        forces
     }
 
-    fn intact_tangent(&self) -> [Components; 4] {
+    pub(super) fn intact_tangent(&self) -> [Components; 4] {
         self.law.respond([0.0; 4], 0.0).stiffness.tangent()
     }
 
@@ -141,48 +134,38 @@ impl Elements {
         matrix
     }
 
-    /// Returns true if a corner of an element is damaged.
-    fn is_damaged(&self, element: [usize; 2], nodal: &Nodal) -> bool {
-        self.grid.corners(element).iter().any(|&corner| nodal.damage[corner] > 0.0)
-    }
-
-    /// Computes nodal forces of the stresses [N] and the energy that cracks release. On request it adds the loss of
-    /// stiffness of damaged elements to that of the intact section.
-    pub fn forces(
-        &self,
-        nodal: &Nodal,
-        mut stiffness: Option<&mut NinePoint<2>>,
-        team: &Team,
-    ) -> (Vec<f64>, Released) {
+    /// Computes nodal forces of the stresses [N].
+    pub fn forces(&self, nodal: &Nodal, team: &Team) -> Vec<f64> {
         let [columns, rows] = self.grid.elements();
         let mut forces = vec![0.0; 2 * self.grid.nodes()];
-        let mut released = Vec::with_capacity(columns * rows);
-        let intact = stiffness.is_some().then(|| self.intact_tangent());
+        let stress = |strain, damage| self.law.respond(strain, damage).stress;
         // Computed on all threads, added in fixed order.
         for first in (0..rows).step_by(ROWS) {
             let found = team.map((rows - first).min(ROWS), |row| {
-                let of_row = (0..columns).map(|i| {
-                    let place = [i, first + row];
-                    let reference = intact.as_ref().filter(|_| self.is_damaged(place, nodal));
-                    self.respond(place, nodal, reference)
-                });
+                let of_row =
+                    (0..columns).map(|i| self.nodal_forces([i, first + row], nodal, stress));
                 of_row.collect::<Vec<_>>()
             });
             for (row, own) in found.iter().enumerate() {
                 for (i, element) in own.iter().enumerate() {
-                    let place = [i, first + row];
-                    for (a, node) in self.grid.corners(place).into_iter().enumerate() {
-                        forces[2 * node] += element.forces[2 * a];
-                        forces[2 * node + 1] += element.forces[2 * a + 1];
-                    }
-                    released.push(element.released);
-                    if let (Some(matrix), Some(own)) = (&mut stiffness, &element.stiffness) {
-                        matrix.add_element(place, &own[..]);
-                    }
+                    add_forces(&mut forces, self.grid.corners([i, first + row]), element);
                 }
             }
         }
-        (forces, released)
+        forces
+    }
+
+    /// Computes the energy that cracks release.
+    pub fn released(&self, nodal: &Nodal, team: &Team) -> Released {
+        let [columns, rows] = self.grid.elements();
+        let mut released = vec![[0.0; POINTS]; columns * rows];
+        let mut of_rows: Vec<_> = released.chunks_mut(columns).collect();
+        team.for_each(&mut of_rows, |row, own| {
+            for (i, own) in own.iter_mut().enumerate() {
+                self.each_point([i, row], nodal, |q, _, response| own[q] = response.released);
+            }
+        });
+        released
     }
 
     /// Assembles the conditions on damage under given energies: `A d = b` where nothing bounds it.
@@ -210,6 +193,7 @@ impl Elements {
                         .iter()
                         .zip(released[place[0] + columns * place[1]])
                     {
+                        let psi = DEGRADED * psi;
                         let (mass, pull) = match self.law.dissipation {
                             At1 => (2.0 * psi, 2.0 * psi - local),
                             At2 => (2.0 * (psi + local), 2.0 * psi),
@@ -307,8 +291,16 @@ impl Elements {
     }
 }
 
+/// Adds the forces of an element to those of all nodes.
+pub(super) fn add_forces(forces: &mut [f64], corners: [usize; 4], element: &[f64; 8]) {
+    for (a, node) in corners.into_iter().enumerate() {
+        forces[2 * node] += element[2 * a];
+        forces[2 * node + 1] += element[2 * a + 1];
+    }
+}
+
 /// Adds the part of a point to the lower triangle of an element's stiffness.
-fn add_stiffness(
+pub(super) fn add_stiffness(
     stiffness: &mut [f64; 64],
     point: &Point,
     strains: &[Components; 8],
@@ -323,7 +315,7 @@ fn add_stiffness(
 }
 
 /// Copies the lower triangle of an element's stiffness to the upper one.
-fn mirror(stiffness: &mut [f64; 64]) {
+pub(super) fn mirror(stiffness: &mut [f64; 64]) {
     for row in 0..8 {
         for column in 0..row {
             stiffness[column * 8 + row] = stiffness[row * 8 + column];
@@ -331,6 +323,6 @@ fn mirror(stiffness: &mut [f64; 64]) {
     }
 }
 
-fn dot(a: &Components, b: &Components) -> f64 {
+pub(super) fn dot(a: &Components, b: &Components) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]
 }

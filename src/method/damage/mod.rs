@@ -5,7 +5,9 @@ mod balance;
 mod bounded;
 mod breaking;
 mod broken;
+mod damaged;
 mod elements;
+mod patch;
 mod problem;
 mod section;
 #[cfg(test)]

@@ -101,7 +101,7 @@ impl DamageProblem {
             first.displacement.iter().zip(&last.displacement).map(|(old, new)| new - old).collect();
         let warmed: Vec<f64> = first.rise.iter().zip(&last.rise).map(|(a, b)| b - a).collect();
         let of_state = |state: &DamageState| {
-            let (forces, _) = self.elements.forces(&state.nodal(), None, team);
+            let forces = self.elements.forces(&state.nodal(), team);
             dot(&forces, &moved) + self.elements.thermal_work(&state.nodal(), &warmed, team)
         };
         0.5 * (of_state(first) + of_state(last))
@@ -154,7 +154,7 @@ impl DamageProblem {
 
     /// Forces of the stresses on all nodes [N].
     pub fn forces(&self, state: &DamageState) -> Vec<f64> {
-        self.elements.forces(&state.nodal(), None, &Team::new(self.threads)).0
+        self.elements.forces(&state.nodal(), &Team::new(self.threads))
     }
 
     /// Stress at the nodes [Pa].

@@ -1,3 +1,4 @@
+use super::damaged::Damaged;
 use super::elements::Nodal;
 use super::*;
 use crate::laws::fracture::{Dissipation, GradientDamage, Principal, Split};
@@ -144,11 +145,16 @@ fn stiffness_is_the_derivative_of_forces() {
                 let moved: Vec<f64> =
                     displacement.iter().zip(&change).map(|(u, du)| u + by * du).collect();
                 let nodal = Nodal { displacement: &moved, damage: &damage, rise: &rise };
-                elements.forces(&nodal, None, &team).0
+                elements.forces(&nodal, &team)
             };
             let nodal = Nodal { displacement: &displacement, damage: &damage, rise: &rise };
             let mut stiffness = elements.intact_stiffness(&team);
-            elements.forces(&nodal, Some(&mut stiffness), &team);
+            Damaged::of(&elements, &damage).correct_stiffness(
+                &elements,
+                &nodal,
+                &mut stiffness,
+                &team,
+            );
             let mut padded = Padded::zeros(elements.grid);
             padded.inner_mut().copy_from_slice(&change);
             let mut found = vec![0.0; 2 * nodes];
