@@ -32,6 +32,12 @@ from .scenes import Scene
 _LOGGER = logging.getLogger("impinge")
 _GIVE_UP = 2.0  # largest deviation over the best objective, from which on a run is given up
 
+# In diameters of the nozzle, by the scene: lengths of segments and distances of particles where
+# `spacing` is left out, and the largest ones; lengths of a strand of particles between centroids.
+_DEFAULT = {"line": 0.5, "particles": 0.125}
+_LARGEST = {"line": 10.0, "particles": 0.25}
+_SLICE = 0.5
+
 
 @dataclass(frozen=True)
 class FoundPath:
@@ -110,11 +116,13 @@ def path(
     waypoints: how many, or of each the range of its part s of the target's length and that of its
         offset along the normal to the left [m]. Between waypoints offsets are cubic and do not
         overshoot; outside of `region`, a range of s, the nozzle follows the target.
-    spacing: of the places to which the nozzle moves evenly [m]; the segment length if left out.
+    spacing: of the places to which the nozzle moves evenly [m]; the segment length if left out,
+        half the nozzle's diameter for particles.
     run_out: how far the nozzle goes on beyond the target's end [m]; by the lag if left out.
     simulations: how many runs there are at most. size: of a swarm or generation. spread: of the
         first one, in parts of the ranges. seed: of its random numbers.
-    coarse: half of the runs have segments and steps that are longer by this factor; 1 for none.
+    coarse: half of the runs have segments, or distances of particles, and steps that are longer by
+        this factor, as far as the scene's limit of `spacing` allows; 1 for none.
     processes: how many work at a time. folder: keeps finished runs, which are not repeated.
     progress: whether a bar is shown; only in terminals if left out.
 
@@ -147,6 +155,7 @@ def path(
         start = naive
         settings = {"size": size or 4 + int(3 * np.log(ranges.count)), "seed": seed}
         stages = [(1.0, simulations)]
+        coarse = study.coarser(coarse)
         if coarse > 1.0:
             stages.insert(0, (coarse, simulations // 2))
         for factor, until in stages:
@@ -262,12 +271,17 @@ class _Study:
         self.height = float(start[f"{name}.nozzle_z"])
         self.diameter = float(start[f"{name}.nozzle_diameter"])
         self.flow = float(start[f"{name}.flow"]) if flow is None else flow
-        spacing_of_scene = body.get("spacing", 0.5 * self.diameter)
-        if isinstance(spacing_of_scene, str):
-            given = f"spacing = {spacing_of_scene!r}"
+        method = body.get("method", "line")
+        resolution = body.get("spacing", _DEFAULT[method] * self.diameter)
+        if isinstance(resolution, str):
+            given = f"spacing = {resolution!r}"
             raise StudyError(f"{scene}: {given} (allowed: a number in m)")
-        self.segment = float(spacing_of_scene)
-        self.spacing = self.segment if spacing is None else spacing
+        self.resolution = float(resolution)  # of segments or particles
+        self.coarsest = _LARGEST[method] * self.diameter
+        if method == "particles":
+            self.coarsest = min(self.coarsest, self.height)
+        length = _SLICE * self.diameter if method == "particles" else self.resolution
+        self.spacing = length if spacing is None else spacing
         _check_positive(flow=self.flow)
         self.speed = speed
         self.line = Line(line)
@@ -276,11 +290,16 @@ class _Study:
             allowed = f"a part of the target's {self.line.length:g} m"
             raise ValueError(f"spacing = {self.spacing!r} (allowed: {allowed})")
 
+    def coarser(self, factor: float) -> float:
+        """The factor by which `spacing` may grow, at most the one that is asked for."""
+        # A scene at its limit has no coarser runs, whichever way that is rounded.
+        return float(max(1.0, min(factor, (1.0 - 1e-12) * self.coarsest / self.resolution)))
+
     def job(self, factor: float) -> Job:
-        """The runs of segments that are longer by a factor."""
+        """The runs of segments, or of distances of particles, that are longer by a factor."""
         changes = dict(self.changes)
         if factor != 1.0:
-            changes[f"body.{self.filament}.spacing"] = factor * self.segment
+            changes[f"body.{self.filament}.spacing"] = factor * self.resolution
         text = self.scene.changed(changes) if changes else None
         unit = build(self.scene.path, text=text) if text else self.source
         target = tuple(map(tuple, self.line.places.tolist()))
