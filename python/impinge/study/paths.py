@@ -45,7 +45,8 @@ class FoundPath:
 
     places [m], times [s] and flow [m³/s] are the motion of the nozzle at `height` [m]; `along` are
     places along the target. `waypoints` are parts of its length and offsets along its normal [m].
-    history: a row for each simulation: objective, best so far, share of the steps that were taken.
+    history: a row for each simulation: objective, best so far, share of the steps that were taken,
+    and the factor by which its segments, or distances of particles, are coarser.
     """
 
     places: np.ndarray
@@ -321,7 +322,8 @@ class _Record:
     ):
         self.bar = bar
         self.study, self.ranges, self.journal, self.processes = study, ranges, journal, processes
-        self.rows: list[tuple[float, float, float]] = []  # objective, best, share of steps
+        # objective, best, share of steps, factor
+        self.rows: list[tuple[float, float, float, float]] = []
         self.factor = 1.0
         self.naive: Print | None = None
         self.best: tuple[float, np.ndarray, Print] | None = None
@@ -380,12 +382,13 @@ class _Record:
         places = self._places(unknowns)
         steps = np.hypot(*np.diff(places, axis=0).T)
         parts, offsets = self.ranges.values(unknowns)
-        objective, best, share = np.array(self.rows).T
+        objective, best, share, factor = np.array(self.rows).T
         history = xr.Dataset(
             {
                 "objective": ("simulation", objective),
                 "best": ("simulation", best),
                 "share_of_steps": ("simulation", share),
+                "factor": ("simulation", factor),
             }
         )
         return FoundPath(
@@ -420,7 +423,8 @@ class _Record:
             prints.append(one)
             objective = one.objective(self.job.diameter)
             best = min([objective] + [row[1] for row in self.rows[-1:]])
-            self.rows.append((objective, best, one.steps / (len(paths[n]) - 1)))
+            share = one.steps / (len(paths[n]) - 1)
+            self.rows.append((objective, best, share, self.factor))
             self.bar.set_postfix_str(f"objective {best:.3g}", refresh=False)
             self.bar.update()
             _LOGGER.info("run %d: objective %.4g, best %.4g", len(self.rows), objective, best)
