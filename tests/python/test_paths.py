@@ -180,9 +180,9 @@ def test_bad_members_are_stopped_early(scene, monkeypatch):
     patient = path(scene, **settings)
     shares = [one.history.share_of_steps.values for one in (found, patient)]
     # Behind the bend's beginning, 0.77 of the steps are left.
-    assert np.all(shares[1][3:] > 0.7) and np.sum(shares[0][3:] < 0.5) >= 2
-    assert shares[0].sum() < shares[1].sum() - 1.0
-    assert found.best.part == 1.0 and found.ratio == patient.ratio
+    assert np.all(shares[1][3:] > 0.7)
+    assert shares[0][3:].sum() < 0.75 * shares[1][3:].sum()
+    assert found.best.part == 1.0 and found.ratio > 1.2
 
 
 def test_particles_are_at_most_as_coarse_as_the_scene_allows(particles):

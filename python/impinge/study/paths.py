@@ -30,7 +30,10 @@ from .printing import Job, Print, Printer
 from .scenes import Scene
 
 _LOGGER = logging.getLogger("impinge")
-_GIVE_UP = 2.0  # largest deviation over the best objective, from which on a run is given up
+# Largest deviation over the best objective, both in diameters, from which on a run is given up: it
+# cannot be the best one. Gauss-Newton needs distances all along, of runs that differ little.
+_GIVE_UP = 1.0
+_GIVE_UP_OF = {"gauss-newton": 2.0}
 
 # In diameters of the nozzle, by the scene: lengths of segments and distances of particles where
 # `spacing` is left out, and the largest ones; lengths of a strand of particles between centroids.
@@ -129,8 +132,8 @@ def path(
 
     Minimises the mean and largest distance of the strand's centre line from the target and the
     length of the target that it does not cover, in diameters of the nozzle. Of a run only what
-    follows the first place that differs from the target is computed. Runs that deviate by more
-    than twice the best objective are given up.
+    follows the first place that differs from the target is computed. Runs whose largest distance
+    exceeds the best objective, for Gauss-Newton twice that, are given up.
     """
     if by not in SEARCHES:
         raise ValueError(f"by = {by!r} (allowed: {', '.join(map(repr, SEARCHES))})")
@@ -162,7 +165,7 @@ def path(
         for factor, until in stages:
             with record.at(factor, run_out):
                 search = SEARCHES[by](start, spread=spread, **settings)
-                start = record.follow(search, until)
+                start = record.follow(search, until, _GIVE_UP_OF.get(by, _GIVE_UP))
             spread = 0.4 * spread
         return record.found(start)
     finally:
@@ -355,13 +358,16 @@ class _Record:
     def __exit__(self, *_: object) -> None:
         self.workers.close()
 
-    def follow(self, search: Any, until: int) -> np.ndarray:
-        """Sends a search its outcomes until it ends or the runs are used up; returns the best."""
+    def follow(self, search: Any, until: int, patience: float) -> np.ndarray:
+        """Sends a search its outcomes until it ends or the runs are used up; returns the best.
+
+        patience: largest deviation over the best objective, from which on a run is given up.
+        """
         assert self.best
         asked = next(search)
         while len(self.rows) < until:
             asked = asked[: until - len(self.rows)]
-            give_up = _GIVE_UP * self.best[0] * self.job.diameter
+            give_up = patience * self.best[0] * self.job.diameter
             prints = self._runs([self._places(one) for one in asked], give_up)
             outcomes = []
             for unknowns, one in zip(asked, prints, strict=True):
