@@ -66,7 +66,7 @@ class Motion:
         return place, velocity
 
     def ringing(self, time, frequency, damping):
-        """How far both axes are from the planner's place [m].
+        """Distance of both axes from the planner's place [m].
 
         Each is a mass on a spring and a damper, e″ + 2ζω e′ + ω² e = −c″ with the place c of the
         planner: −Δv exp(−ζωτ) sin(ω_d τ)/ω_d follows a jump of the velocity, and

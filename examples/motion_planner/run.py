@@ -33,7 +33,7 @@ DRAWING = Line(planner.DRAWING)
 
 @dataclass(frozen=True)
 class Strand:
-    """What a machine lays: readings over time, and its nozzle's flow [m³/s]."""
+    """Strand of a machine: readings over time, and the flow of its nozzle [m³/s]."""
 
     readings: dict[str, np.ndarray]
     flow: np.ndarray
@@ -95,7 +95,7 @@ def lay(fmu: Path, machine: Path, settings: dict[str, float], order: int = 2) ->
 
 
 def by_code(folder: Path) -> Strand:
-    """What the unit lays if it plans the same motion itself, from G-code."""
+    """Lays the strand of the same motion as the unit itself plans it, from G-code."""
     places = np.c_[planner.DRAWING, np.full(len(planner.DRAWING), planner.HEIGHT)]
     times, volumes = DRAWING.ends / SPEED, np.diff(DRAWING.ends, prepend=0.0) * SECTION
     folder.mkdir(exist_ok=True)

@@ -94,7 +94,7 @@ def test_wax_is_laid_where_the_nozzle_moves(example):
         assert slave["ink.touchdown_x"] == pytest.approx(-14e-3 + way, abs=0.2e-3)
         assert slave["ink.length"] == pytest.approx(way, rel=0.05)
         assert slave["ink.deviation"] < 1e-9
-        # What comes between the segments and the nozzle is not counted in the sections.
+        # Sections do not count the fluid between the last segment and the nozzle.
         section = slave["ink.width"] * slave["ink.height"] * slave["ink.length"]
         assert section == pytest.approx(volume, rel=0.1)
         assert slave["plate.heat_in"] == pytest.approx(slave["ink.heat"], rel=1e-9)
@@ -150,7 +150,7 @@ def test_layers_follow_their_code_over_a_bed_that_is_heated(example):
 
 
 def test_layers_of_concrete_load_the_lowest_one(example):
-    """What a layer bears by hand: ρgH/(√3 τ_y), with the heights of the layers above its base."""
+    """The bearing ratio is ρgH/(√3 τ_y), with the height H of all layers above the lowest base."""
     with run(example("concrete_layers")) as slave:
         volumes, ratios = [], []
         for n in range(24):

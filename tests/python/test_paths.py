@@ -206,7 +206,7 @@ def test_particles_are_at_most_as_coarse_as_the_scene_allows(particles):
         folder = Path(study.job(factor).folder)
         body = tomllib.loads((folder / "resources/scene.toml").read_text())["body"]["ink"]
         assert body["spacing"] == pytest.approx(coarsest)
-    # Where nothing coarser is allowed, all runs are of the scene's own particles.
+    # A scene at its limit has runs of its own particles alone.
     study = _Study(particles, None, SPEED, None, None)
     assert study.coarser(2.0) == 1.0 and study.coarser(1.0) == 1.0
 
