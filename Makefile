@@ -92,7 +92,8 @@ verify: build $(VENV)/ready-verify $(MASTERS)/ready ## slow: closed forms, and a
 	$(BIN)/python tests/verification/tension.py target/tmp out/verification
 	$(BIN)/python tests/verification/spread.py target/tmp out/verification
 	$(BIN)/python tests/verification/independent_code.py
-	IMPINGE_BIN=$(CURDIR)/$(RELEASE) $(BIN)/python -m pytest tests/verification/test_paraview.py tests/verification/test_units.py
+	IMPINGE_BIN=$(CURDIR)/$(RELEASE) $(BIN)/python -m pytest tests/verification/test_paraview.py tests/verification/test_units.py \
+		tests/verification/test_gcode_motion.py
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python tests/verification/plasticity.py
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python tests/verification/calculix.py
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python tests/verification/relaxation.py
@@ -111,6 +112,7 @@ bench: build $(VENV)/ready-verify ## time against an independent finite-element 
 	OMP_NUM_THREADS=1 $(BIN)/python benches/surfaces.py
 	$(BIN)/python benches/studies.py
 	$(BIN)/python benches/plans.py
+	$(BIN)/python benches/paths.py
 	$(BIN)/python benches/pressure.py
 	cargo build --release --bench cracks
 	$(BIN)/python benches/cracks_peer.py

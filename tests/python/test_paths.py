@@ -1,11 +1,15 @@
 """Paths of nozzles: geometry, runs that branch off, searches, what is kept, G-code."""
 
+import tomllib
+from pathlib import Path
+
 import numpy as np
 import pytest
 from impinge import StudyError, Unit, gcode
-from impinge.study import path
+from impinge.study import path, paths
 from impinge.study.corrections import Line, Waypoints, nozzle
 from impinge.study.optimisers import Outcome, gauss_newton, swarm
+from impinge.study.paths import _Study
 from impinge.study.printing import Printer
 
 SCENE = """
@@ -35,6 +39,31 @@ WHERE = {"region": (0.3, 0.8), "speed": SPEED}
 def scene(tmp_path_factory):
     path = tmp_path_factory.mktemp("paths") / "hairpin.toml"
     path.write_text(SCENE)
+    return path
+
+
+PARTICLES = """
+name = "Corner"
+stop_time = 0.5
+step = 0.02
+[body.ink]
+kind = "filament"
+method = "particles"
+fluid = { density = 1000.0, viscosity = 10.0, specific_heat = 2e3, conductivity = 0.0 }
+nozzle = { diameter = 0.8e-3, height = 0.8e-3, temperature = 293.15, flow = 1e-8 }
+path = "input"
+most = 6e-9
+spacing = 0.2e-3
+[[target]]
+of = "ink"
+line = [[0.0, 0.0], [2.4e-3, 0.0], [2.4e-3, 2.4e-3]]
+"""
+
+
+@pytest.fixture(scope="module")
+def particles(tmp_path_factory):
+    path = tmp_path_factory.mktemp("particles") / "corner.toml"
+    path.write_text(PARTICLES)
     return path
 
 
@@ -69,14 +98,13 @@ def test_distances_are_signed_and_those_of_the_nearest_part():
     assert np.allclose(distance, [0.3, -0.3, -0.5, -0.5])
 
 
-def test_a_run_from_a_saved_state_is_that_from_the_start(scene):
-    from impinge.study.paths import _Study
-
-    study = _Study(scene, None, SPEED, None, None)
+@pytest.mark.parametrize("of", ["scene", "particles"])
+def test_a_run_from_a_saved_state_is_that_from_the_start(of, request):
+    study = _Study(request.getfixturevalue(of), None, SPEED, None, None)
     ranges = Waypoints(((0.5, 0.5),), ((-1e-3, 1e-3),), (0.4, 0.9))
     naive, other = (
         nozzle(study.line, ranges, np.array([0.5, offset]), study.spacing, 0.0)
-        for offset in (0.5, 0.9)
+        for offset in (0.5, 0.4)
     )
     printers = [Printer(study.job(1.0)) for _ in range(2)]
     try:
@@ -86,7 +114,7 @@ def test_a_run_from_a_saved_state_is_that_from_the_start(scene):
     finally:
         for printer in printers:
             printer.close()
-    assert branched.steps < 0.7 * whole.steps
+    assert branched.steps < 0.75 * whole.steps
     assert np.array_equal(branched.numbers()[:-1], whole.numbers()[:-1])
     assert np.array_equal(branched.distances, whole.distances)
     assert again.steps < 5 and again.part == 1.0
@@ -99,6 +127,108 @@ def test_few_runs_find_the_path_of_a_hairpin(found, scene):
     # The report has the values that the unit gives on that path.
     steps = np.diff(best.times)
     with Unit(scene) as unit:
+        unit["ink.nozzle_z"] = best.height
+        for place, after, step in zip(best.places, best.places[1:], steps, strict=False):
+            unit["ink.nozzle_x"], unit["ink.nozzle_y"] = place
+            rates = dict(zip(["ink.nozzle_x", "ink.nozzle_y"], (after - place) / step, strict=True))
+            unit.set_input_derivatives({name: [rate] for name, rate in rates.items()})
+            unit.step(step)
+        assert np.isclose(unit["ink.largest_deviation"], best.best.largest, rtol=1e-6)
+        assert np.isclose(unit["ink.gap"], best.best.gap, rtol=1e-6)
+
+
+def test_coarse_runs_save_fine_ones(scene):
+    """A search that begins with coarse segments needs fewer runs of fine ones to a tenth of the
+    drawing's objective; and as many runs take fewer steps, as those of coarse ones are longer."""
+    needed, steps, ratios = {}, {}, {}
+    for coarse in (1.0, 2.0):
+        settings = {"by": "gauss-newton", "simulations": 60, "waypoints": 4, "coarse": coarse}
+        found = path(scene, **settings, **WHERE)
+        history = found.history
+        fine = history.factor.values == 1.0
+        assert set(history.factor.values) == {1.0, coarse}
+        assert np.sum(~fine) == (0 if coarse == 1.0 else 30)
+        naive = history.objective.values[fine][0]
+        reached = np.flatnonzero(fine & (history.objective.values < 0.1 * naive))[0]
+        needed[coarse] = int(fine[: reached + 1].sum())
+        steps[coarse] = float(np.sum(history.share_of_steps.values / history.factor.values))
+        ratios[coarse] = found.ratio
+    assert needed[2.0] < 0.5 * needed[1.0], needed
+    assert steps[2.0] < 0.85 * steps[1.0], steps
+    assert ratios[2.0] > 0.5 * ratios[1.0] > 7.3, ratios
+
+
+def test_bad_members_are_stopped_early(scene, monkeypatch):
+    """A run ends with the step in which it is off by the limit; a search takes fewer steps by it,
+    and no run that was given up is its best."""
+    study = _Study(scene, None, SPEED, None, None)
+    ranges = Waypoints(((0.5, 0.5),), ((-2e-3, 2e-3),), (0.3, 0.9))
+    bad = nozzle(study.line, ranges, np.array([0.5, 1.0]), study.spacing, 0.0)
+    printer = Printer(study.job(1.0))
+    try:
+        whole, stopped = printer.run(bad), printer.run(bad, give_up=1e-3)
+    finally:
+        printer.close()
+    assert whole.part == 1.0 and whole.largest > 1.2e-3
+    assert stopped.part < 0.7 and stopped.steps < 0.7 * whole.steps
+    assert 1e-3 < stopped.largest < 1.2e-3
+    assert stopped.objective(study.diameter) > 1e-3 / study.diameter
+
+    settings = {"by": "swarm", "simulations": 30, "size": 8, "coarse": 1.0, **WHERE}
+    found = path(scene, **settings)
+    monkeypatch.setattr(paths, "_GIVE_UP", np.inf)
+    patient = path(scene, **settings)
+    shares = [one.history.share_of_steps.values for one in (found, patient)]
+    # Behind the bend's beginning, 0.77 of the steps are left.
+    assert np.all(shares[1][3:] > 0.7)
+    assert shares[0][3:].sum() < 0.75 * shares[1][3:].sum()
+    assert found.best.part == 1.0 and found.ratio > 1.2
+
+
+def test_particles_are_at_most_as_coarse_as_the_scene_allows(particles):
+    """A quarter of the nozzle's diameter, and not above its outlet; the nozzle moves from place to
+    place by half of its diameter."""
+    text = particles.read_text()
+    for spacing, height, coarsest in [
+        ("spacing = 0.1e-3", 0.8e-3, 0.2e-3),
+        ("spacing = 0.15e-3", 0.8e-3, 0.2e-3),
+        ("spacing = 0.15e-3", 0.16e-3, 0.16e-3),
+        ("spacing = 0.2e-3", 0.8e-3, 0.2e-3),
+        ("", 0.8e-3, 0.2e-3),
+    ]:
+        changed = text.replace("spacing = 0.2e-3", spacing)
+        particles.with_name("other.toml").write_text(
+            changed.replace("height = 0.8e-3", f"height = {height}")
+        )
+        study = _Study(particles.with_name("other.toml"), None, SPEED, None, None)
+        assert study.spacing == pytest.approx(0.4e-3)
+        factor = study.coarser(2.0)
+        folder = Path(study.job(factor).folder)
+        body = tomllib.loads((folder / "resources/scene.toml").read_text())["body"]["ink"]
+        assert body["spacing"] == pytest.approx(coarsest)
+    # A scene at its limit has runs of its own particles alone.
+    study = _Study(particles, None, SPEED, None, None)
+    assert study.coarser(2.0) == 1.0 and study.coarser(1.0) == 1.0
+
+
+def test_a_path_of_particles_is_found(particles):
+    """A few runs: the report has the values that the unit gives on the best path."""
+    best = path(
+        particles,
+        by="swarm",
+        speed=SPEED,
+        region=(0.2, 0.9),
+        waypoints=[((0.5, 0.5), (-0.8e-3, 0.8e-3))],
+        simulations=8,
+        size=3,
+        spread=0.1,
+    )
+    assert set(best.history.factor.values) == {1.0} and best.simulations == 8
+    assert best.ratio > 1.02
+    assert 0.0 < best.naive.lag < 1e-3
+    # Of the same durations to rounding, on which the iterations of particles depend.
+    steps = np.hypot(*np.diff(best.places, axis=0).T) / SPEED
+    with Unit(particles) as unit:
         unit["ink.nozzle_z"] = best.height
         for place, after, step in zip(best.places, best.places[1:], steps, strict=False):
             unit["ink.nozzle_x"], unit["ink.nozzle_y"] = place

@@ -30,7 +30,16 @@ from .printing import Job, Print, Printer
 from .scenes import Scene
 
 _LOGGER = logging.getLogger("impinge")
-_GIVE_UP = 2.0  # largest deviation over the best objective, from which on a run is given up
+# Largest deviation over the best objective, both in diameters, from which on a run is given up: it
+# cannot be the best one. Gauss-Newton needs distances all along, of runs that differ little.
+_GIVE_UP = 1.0
+_GIVE_UP_OF = {"gauss-newton": 2.0}
+
+# In diameters of the nozzle, by the scene: lengths of segments and distances of particles where
+# `spacing` is left out, and the largest ones; lengths of a strand of particles between centroids.
+_DEFAULT = {"line": 0.5, "particles": 0.125}
+_LARGEST = {"line": 10.0, "particles": 0.25}
+_SLICE = 0.5
 
 
 @dataclass(frozen=True)
@@ -39,7 +48,8 @@ class FoundPath:
 
     places [m], times [s] and flow [m³/s] are the motion of the nozzle at `height` [m]; `along` are
     places along the target. `waypoints` are parts of its length and offsets along its normal [m].
-    history: a row for each simulation: objective, best so far, share of the steps that were taken.
+    history: a row for each simulation: objective, best so far, share of the steps that were taken,
+    and the factor by which its segments, or distances of particles, are coarser.
     """
 
     places: np.ndarray
@@ -110,18 +120,20 @@ def path(
     waypoints: how many, or of each the range of its part s of the target's length and that of its
         offset along the normal to the left [m]. Between waypoints offsets are cubic and do not
         overshoot; outside of `region`, a range of s, the nozzle follows the target.
-    spacing: of the places to which the nozzle moves evenly [m]; the segment length if left out.
+    spacing: of the places to which the nozzle moves evenly [m]; the segment length if left out,
+        half the nozzle's diameter for particles.
     run_out: how far the nozzle goes on beyond the target's end [m]; by the lag if left out.
     simulations: how many runs there are at most. size: of a swarm or generation. spread: of the
         first one, in parts of the ranges. seed: of its random numbers.
-    coarse: half of the runs have segments and steps that are longer by this factor; 1 for none.
+    coarse: half of the runs have segments, or distances of particles, and steps that are longer by
+        this factor, as far as the scene's limit of `spacing` allows; 1 for none.
     processes: how many work at a time. folder: keeps finished runs, which are not repeated.
     progress: whether a bar is shown; only in terminals if left out.
 
     Minimises the mean and largest distance of the strand's centre line from the target and the
     length of the target that it does not cover, in diameters of the nozzle. Of a run only what
-    follows the first place that differs from the target is computed. Runs that deviate by more
-    than twice the best objective are given up.
+    follows the first place that differs from the target is computed. Runs whose largest distance
+    exceeds the best objective, for Gauss-Newton twice that, are given up.
     """
     if by not in SEARCHES:
         raise ValueError(f"by = {by!r} (allowed: {', '.join(map(repr, SEARCHES))})")
@@ -147,12 +159,13 @@ def path(
         start = naive
         settings = {"size": size or 4 + int(3 * np.log(ranges.count)), "seed": seed}
         stages = [(1.0, simulations)]
+        coarse = study.coarser(coarse)
         if coarse > 1.0:
             stages.insert(0, (coarse, simulations // 2))
         for factor, until in stages:
             with record.at(factor, run_out):
                 search = SEARCHES[by](start, spread=spread, **settings)
-                start = record.follow(search, until)
+                start = record.follow(search, until, _GIVE_UP_OF.get(by, _GIVE_UP))
             spread = 0.4 * spread
         return record.found(start)
     finally:
@@ -262,12 +275,17 @@ class _Study:
         self.height = float(start[f"{name}.nozzle_z"])
         self.diameter = float(start[f"{name}.nozzle_diameter"])
         self.flow = float(start[f"{name}.flow"]) if flow is None else flow
-        spacing_of_scene = body.get("spacing", 0.5 * self.diameter)
-        if isinstance(spacing_of_scene, str):
-            given = f"spacing = {spacing_of_scene!r}"
+        method = body.get("method", "line")
+        resolution = body.get("spacing", _DEFAULT[method] * self.diameter)
+        if isinstance(resolution, str):
+            given = f"spacing = {resolution!r}"
             raise StudyError(f"{scene}: {given} (allowed: a number in m)")
-        self.segment = float(spacing_of_scene)
-        self.spacing = self.segment if spacing is None else spacing
+        self.resolution = float(resolution)  # of segments or particles
+        self.coarsest = _LARGEST[method] * self.diameter
+        if method == "particles":
+            self.coarsest = min(self.coarsest, self.height)
+        length = _SLICE * self.diameter if method == "particles" else self.resolution
+        self.spacing = length if spacing is None else spacing
         _check_positive(flow=self.flow)
         self.speed = speed
         self.line = Line(line)
@@ -276,11 +294,16 @@ class _Study:
             allowed = f"a part of the target's {self.line.length:g} m"
             raise ValueError(f"spacing = {self.spacing!r} (allowed: {allowed})")
 
+    def coarser(self, factor: float) -> float:
+        """The factor by which `spacing` may grow, at most the one that is asked for."""
+        # A scene at its limit has no coarser runs, whichever way that is rounded.
+        return float(max(1.0, min(factor, (1.0 - 1e-12) * self.coarsest / self.resolution)))
+
     def job(self, factor: float) -> Job:
-        """The runs of segments that are longer by a factor."""
+        """The runs of segments, or of distances of particles, that are longer by a factor."""
         changes = dict(self.changes)
         if factor != 1.0:
-            changes[f"body.{self.filament}.spacing"] = factor * self.segment
+            changes[f"body.{self.filament}.spacing"] = factor * self.resolution
         text = self.scene.changed(changes) if changes else None
         unit = build(self.scene.path, text=text) if text else self.source
         target = tuple(map(tuple, self.line.places.tolist()))
@@ -302,7 +325,8 @@ class _Record:
     ):
         self.bar = bar
         self.study, self.ranges, self.journal, self.processes = study, ranges, journal, processes
-        self.rows: list[tuple[float, float, float]] = []  # objective, best, share of steps
+        # objective, best, share of steps, factor
+        self.rows: list[tuple[float, float, float, float]] = []
         self.factor = 1.0
         self.naive: Print | None = None
         self.best: tuple[float, np.ndarray, Print] | None = None
@@ -334,13 +358,16 @@ class _Record:
     def __exit__(self, *_: object) -> None:
         self.workers.close()
 
-    def follow(self, search: Any, until: int) -> np.ndarray:
-        """Sends a search its outcomes until it ends or the runs are used up; returns the best."""
+    def follow(self, search: Any, until: int, patience: float) -> np.ndarray:
+        """Sends a search its outcomes until it ends or the runs are used up; returns the best.
+
+        patience: largest deviation over the best objective, from which on a run is given up.
+        """
         assert self.best
         asked = next(search)
         while len(self.rows) < until:
             asked = asked[: until - len(self.rows)]
-            give_up = _GIVE_UP * self.best[0] * self.job.diameter
+            give_up = patience * self.best[0] * self.job.diameter
             prints = self._runs([self._places(one) for one in asked], give_up)
             outcomes = []
             for unknowns, one in zip(asked, prints, strict=True):
@@ -361,12 +388,13 @@ class _Record:
         places = self._places(unknowns)
         steps = np.hypot(*np.diff(places, axis=0).T)
         parts, offsets = self.ranges.values(unknowns)
-        objective, best, share = np.array(self.rows).T
+        objective, best, share, factor = np.array(self.rows).T
         history = xr.Dataset(
             {
                 "objective": ("simulation", objective),
                 "best": ("simulation", best),
                 "share_of_steps": ("simulation", share),
+                "factor": ("simulation", factor),
             }
         )
         return FoundPath(
@@ -401,7 +429,8 @@ class _Record:
             prints.append(one)
             objective = one.objective(self.job.diameter)
             best = min([objective] + [row[1] for row in self.rows[-1:]])
-            self.rows.append((objective, best, one.steps / (len(paths[n]) - 1)))
+            share = one.steps / (len(paths[n]) - 1)
+            self.rows.append((objective, best, share, self.factor))
             self.bar.set_postfix_str(f"objective {best:.3g}", refresh=False)
             self.bar.update()
             _LOGGER.info("run %d: objective %.4g, best %.4g", len(self.rows), objective, best)
