@@ -22,6 +22,7 @@ mod elasticity;
 #[allow(dead_code)]
 mod falling_drop;
 mod flows;
+mod fracture_mechanics;
 mod heat;
 mod large_strain;
 mod lattice;
