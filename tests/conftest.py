@@ -63,6 +63,7 @@ COARSE = {
     },
     "thermostat_strip": {"spacing = 0.2e-3": "spacing = 0.8e-3"},
     "quench_cracks": {"strength = 180e6": "strength = 80e6"},
+    "glass_strip": {"length = 0.75e-3": "length = 3e-3"},
     "remelting": {"\nspacing = 80e-6": "\nspacing = 270e-6"},
     "stress_study": {
         "spacing = 25e-6, depth_spacing = 20e-6": "spacing = 1e-4, depth_spacing = 5e-5"
@@ -79,6 +80,7 @@ GRIDS = {
     "printed_line": {"grid = [48, 16]": "grid = [4, 2]"},
     "printer_control": {"grid = [40, 12]": "grid = [4, 2]"},
     "quench_cracks": {"grid = [144, 48]": "grid = [4, 2]"},
+    "glass_strip": {"grid = [96, 125]": "grid = [4, 2]"},
     "wax_layers": {"grid = [24, 24]": "grid = [4, 3]"},
     "wax_line": {"grid = [60, 45]": "grid = [4, 3]"},
 }
