@@ -31,6 +31,7 @@
 //! | [`freezing_contact`] | two half spaces brought together, one of which freezes |
 //! | [`freezing_column`] | the same across a contact that resists (numerical) |
 //! | [`radiating_lump`] | body of one temperature that radiates |
+//! | [`shocked_half_space`] | half space with inertia whose surface is suddenly warm |
 //! | [`constrained_layer`] | step heating of a laterally constrained surface |
 //! | [`bonded_plate`] | bonded layers that expand differently: bimetals, films |
 //! | [`bent_strip`] | strip of neo-Hookean layers that expand differently and bend by any angle (numerical) |
@@ -92,6 +93,7 @@ pub mod radiating_lump;
 pub mod relaxing_solid;
 pub mod resistive_contact;
 pub mod resting_paste;
+pub mod shocked_half_space;
 pub mod slab;
 pub mod slump;
 pub mod special;
@@ -140,6 +142,7 @@ pub use melting_front::MeltingFront;
 pub use radiating_lump::RadiatingLump;
 pub use resistive_contact::ResistiveContact;
 pub use resting_paste::RestingPaste;
+pub use shocked_half_space::ShockedHalfSpace;
 pub use slab::HeatedSlab;
 pub use slump::Slump;
 pub use spreading_film::flux_over_rest;

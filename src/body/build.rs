@@ -99,12 +99,12 @@ pub fn build(
                 Some((below.cells(link.face)?, link))
             });
             let (parts, own) = ((scene, layout), (name.as_str(), &**solid));
-            built[index] = Some(match (solid.inertia, solid.motion) {
-                (true, MotionSteps::Explicit) => {
+            built[index] = Some(match solid.steps() {
+                Some(MotionSteps::Explicit) => {
                     Box::new(MovingBody::new(parts, own, cells, threads)?)
                 }
-                (true, MotionSteps::Implicit) => Box::new(SwingingBody::new(parts, own, threads)?),
-                (false, _) => Box::new(RestingBody::new(parts, own, threads)?),
+                Some(MotionSteps::Implicit) => Box::new(SwingingBody::new(parts, own, threads)?),
+                None => Box::new(RestingBody::new(parts, own, threads)?),
             });
         }
     }

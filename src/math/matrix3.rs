@@ -22,6 +22,17 @@ pub fn contraction(a: &Matrix3, b: &Matrix3) -> f64 {
     a.iter().flatten().zip(b.iter().flatten()).map(|(x, y)| x * y).sum()
 }
 
+/// Scales the deviator of a matrix.
+pub fn scale_deviator(m: &mut Matrix3, factor: f64) {
+    let mean = (m[0][0] + m[1][1] + m[2][2]) / 3.0;
+    for (a, row) in m.iter_mut().enumerate() {
+        for (b, value) in row.iter_mut().enumerate() {
+            let spherical = mean * IDENTITY[a][b];
+            *value = spherical + factor * (*value - spherical);
+        }
+    }
+}
+
 /// Inverse and determinant.
 pub fn inverse(m: &Matrix3) -> (Matrix3, f64) {
     let minor = |a: usize, b: usize| {

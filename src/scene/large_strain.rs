@@ -86,9 +86,11 @@ pub struct LargeStrain {
     #[serde(default)]
     pub inertia: bool,
     /// Time steps of a body with inertia.
-    #[serde(default)]
-    #[schemars(extend("condition" = "`implicit` with `inertia = true`, without `layers` and coupling"))]
-    pub motion: MotionSteps,
+    #[schemars(extend(
+        "otherwise" = "`explicit`",
+        "condition" = "with `inertia = true`; `implicit` without `layers` and coupling"
+    ))]
+    pub motion: Option<MotionSteps>,
     /// Position and velocity at time zero.
     #[serde(default)]
     #[schemars(extend("otherwise" = "at rest", "condition" = "with `inertia = true`"))]
@@ -329,7 +331,12 @@ impl LargeStrain {
 
     /// Returns true if the body moves above a plane or another body, which it may touch.
     pub fn is_above(&self) -> bool {
-        self.inertia && self.motion == MotionSteps::Explicit
+        self.steps() == Some(MotionSteps::Explicit)
+    }
+
+    /// Time steps of the body; `None` without inertia.
+    pub fn steps(&self) -> Option<MotionSteps> {
+        self.inertia.then(|| self.motion.unwrap_or_default())
     }
 
     /// Planes x = 0 and y = 0 that mirror the model.

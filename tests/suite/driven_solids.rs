@@ -433,6 +433,50 @@ fn drawn_sheets_bear_their_yield_stress() {
     }
 }
 
+/// Stress that is read of a body that flows is stress that its law allows, also on faces, towards which it is fitted, and
+/// beside the corners of a clamped end.
+#[test]
+fn stress_at_probes_is_within_the_law() {
+    let places = [-10e-3, -9.5e-3, -8e-3, -6e-3, 0.0]
+        .map(|x| [0.0, -0.4e-3, -2.5e-3, -4.6e-3, -5e-3].map(|z| [x, 0.0, z]));
+    let places = places.as_flattened();
+    let probes = places.iter().enumerate().map(|(n, at)| {
+        probe(&format!("p{n}"), *at, "\"stress\", \"von_mises\", \"plastic_strain\"")
+    });
+    let probes: String = probes.collect();
+    for hardening in [0.0, 2e5] {
+        let keys = format!(
+            "dimension = 2\nshape = {{ box = [20e-3, 1.0, 5e-3] }}\nmesh = {{ spacing = 1e-3 }}\n\
+             faces = {{ left = {{ clamped = true }}, right = {{ displacement = [0.0, 0.0, 0.0] }} }}\n"
+        );
+        let metal = format!(
+            "model = \"elastoplastic\", yield_stress = 1e4, isotropic_hardening = {hardening:?}"
+        );
+        let text = (rubber(&keys) + &probes)
+            .replace("model = \"neo_hookean\"", &metal)
+            .replace("young = 1e6", "young = 1e8");
+        let mut trial = Trial::new(&text);
+        for n in 1..=8 {
+            trial.set("pad.right.displacement_z", 0.1e-3 * f64::from(n));
+            trial.step(1.0);
+        }
+        // Kirchhoff's stress yields; Cauchy's is that over J, which pressures of some 3e4 Pa change by 2e-4. What hardens
+        // bears no more than where it is hardest.
+        let limit = match hardening {
+            0.0 => 1e4 * (1.0 + 1e-3),
+            _ => trial.get("pad.max_von_mises") * (1.0 + 1e-12),
+        };
+        let found: Vec<f64> =
+            (0..places.len()).map(|n| trial.get(&format!("p{n}.von_mises"))).collect();
+        assert!(found.iter().all(|&own| own <= limit), "{hardening}: {found:?} {limit}");
+        let mut strain = |n: &usize| trial.get(&format!("p{n}.plastic_strain"));
+        let flowing: Vec<usize> = (0..places.len()).filter(|n| strain(n) > 1e-2).collect();
+        assert!(flowing.len() >= 3, "{flowing:?}");
+        // Where it flows the law allows no less than the yield stress, but for what is fitted across the edge of the flow.
+        assert!(flowing.iter().any(|&n| found[n] > 0.98e4), "{hardening}: {found:?}");
+    }
+}
+
 /// Implicit steps of a sheet conserve what those of other bodies do.
 #[test]
 fn sheets_move_and_keep_their_energy() {

@@ -1,5 +1,6 @@
 //! Solids of large strain: gels that fall, bounce and load plates, and blocks that are drawn.
 
+use impinge::body::LargeStrainForecast;
 use impinge::closed_form::{ElasticBall, Rubber, Sides};
 use impinge::model::Model;
 use impinge::scene;
@@ -474,4 +475,54 @@ fn friction_is_that_of_bodies_above_something() {
         let refusal = scene::parse(&text, "gel.toml").unwrap_err().to_string();
         assert!(refusal.contains("rubs on nothing"), "{refusal}");
     }
+}
+
+#[test]
+fn notes_tell_how_bodies_slide() {
+    let notes = |keys: &str| {
+        let scene = scene::parse(&gel(&format!("{BALL}\n{keys}")), "scene.toml").unwrap();
+        LargeStrainForecast::of(&scene, "gel", scene.large_strain("gel").unwrap()).notes
+    };
+    let says = |notes: &[String], words: &str| notes.iter().any(|note| note.contains(words));
+    let (free, zero, rubs) = (notes(""), notes("friction = 0.0"), notes("friction = 0.3"));
+    assert!(says(&free, "slides on what lies below without friction"), "{free:?}");
+    assert_eq!(free, zero);
+    assert!(says(&rubs, "rubs on what lies below with a coefficient of friction of 0.3"));
+    assert!(!says(&rubs, "without friction"), "{rubs:?}");
+}
+
+/// Constants that a substance brings along, or that another body has a use for, are not refused.
+#[test]
+fn constants_of_substances_may_be_idle() {
+    let own = r#"material = { model = "neo_hookean", density = 1000.0, specific_heat = 4180.0, conductivity = 0.6, young = 5600.0, poisson = 0.4 }"#;
+    for substance in ["soda-lime-glass", "tin"] {
+        let material =
+            format!(r#"material = {{ substance = "{substance}", model = "neo_hookean" }}"#);
+        let text = gel(&format!("{BALL}\n{FALLS}")).replace(own, &material);
+        let read = scene::parse(&text, "scene.toml").unwrap();
+        // The scene is written with all constants where parameters change.
+        scene::check(&read).unwrap();
+    }
+    let text = gel(&format!("{BALL}\n{FALLS}")).replace(own, r#"material = "glass""#);
+    let plate = r#"
+[material.glass]
+model = "neo_hookean"
+density = 2500.0
+specific_heat = 800.0
+conductivity = 1.0
+young = 7e10
+poisson = 0.22
+expansion = 9e-6
+[body.pad]
+kind = "solid"
+strain = "finite"
+initial_temperature = 293.15
+material = "glass"
+shape = { box = [1e-2, 1e-2, 1e-2] }
+faces.top = { clamped = true }
+"#;
+    assert!(scene::parse(&(text.clone() + plate), "scene.toml").is_ok());
+    let alone = plate.split("[body.pad]").next().unwrap();
+    let refusal = scene::parse(&(text + alone), "scene.toml").unwrap_err().to_string();
+    assert!(refusal.contains("nothing expands"), "{refusal}");
 }

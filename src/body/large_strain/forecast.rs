@@ -164,21 +164,7 @@ pub fn notes(solid: &LargeStrain) -> Vec<String> {
         _ => "the whole body is modelled: nothing makes it mirror itself, or the scene asks for it"
             .to_owned(),
     };
-    let motion = match (solid.inertia, solid.motion) {
-        (true, MotionSteps::Implicit) => {
-            "each communication step is one implicit time step, of second order, which conserves energy; nothing is below \
-             the body, and it conducts no heat"
-        }
-        (true, MotionSteps::Explicit) if solid.conducts() => {
-            "the body slides on what lies below without friction, which is rigid for it: time steps follow the speed of sound"
-        }
-        (true, MotionSteps::Explicit) => {
-            "the body slides on what lies below without friction, which is rigid for it, and conducts no heat: time steps \
-             follow the speed of sound"
-        }
-        (false, _) => "the body has no inertia: it is in equilibrium at every communication point",
-    };
-    let mut notes = vec![part, motion.to_owned()];
+    let mut notes = vec![part, note_on_motion(solid)];
     notes.extend(note_on_temperature(solid).map(str::to_owned));
     notes.extend(match solid.mechanics {
         Mechanics::Fem => None,
@@ -200,6 +186,31 @@ pub fn notes(solid: &LargeStrain) -> Vec<String> {
         notes.push(NOTE_ON_LOCKING.to_owned());
     }
     notes
+}
+
+fn note_on_motion(solid: &LargeStrain) -> String {
+    match solid.steps() {
+        Some(MotionSteps::Explicit) => {
+            let friction = match solid.friction.filter(|&friction| friction > 0.0) {
+                Some(friction) => {
+                    format!("rubs on what lies below with a coefficient of friction of {friction}")
+                }
+                None => "slides on what lies below without friction".to_owned(),
+            };
+            let heat = if solid.conducts() { "" } else { ", and the body conducts no heat" };
+            format!(
+                "the body {friction}; what lies below is rigid for it{heat}; time steps follow the speed of sound"
+            )
+        }
+        Some(MotionSteps::Implicit) => {
+            "each communication step is one implicit time step, of second order, which conserves energy; nothing is below \
+             the body, and it conducts no heat"
+                .to_owned()
+        }
+        None => {
+            "the body has no inertia: it is in equilibrium at every communication point".to_owned()
+        }
+    }
 }
 
 /// Note on what follows from the constants of concrete.

@@ -6,7 +6,7 @@ use super::warming::Temperatures;
 use crate::body::solid::Measure;
 use crate::body::{BodyError, point_quantities};
 use crate::laws::solid::stress::von_mises;
-use crate::math::matrix3::{IDENTITY, Matrix3, packed, product, transposed};
+use crate::math::matrix3::{Matrix3, packed, product, scale_deviator, transposed};
 use crate::method::large_strain::{Deformable, Stresses};
 use crate::scene::{LargeStrain, Mechanics, Sampling, Scene};
 use crate::space::{Form, Functions, Mesh, Refused, Row, Samples, Value, fit, linear_row};
@@ -168,12 +168,7 @@ impl Probed {
 fn limit(stress: &mut Matrix3, most: f64) {
     let found = von_mises(packed(stress));
     if found > most {
-        let mean = (stress[0][0] + stress[1][1] + stress[2][2]) / 3.0;
-        for n in 0..9 {
-            let (a, b) = (n / 3, n % 3);
-            let spherical = mean * IDENTITY[a][b];
-            stress[a][b] = spherical + most / found * (stress[a][b] - spherical);
-        }
+        scale_deviator(stress, most / found);
     }
 }
 

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::{Course, Courses, Failure};
 use crate::laws::solid::large_strain::{Concrete, Deformed, LargeStrainLaw};
 use crate::laws::solid::stress::von_mises;
-use crate::math::matrix3::{IDENTITY, Matrix3, contraction, packed};
+use crate::math::matrix3::{IDENTITY, Matrix3, contraction, packed, scale_deviator};
 use crate::runtime::parallel::Team;
 use crate::space::{Form, Samples, Space};
 
@@ -477,7 +477,29 @@ impl Deformable {
         let entry = |a: usize, b: usize| {
             scale * (0..3).map(|k| load[a][k] * at.gradient[b][k]).sum::<f64>()
         };
-        std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)))
+        let mut stress = std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)));
+        if self.yields() {
+            // The law bounds Kirchhoff's deviator, which is Cauchy's times the dilatation that the points share.
+            scale_deviator(&mut stress, at.dilatation / self.shared_dilatation(u, point, &at));
+        }
+        stress
+    }
+
+    /// Mean dilatation of the points that share one with a point.
+    fn shared_dilatation(&self, u: &[[f64; 3]], point: usize, own: &Deformed) -> f64 {
+        let groups = &self.space.groups;
+        let group = &groups[groups.partition_point(|group| group.end <= point)];
+        if group.len() == 1 {
+            return own.dilatation;
+        }
+        let volume = &self.space.volume;
+        let (mut swollen, mut whole) = (0.0, 0.0);
+        for other in group.clone() {
+            let weight = volume.weights[other];
+            swollen += weight * Deformed::of(self.gradient(volume, other, u)).dilatation;
+            whole += weight;
+        }
+        swollen / whole
     }
 
     /// Largest von Mises stress of a point [Pa].

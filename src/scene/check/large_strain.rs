@@ -1,5 +1,6 @@
 //! Checks that solids of large strain can be modelled.
 
+mod idle;
 mod part;
 mod strand;
 
@@ -26,14 +27,15 @@ pub fn check(checker: &mut Checker) {
         let own = Materials { material, layers, check: material::sound };
         layers::materials(checker, &path, own, thickness);
         check_material(checker, &path, solid);
+        idle::check(checker, name, solid);
         check_kernels(checker, &path, solid);
         check_section(checker, &path, solid);
         check_heat(checker, &path, solid);
         check_faces(checker, &path, solid);
-        match (solid.inertia, solid.motion) {
-            (true, MotionSteps::Explicit) => check_explicit(checker, &path, solid),
-            (true, MotionSteps::Implicit) => check_implicit(checker, &path, name, solid),
-            (false, _) => check_rest(checker, &path, name, solid),
+        match solid.steps() {
+            Some(MotionSteps::Explicit) => check_explicit(checker, &path, solid),
+            Some(MotionSteps::Implicit) => check_implicit(checker, &path, name, solid),
+            None => check_rest(checker, &path, name, solid),
         }
         if solid.inertia {
             check_velocity(checker, &path, solid);
@@ -468,8 +470,12 @@ fn check_rest(checker: &mut Checker, path: &Path, name: &str, solid: &LargeStrai
         checker.refuse(&path.key("start"), message, "no `start`, or `inertia = true`");
     }
     let message = "a body in equilibrium takes no time steps";
-    let fine = solid.motion == MotionSteps::Explicit;
-    checker.require(fine, &path.key("motion"), message, "no `motion`, or `inertia = true`");
+    checker.require(
+        solid.motion.is_none(),
+        &path.key("motion"),
+        message,
+        "no `motion`, or `inertia = true`",
+    );
     if checker.scene.coupling_from(name).is_some() {
         let message = "a body in equilibrium does not stand on another";
         checker.refuse(&path.key("inertia"), message, "true, for a body with a coupling");

@@ -114,6 +114,15 @@ impl<'a> Checker<'a> {
         fine
     }
 
+    /// Returns true if the scene itself sets a key of a table, which no substance of the library brings along.
+    fn sets(&self, table: &Path, key: &str) -> bool {
+        let is_of_substance = self.scene.substances.iter().any(|named| named.table == *table);
+        let place = |path: &Path| self.source.span(path);
+        // Constants of a substance stand where its table is; a scene that was changed is written with all of them.
+        let has_places = !self.source.substances().is_empty();
+        !is_of_substance || has_places && place(&table.key(key)) != place(table)
+    }
+
     /// Refuses empty lists and repetitions in lists of names.
     fn distinct<T: PartialEq>(&mut self, path: &Path, names: &[T]) {
         self.require(!names.is_empty(), path, "the list is empty", "at least one name");
