@@ -80,7 +80,7 @@ GRIDS = {
     "printed_line": {"grid = [48, 16]": "grid = [4, 2]"},
     "printer_control": {"grid = [40, 12]": "grid = [4, 2]"},
     "quench_cracks": {"grid = [144, 48]": "grid = [4, 2]"},
-    "glass_strip": {"grid = [96, 125]": "grid = [4, 2]"},
+    "glass_strip": {"grid = [72, 93]": "grid = [4, 2]"},
     "wax_layers": {"grid = [24, 24]": "grid = [4, 3]"},
     "wax_line": {"grid = [60, 45]": "grid = [4, 3]"},
 }
