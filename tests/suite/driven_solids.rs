@@ -445,14 +445,12 @@ fn stress_at_probes_is_within_the_law() {
     });
     let probes: String = probes.collect();
     for hardening in [0.0, 2e5] {
-        let keys = format!(
-            "dimension = 2\nshape = {{ box = [20e-3, 1.0, 5e-3] }}\nmesh = {{ spacing = 1e-3 }}\n\
-             faces = {{ left = {{ clamped = true }}, right = {{ displacement = [0.0, 0.0, 0.0] }} }}\n"
-        );
+        let keys = "dimension = 2\nshape = { box = [20e-3, 1.0, 5e-3] }\nmesh = { spacing = 1e-3 }\n\
+                    faces = { left = { clamped = true }, right = { displacement = [0.0, 0.0, 0.0] } }\n";
         let metal = format!(
             "model = \"elastoplastic\", yield_stress = 1e4, isotropic_hardening = {hardening:?}"
         );
-        let text = (rubber(&keys) + &probes)
+        let text = (rubber(keys) + &probes)
             .replace("model = \"neo_hookean\"", &metal)
             .replace("young = 1e6", "young = 1e8");
         let mut trial = Trial::new(&text);
