@@ -42,6 +42,8 @@ def simulate(fmu: Path, drop: float, steps: int) -> Run:
 def count(damage: np.ndarray) -> int:
     """Cracks side by side, a little behind the foremost one."""
     broken = damage > CRACKED
+    if not broken.any():
+        return 0
     heights = np.nonzero(broken.any(axis=0))[0]
     row = broken[:, heights[-1] - round(BELOW / HEIGHT * (damage.shape[1] - 1))]
     return int(np.sum(row[1:] & ~row[:-1]))
