@@ -40,8 +40,8 @@ pub fn penny_in_cylinder(radius: f64, cylinder: f64, stress: f64) -> f64 {
 
 /// Energy release rate [J/m²] of a crack of a length a between two arms of a height H [m], whose ends are drawn apart:
 /// `3/2 PΔ/(a + 0.677 H)` by the product of load per width and opening [J/m], as the compliance goes with the cube of
-/// the length and the turning in front of the crack makes it longer (R. M. L. Foote & V. T.
-/// Buchwald 1985, Int. J. Fracture 29, 125).
+/// the length and the turning in front of the crack makes it longer (R. M. L. Foote & V. T. Buchwald 1985, Int. J.
+/// Fracture 29, 125).
 pub fn cantilever_release(work: f64, length: f64, height: f64) -> f64 {
     1.5 * work / (length + TURNED * height)
 }

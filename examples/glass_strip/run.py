@@ -78,7 +78,7 @@ def check(runs: list[Run], steps: int):
     if steps < STEPS:
         return
     for run in runs:
-        # Where the first cold makes cracks jump, the mean of a step's ends is not its work.
+        # The work of a step is the mean of its ends, which a jump of cracks at first departs from.
         work, elastic, dissipated = run.energies[-1] - run.energies[STEPS // 2]
         assert elastic + dissipated < 1.02 * work, run.energies[-1]
     assert [count(run.damage) for run in runs] == [1, 2, 3]

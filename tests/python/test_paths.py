@@ -120,12 +120,8 @@ def test_a_run_from_a_saved_state_is_that_from_the_start(of, request):
     assert again.steps < 5 and again.part == 1.0
 
 
-def test_few_runs_find_the_path_of_a_hairpin(found, scene):
-    best, _ = found
-    assert best.simulations <= 60 and best.ratio > 7.3
-    assert best.best.largest < 0.15 * best.diameter and best.best.gap < 0.1 * best.diameter
-    # The report has the values that the unit gives on that path.
-    steps = np.diff(best.times)
+def assert_laid(scene, best, steps):
+    """A unit that follows the reported path in the given steps [s] gives the reported values."""
     with Unit(scene) as unit:
         unit["ink.nozzle_z"] = best.height
         for place, after, step in zip(best.places, best.places[1:], steps, strict=False):
@@ -135,6 +131,15 @@ def test_few_runs_find_the_path_of_a_hairpin(found, scene):
             unit.step(step)
         assert np.isclose(unit["ink.largest_deviation"], best.best.largest, rtol=1e-6)
         assert np.isclose(unit["ink.gap"], best.best.gap, rtol=1e-6)
+
+
+def test_few_runs_find_the_path_of_a_hairpin(found, scene):
+    best, _ = found
+    assert best.simulations <= 60 and best.ratio > 7.3
+    assert best.best.largest < 0.15 * best.diameter and best.best.gap < 0.1 * best.diameter
+    # The report has the values that the unit gives on that path.
+    steps = np.diff(best.times)
+    assert_laid(scene, best, steps)
 
 
 def test_coarse_runs_save_fine_ones(scene):
@@ -228,15 +233,7 @@ def test_a_path_of_particles_is_found(particles):
     assert 0.0 < best.naive.lag < 1e-3
     # Of the same durations to rounding, on which the iterations of particles depend.
     steps = np.hypot(*np.diff(best.places, axis=0).T) / SPEED
-    with Unit(particles) as unit:
-        unit["ink.nozzle_z"] = best.height
-        for place, after, step in zip(best.places, best.places[1:], steps, strict=False):
-            unit["ink.nozzle_x"], unit["ink.nozzle_y"] = place
-            rates = dict(zip(["ink.nozzle_x", "ink.nozzle_y"], (after - place) / step, strict=True))
-            unit.set_input_derivatives({name: [rate] for name, rate in rates.items()})
-            unit.step(step)
-        assert np.isclose(unit["ink.largest_deviation"], best.best.largest, rtol=1e-6)
-        assert np.isclose(unit["ink.gap"], best.best.gap, rtol=1e-6)
+    assert_laid(particles, best, steps)
 
 
 def test_finished_runs_are_not_repeated(found, scene, monkeypatch):

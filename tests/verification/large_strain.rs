@@ -159,7 +159,7 @@ fn a_drawn_strip_bears_most_where_considere_says() {
 }
 
 #[test]
-fn a_drawn_bar_bears_most_where_considere_says() {
+fn round_bar_bears_the_largest_load_of_considere() {
     // σ_y′ = σ_y with elastic strains: 615.0 MPa of the reference section at λ = 1.1334, 79.46 kN at 7.11 mm.
     // Half of Simo and Hughes's round bar.
     let mesh = Mesh::of_box(Form::Axisymmetric, [0.0; 3], [6.413, 0.0, 26.667], [2, 1, 4]);
