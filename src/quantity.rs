@@ -50,6 +50,10 @@ pub enum Quantity {
     EnergyPerArea,
     /// Inverse of the radius of a bent line.
     Curvature,
+    /// Expected number of failures per volume.
+    FailureDensity,
+    /// Expected number of failures per area.
+    SurfaceFailureDensity,
 }
 
 /// A unit for display: `display value = factor · SI value + offset`.
@@ -65,7 +69,7 @@ const fn scaled(name: &'static str, factor: f64) -> Option<DisplayUnit> {
 }
 
 impl Quantity {
-    pub const ALL: [Quantity; 38] = [
+    pub const ALL: [Quantity; 40] = [
         Quantity::Time,
         Quantity::Temperature,
         Quantity::TemperatureDifference,
@@ -104,6 +108,8 @@ impl Quantity {
         Quantity::StressIntensity,
         Quantity::EnergyPerArea,
         Quantity::Curvature,
+        Quantity::FailureDensity,
+        Quantity::SurfaceFailureDensity,
     ];
 
     /// The quantity per metre of a plane model's depth; unchanged if independent of depth.
@@ -164,6 +170,8 @@ impl Quantity {
             Quantity::StressIntensity => "StressIntensity",
             Quantity::EnergyPerArea => "EnergyPerArea",
             Quantity::Curvature => "Curvature",
+            Quantity::FailureDensity => "FailureDensity",
+            Quantity::SurfaceFailureDensity => "SurfaceFailureDensity",
         }
     }
 
@@ -204,6 +212,8 @@ impl Quantity {
             Quantity::StressIntensity => "Pa.m(1/2)",
             Quantity::EnergyPerArea => "J/m2",
             Quantity::Curvature => "1/m",
+            Quantity::FailureDensity => "1/m3",
+            Quantity::SurfaceFailureDensity => "1/m2",
         }
     }
 
@@ -243,6 +253,8 @@ impl Quantity {
             Quantity::StressIntensity => return None,
             Quantity::EnergyPerArea => [1, 0, -2, 0],
             Quantity::Curvature => [0, -1, 0, 0],
+            Quantity::FailureDensity => [0, -3, 0, 0],
+            Quantity::SurfaceFailureDensity => [0, -2, 0, 0],
         })
     }
 
@@ -309,6 +321,8 @@ impl Quantity {
             Quantity::StressIntensity => 1e6,
             Quantity::EnergyPerArea => 10.0,
             Quantity::Curvature => 1.0,
+            Quantity::FailureDensity => 1e9,
+            Quantity::SurfaceFailureDensity => 1e6,
         }
     }
 }

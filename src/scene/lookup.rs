@@ -481,6 +481,17 @@ impl Gives {
     pub fn is_mechanical(&self) -> bool {
         !matches!(self, Gives::Temperature)
     }
+
+    /// Returns true if it depends on what the body has borne before.
+    pub fn is_of_history(&self) -> bool {
+        matches!(
+            self,
+            Gives::PlasticStrain
+                | Gives::Damage
+                | Gives::FailureDensity
+                | Gives::SurfaceFailureDensity
+        )
+    }
 }
 
 /// The two parts of `BODY.FACE`.

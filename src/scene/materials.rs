@@ -11,7 +11,7 @@ use serde::{Serialize, Serializer};
 use super::locate::Path;
 use super::shorthand::NamedSubstance;
 use super::types::{Body, Layer, Probe, Scene, Side, Solid};
-use crate::laws::{Constants, Material, Thermoelastic};
+use crate::laws::{Constants, Material, Thermoelastic, Weibull};
 
 /// Tolerance, relative to a body's thickness, for points on an interface and for the sum of layers.
 pub const SLACK: f64 = 1e-9;
@@ -290,7 +290,13 @@ impl Solid {
 
     /// Returns true if part of the body has a distribution of flaws.
     pub fn has_flaws(&self) -> bool {
-        self.materials_of_layers().into_iter().any(|own| own.fracture.weibull.is_some())
+        self.has_flaws_of(|_| true)
+    }
+
+    /// Returns true if a material has a distribution of flaws of a kind.
+    pub fn has_flaws_of(&self, kind: impl Fn(&Weibull) -> bool) -> bool {
+        let mut materials = self.materials_of_layers().into_iter();
+        materials.any(|own| own.fracture.weibull.as_ref().is_some_and(&kind))
     }
 
     /// Temperature at which the body is free of thermal stress [K].

@@ -99,4 +99,8 @@ pub enum Gives {
     PlasticStrain,
     /// Damage, 0 to 1, for bodies that crack.
     Damage,
+    /// Density of the failure risk over the volume [1/m³], for materials with `weibull` and a `volume`.
+    FailureDensity,
+    /// The same over the faces of the body [1/m²], for an `area`.
+    SurfaceFailureDensity,
 }

@@ -106,6 +106,61 @@ fn suddenly_cooled_half_spaces_have_their_risk() {
     }
 }
 
+/// A probe of a plate, and what it gives.
+fn probe(name: &str, at: [f64; 3], gives: &str) -> String {
+    format!("\n[[probe]]\nname = \"{name}\"\nin = \"plate\"\nat = {at:?}\ngives = [\"{gives}\"]\n")
+}
+
+/// Within a plate between two temperatures the density follows the stress of the plate, `PER_KELVIN` times the
+/// temperature below the stress-free one; on the faces, too.
+#[test]
+fn densities_follow_the_stress_at_points() {
+    let density = |biaxial: f64, cold: f64, size: f64| {
+        biaxial * (cold * PER_KELVIN / STRENGTH).powi(10) / size
+    };
+    let heights: [f64; 3] = [0.0, -0.25e-3, -0.6e-3];
+    for (keys, ratio, gives, size) in [
+        ("volume = 2e-9", 2.0, "failure_density", 2e-9),
+        ("volume = 2e-9, directions = \"normal\"", equibiaxial_ratio(10), "failure_density", 2e-9),
+        ("area = 3e-6", 2.0, "surface_failure_density", 3e-6),
+    ] {
+        let points = heights.iter().enumerate().map(|(n, &z)| {
+            // Points on a side are on a face, whatever their height.
+            probe(&format!("p{n}"), [-1.5e-3, 0.3e-3, z], gives)
+        });
+        let plate = held(BOX, &one(&flaws(10, keys)), [333.15, 333.15], [293.15, 393.15]);
+        let mut trial = Trial::new(&(plate + &points.collect::<String>()));
+        trial.step(1.0);
+        for (n, z) in heights.iter().enumerate() {
+            let found = trial.get(&format!("p{n}.{gives}"));
+            let wanted = density(ratio, (40.0 + 1e5 * z).max(0.0), size);
+            let scale = density(ratio, 40.0, size);
+            assert!((found - wanted).abs() < 2e-5 * scale, "{keys} at {z}: {found} {wanted}");
+        }
+        // Warmed throughout, nothing is in tension: the density so far stays.
+        let before = trial.get(&format!("p0.{gives}"));
+        trial.step(1.0);
+        assert!(trial.get(&format!("p0.{gives}")) >= before);
+    }
+}
+
+/// Means of the density over the tiles of a face add up to the risk of flaws on this face.
+#[test]
+fn densities_over_a_face_add_up_to_the_risk() {
+    let field = "\n[[field]]\nname = \"map\"\non = \"plate.top\"\ngives = [\"surface_failure_density\"]\n\
+                 footprint = { tiles = { count = [15, 10], size = [3e-3, 2e-3] } }\n";
+    let text = spot(&one(&flaws(4, "area = 1e-6")), "", COLD);
+    let mut trial = Trial::new(&(text + field));
+    trial.step(1e-3);
+    let cell = 3e-3 / 15.0 * 2e-3 / 10.0;
+    let all = (1..=15)
+        .flat_map(|i| (1..=10).map(move |j| format!("map.surface_failure_density[{i},{j}]")));
+    let found = all.map(|name| trial.get(&name)).sum::<f64>() * cell;
+    let risk = trial.get("plate.failure_risk");
+    // The bottom and the sides bear little.
+    assert!(found > 0.9 * risk && found < 1.02 * risk, "{found} {risk}");
+}
+
 /// A plate of some material under a cold spot.
 fn spot(material: &str, keys: &str, load: &str) -> String {
     format!(
@@ -198,6 +253,43 @@ fn what_was_reached_stays_and_grows_place_by_place() {
 }
 
 const RANGE: &str = "range = { x = [-0.8e-3, 0.8e-3] }";
+
+/// The derivative of the risk of the moment is the limit of differences: with respect to inputs which act at once, and
+/// to time.
+#[test]
+fn the_risk_of_the_moment_has_a_derivative() {
+    const FACES: &str =
+        "[body.plate.faces]\nbottom = { clamped = true }\nleft = { temperature = 480.0 }\n";
+    for keys in ["volume = 1e-9", "volume = 1e-9, directions = \"normal\"", "area = 1e-6"] {
+        let load = COLD.replace("{ heat", "{ x = 0.4e-3, pressure = -2e7, heat");
+        let text = spot(&one(&flaws(6, keys)), "", &format!("{load}\n{RANGE}"))
+            .replace("[body.plate.faces]\nbottom = { clamped = true }\n", FACES)
+            .replace("[\"heat_flux\"]", "[\"heat_flux\", \"pressure\"]");
+        let mut trial = Trial::new(&text);
+        trial.step(1e-3);
+        let names = ["plate.present_failure_risk".to_owned()];
+        let start = trial.state.clone();
+        for (input, step) in [("spot.pressure", 1e4), ("plate.left.temperature", 1e-2)] {
+            let found = trial.changes(&names, &[(input, 1.0)])[0];
+            let [above, below] = [step, -step].map(|by| {
+                trial.restart(&start);
+                trial.set(input, start.inputs[trial.input(input)] + by);
+                trial.get(&names[0])
+            });
+            trial.restart(&start);
+            let wanted = (above - below) / (2.0 * step);
+            assert!(wanted != 0.0 && off(found, wanted) < 1e-4, "{keys} {input}: {found} {wanted}");
+        }
+        let h = 1e-7;
+        let below = trial.get(&names[0]);
+        trial.step(h);
+        let found = trial.rates(&names)[0];
+        trial.restart(&start);
+        trial.step(2.0 * h);
+        let wanted = (trial.get(&names[0]) - below) / (2.0 * h);
+        assert!(off(found, wanted) < 2e-3, "{keys}: {found} {wanted}");
+    }
+}
 
 #[test]
 fn mirror_images_count_like_the_whole_body() {

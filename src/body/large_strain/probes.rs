@@ -159,7 +159,7 @@ impl Probed {
             Measure::Stress(place) => own.stress[place],
             Measure::OfStress(measure, _) => measure(own.stress),
             Measure::PlasticStrain => own.plastic_strain,
-            Measure::Damage => return Err(BodyError::NoSuchReading),
+            Measure::Damage | Measure::FailureDensity(_) => return Err(BodyError::NoSuchReading),
         })
     }
 }

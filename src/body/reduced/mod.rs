@@ -175,6 +175,7 @@ impl ReducedBody {
             Measure::OfStress(measure, rate) => Measured::Stress(measure, rate, stress()),
             Measure::PlasticStrain => panic!("nothing yields in a reduced model"),
             Measure::Damage => panic!("nothing cracks in a reduced model"),
+            Measure::FailureDensity(_) => panic!("nothing has flaws in a reduced model"),
         }
     }
 

@@ -10,7 +10,7 @@ use super::SolidBody;
 use super::memo::SolidMemo;
 use super::reader::SolidReader;
 use crate::body::BodyError;
-use crate::method::fem::Flaws;
+use crate::method::fem::{Flaws, FlawsIn};
 use crate::state::{Field, Layout, Per};
 
 /// Value of a node before anything is noted [Pa].
@@ -195,6 +195,22 @@ impl SolidReader<'_> {
         };
         self.memo.keep_risk_so_far(risk);
         Ok(risk)
+    }
+
+    /// Failure density so far at a point [1/m³, 1/m² of flaws in faces].
+    pub fn failure_density_at(
+        &mut self,
+        which: FlawsIn,
+        point: [f64; 3],
+    ) -> Result<f64, BodyError> {
+        let body = self.body;
+        let Some(flaws) = body.solid.flaws() else { return Err(BodyError::NoSuchReading) };
+        let stress = match body.noted(self.state) {
+            Some(Noted { stress, .. }) => stress,
+            None => self.memo.equivalent_stress(body, flaws, self.state)?,
+        };
+        let density = body.solid.failure_density_at(flaws, which, stress, point);
+        Ok(density.min(f64::MAX))
     }
 
     /// The risk under the present stress.

@@ -91,9 +91,10 @@ pub fn flaw_quantities(flaw: &Flaw) -> Vec<(usize, Descriptor)> {
 }
 
 impl SolidBody {
-    fn crack(&self, flaw: usize) -> Result<&Crack, BodyError> {
-        let found = self.cracks.iter().find(|(place, _)| *place == flaw);
-        Ok(&found.ok_or(BodyError::NoSuchReading)?.1)
+    /// A flaw, by its place among the scene's, in the order of which they are listed.
+    pub(super) fn crack(&self, flaw: usize) -> Result<&Crack, BodyError> {
+        let found = self.cracks.binary_search_by_key(&flaw, |(place, _)| *place);
+        Ok(&self.cracks[found.map_err(|_| BodyError::NoSuchReading)?].1)
     }
 }
 

@@ -170,6 +170,8 @@ impl SolidBody {
 
     /// Present depth of a flaw that grows, by its place among the scene's [m].
     pub(super) fn grown_depth(&self, state: &[f64], flaw: usize) -> Option<f64> {
+        // Thousands of flaws of fixed depth are read without a search.
+        self.crack(flaw).ok()?.growing()?;
         let number = self.growing().position(|(place, _)| place == flaw)?;
         let [depths, _] = self.growth_of(state);
         Some(depths[number])

@@ -32,6 +32,18 @@ impl SolidChange<'_> {
         let fields = now.memo.solve(body, now.state)?;
         Ok(body.solid.max_stress_rate(fields, change.memo.solve(body, change.state)?))
     }
+
+    /// Rate of the risk of failure under the present stress.
+    pub fn present_risk_rate(&mut self) -> Result<f64, BodyError> {
+        let Self { now, change } = self;
+        let body = now.body;
+        let Some(flaws) = body.solid.flaws() else { return Err(BodyError::NoSuchReading) };
+        let fields = now.memo.solve(body, now.state)?;
+        let rates = change.memo.solve(body, change.state)?;
+        let rate = body.solid.equivalent_stress_rate(flaws, fields, rates);
+        let present = now.memo.equivalent_stress(body, flaws, now.state)?;
+        Ok(body.solid.risk_rate(flaws, present, &rate))
+    }
 }
 
 impl Linear for SolidBody {

@@ -6,6 +6,7 @@ use super::rows;
 use crate::body::{BodyError, Descriptor, Direct};
 use crate::laws::stress::{max_principal, von_mises};
 use crate::laws::stress_rate::{max_principal_rate, von_mises_rate};
+use crate::method::fem::FlawsIn;
 use crate::quantity::Quantity;
 use crate::scene::Gives;
 
@@ -26,6 +27,7 @@ pub enum Measure {
     OfStress(fn([f64; 6]) -> f64, fn([f64; 6], [f64; 6]) -> f64),
     PlasticStrain,
     Damage,
+    FailureDensity(FlawsIn),
 }
 
 /// All quantities, in the order in which a probe lists them.
@@ -33,7 +35,7 @@ pub fn point_quantities() -> &'static [PointQuantity] {
     &QUANTITIES
 }
 
-const QUANTITIES: [PointQuantity; 14] = [
+const QUANTITIES: [PointQuantity; 16] = [
     PointQuantity {
         descriptor: Descriptor {
             key: "temperature",
@@ -83,6 +85,26 @@ const QUANTITIES: [PointQuantity; 14] = [
         given_by: &[Gives::Damage],
         measure: Measure::Damage,
     },
+    PointQuantity {
+        descriptor: Descriptor {
+            key: "failure_density",
+            words: "density of the failure risk so far over the volume",
+            quantity: Quantity::FailureDensity,
+            direct: Direct::Nothing,
+        },
+        given_by: &[Gives::FailureDensity],
+        measure: Measure::FailureDensity(FlawsIn::Volume),
+    },
+    PointQuantity {
+        descriptor: Descriptor {
+            key: "surface_failure_density",
+            words: "density of the failure risk so far over the faces",
+            quantity: Quantity::SurfaceFailureDensity,
+            direct: Direct::Nothing,
+        },
+        given_by: &[Gives::SurfaceFailureDensity],
+        measure: Measure::FailureDensity(FlawsIn::Faces),
+    },
 ];
 
 const fn stress(key: &'static str, words: &'static str) -> Descriptor {
@@ -119,7 +141,10 @@ impl PointQuantity {
 
     /// Returns true if it depends on the body's history.
     pub(super) fn is_of_history(&self) -> bool {
-        matches!(self.measure, Measure::PlasticStrain | Measure::Damage)
+        matches!(
+            self.measure,
+            Measure::PlasticStrain | Measure::Damage | Measure::FailureDensity(_)
+        )
     }
 
     /// Returns its place among the components that rows can read, if it is such a component.
@@ -144,6 +169,7 @@ impl PointQuantity {
             Measure::OfStress(measure, _) => measure(reader.stress_at(point)?),
             Measure::PlasticStrain => reader.plastic_strain_at(point)?,
             Measure::Damage => reader.damage_at(point)?,
+            Measure::FailureDensity(which) => reader.failure_density_at(which, point)?,
         })
     }
 
@@ -158,7 +184,9 @@ impl PointQuantity {
             Measure::Displacement(axis) => change.displacement_along(axis, point)?,
             Measure::Stress(place) => change.stress_component(place, point)?,
             Measure::OfStress(_, rate) => rate(now.stress_at(point)?, change.stress_at(point)?),
-            Measure::PlasticStrain | Measure::Damage => return Err(BodyError::NoRate),
+            Measure::PlasticStrain | Measure::Damage | Measure::FailureDensity(_) => {
+                return Err(BodyError::NoRate);
+            }
         })
     }
 }

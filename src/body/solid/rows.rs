@@ -231,7 +231,9 @@ impl Rows {
             });
             made.of_cells.insert((field, cell), own);
         }
-        for (place, crack) in cracks.iter().filter(|(place, _)| choice.flaws.contains(place)) {
+        for (place, crack) in
+            cracks.iter().filter(|(place, _)| choice.flaws.binary_search(place).is_ok())
+        {
             if let Some(functional) = crack.functional(solid) {
                 made.rows.push(LazyRow::of(functional));
                 made.of_flaws.insert(*place, vec![(made.rows.len() - 1, [1.0; CLASSES])]);

@@ -238,7 +238,7 @@ const TOTALS: [Total; 31] = [
         },
         of: Offered::Breaking,
         read: |reader| reader.present_risk(),
-        rate: |_| Err(BodyError::NoRate),
+        rate: |both| both.present_risk_rate(),
     },
     place_of_risk(
         "failure_place_x",

@@ -49,6 +49,36 @@ impl NormalAverage {
         (2.0 * self.modulus + 1.0) * (a * b).sqrt() * sum / self.cosines.len() as f64
     }
 
+    /// [`Self::risk`] with its derivatives with respect to `second` and `third`.
+    pub fn with_slopes(&self, second: f64, third: f64) -> (f64, [f64; 2]) {
+        let [a, b] = [second, third].map(|ratio| 1.0 / (2.0 - ratio));
+        let (mean, half) = (0.5 * (a + b), 0.5 * (a - b));
+        // Means of J, and of its slopes with respect to a and b.
+        let mut sums = [0.0; 3];
+        for cosine in &self.cosines {
+            let (value, slope) = self.with_slope_at(mean + half * cosine);
+            sums[0] += value;
+            sums[1] += 0.5 * (1.0 + cosine) * slope;
+            sums[2] += 0.5 * (1.0 - cosine) * slope;
+        }
+        let [value, of_a, of_b] = sums.map(|sum| sum / self.cosines.len() as f64);
+        let root = (2.0 * self.modulus + 1.0) * (a * b).sqrt();
+        let slope = |own: f64, of_own: f64| root * own * own * (0.5 * value / own + of_own);
+        (root * value, [slope(a, of_a), slope(b, of_b)])
+    }
+
+    /// J and its slope, by the cubic through the four nearest entries.
+    fn with_slope_at(&self, w: f64) -> (f64, f64) {
+        let place = w * INTERVALS as f64;
+        let first = (place as usize).saturating_sub(1).min(INTERVALS - 3);
+        let x = place - first as f64;
+        let [a, b, c, d] = [x, x - 1.0, x - 2.0, x - 3.0];
+        let own = &self.table[first..first + 4];
+        let slope = ((a * b + a * c + b * c) * own[3] - (b * c + b * d + c * d) * own[0]) / 6.0
+            + 0.5 * ((a * c + a * d + c * d) * own[1] - (a * b + a * d + b * d) * own[2]);
+        (self.at(w), slope * INTERVALS as f64)
+    }
+
     /// J by the cubic through the four nearest entries.
     fn at(&self, w: f64) -> f64 {
         let place = w * INTERVALS as f64;
@@ -140,6 +170,25 @@ mod tests {
         for size in [1e3, 1e8, 1e15] {
             let found = average.risk(-size, -size) * size;
             assert!((found / (21.0 / 22.0) - 1.0).abs() < 3e-3, "{size}: {found}");
+        }
+    }
+
+    #[test]
+    fn slopes_are_those_of_a_small_change() {
+        for (modulus, [second, third]) in
+            [(5.0, [0.3, -0.2]), (10.0, [0.9, 0.1]), (12.5, [-0.4, -3.0]), (40.0, [0.97, 0.95])]
+        {
+            let average = NormalAverage::of(modulus);
+            let (value, slopes) = average.with_slopes(second, third);
+            assert_eq!(value, average.risk(second, third));
+            let step = 1e-6;
+            let central = [
+                average.risk(second + step, third) - average.risk(second - step, third),
+                average.risk(second, third + step) - average.risk(second, third - step),
+            ];
+            for (found, wanted) in slopes.into_iter().zip(central.map(|own| own / (2.0 * step))) {
+                assert!((found - wanted).abs() < 1e-6 * value * modulus, "{found} {wanted}");
+            }
         }
     }
 }

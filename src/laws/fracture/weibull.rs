@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::normal_average::NormalAverage;
 use super::slow_growth::SlowGrowth;
 use crate::laws::stress::principals;
+use crate::laws::stress_rate::principal_rates;
 use crate::limits::{plausible, positive, within};
 
 /// Distribution of flaws as a scene sets it.
@@ -136,6 +137,45 @@ impl FlawStatistics {
         if sum == 1.0 { first } else { first * sum.powf(1.0 / self.modulus) }
     }
 
+    /// Rate of [`Self::continued`] when the stress changes. It is that of the side on which the stress is.
+    pub fn continued_rate(&self, stress: [f64; 6], rate: [f64; 6]) -> f64 {
+        let [first, second, third] = principals(stress);
+        let rates = principal_rates(stress, rate);
+        let along =
+            |slopes: [f64; 3]| slopes.iter().zip(rates).map(|(slope, own)| slope * own).sum();
+        match self.continued(stress) {
+            negative if negative < 0.0 => {
+                let [third, second, first] = self.slopes([-third, -second, -first]);
+                along([first, second, third])
+            }
+            _ => along(self.slopes([first, second, third])),
+        }
+    }
+
+    /// Derivatives of [`Self::of_principals`] with respect to these.
+    fn slopes(&self, [first, second, third]: [f64; 3]) -> [f64; 3] {
+        if first <= 0.0 {
+            return [0.0; 3];
+        }
+        let [second, third] = [second / first, third / first];
+        let (sum, [of_second, of_third]) = match &self.average {
+            Some(average) => average.with_slopes(second.min(1.0), third.min(1.0)),
+            None => {
+                let [of_second, of_third] = [second, third].map(|own| self.power(own));
+                let slope = |power: f64, ratio: f64| {
+                    if power > 0.0 { self.modulus * power / ratio } else { 0.0 }
+                };
+                let slopes = [slope(of_second, second), slope(of_third, third)];
+                (1.0 + of_second + of_third, slopes)
+            }
+        };
+        // Of first · sum^(1/m).
+        let root = sum.powf(1.0 / self.modulus);
+        let [of_second, of_third] =
+            [of_second, of_third].map(|own| root * own / (self.modulus * sum));
+        [root - second * of_second - third * of_third, of_second, of_third]
+    }
+
     /// `⟨x⟩^m`, by multiplication where the modulus is a whole number.
     pub fn power(&self, ratio: f64) -> f64 {
         let whole = self.modulus as i32;
@@ -198,6 +238,29 @@ mod tests {
             let shear = [0.0, 0.0, 0.0, 1e8, 0.0, 0.0];
             assert_eq!(flaws.continued(shear), flaws.equivalent(shear));
             assert!(flaws.continued([f64::NAN; 6]).is_nan());
+        }
+    }
+
+    #[test]
+    fn the_rate_is_that_of_a_small_change() {
+        let change = [0.3, -0.7, 0.2, 0.5, -0.4, 0.1].map(|own| own * 1e8);
+        for directions in [Directions::Independent, Directions::Normal] {
+            for modulus in [3.0, 10.0, 17.5] {
+                let flaws = flaws(modulus, directions);
+                for stress in [
+                    [2e8, 1e8, -5e7, 3e7, -2e7, 4e7],
+                    // Equal principal stresses, and compression along all axes.
+                    [2e8, 2e8, 0.0, 0.0, 0.0, 0.0],
+                    [-2e8, -1e8, -3e8, 3e7, -2e7, 4e7],
+                ] {
+                    let at = |by: f64| {
+                        flaws.continued(std::array::from_fn(|i| stress[i] + by * change[i]))
+                    };
+                    let wanted = (at(1e-5) - at(-1e-5)) / 2e-5;
+                    let found = flaws.continued_rate(stress, change);
+                    assert!((found - wanted).abs() < 2e-6 * 2e8, "m {modulus}: {found} {wanted}");
+                }
+            }
         }
     }
 }

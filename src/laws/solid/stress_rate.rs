@@ -42,6 +42,20 @@ pub fn max_principal_rate(stress: [f64; 6], rate: [f64; 6]) -> f64 {
     within.symmetric_eigenvalues().max()
 }
 
+/// Rates of the three principal stresses in descending order, each along a direction of its own. Where some are equal,
+/// only sums over them have a meaning, and only measures that treat them alike follow.
+pub fn principal_rates(stress: [f64; 6], rate: [f64; 6]) -> [f64; 3] {
+    let scale = stress.iter().fold(f64::MIN_POSITIVE, |scale, s| scale.max(s.abs()));
+    let eigen = matrix(stress.map(|s| s / scale)).symmetric_eigen();
+    let rate = matrix(rate);
+    let mut order = [0, 1, 2];
+    order.sort_by(|&i, &j| eigen.eigenvalues[j].total_cmp(&eigen.eigenvalues[i]));
+    order.map(|i| {
+        let along = eigen.eigenvectors.column(i);
+        (along.transpose() * rate * along)[(0, 0)]
+    })
+}
+
 fn matrix([xx, yy, zz, xy, yz, xz]: [f64; 6]) -> Matrix3<f64> {
     Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
 }
@@ -49,6 +63,7 @@ fn matrix([xx, yy, zz, xy, yz, xz]: [f64; 6]) -> Matrix3<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::laws::stress::principals;
 
     const STRESS: [f64; 6] = [3.0, -1.0, 2.0, 0.7, -0.4, 1.1];
     const RATE: [f64; 6] = [-0.3, 0.8, 0.1, 0.5, 0.2, -0.6];
@@ -78,5 +93,24 @@ mod tests {
             let rate = von_mises_rate(stress, RATE);
             assert!((rate - ahead(&von_mises)).abs() < 1e-6, "{stress:?}");
         }
+    }
+
+    #[test]
+    fn principal_rates_are_those_of_a_small_change() {
+        let central = |i: usize| {
+            let [before, after] = [-1e-6, 1e-6].map(|by| principals(moved(STRESS, by))[i]);
+            (after - before) / 2e-6
+        };
+        let found = principal_rates(STRESS, RATE);
+        for (i, found) in found.into_iter().enumerate() {
+            assert!((found - central(i)).abs() < 1e-8, "{i}: {found} {}", central(i));
+        }
+        // Equal ones have a sum only.
+        let found = principal_rates([2.0, 2.0, 1.0, 0.0, 0.0, 0.0], RATE);
+        assert!((found[0] + found[1] - RATE[0] - RATE[1]).abs() < 1e-14);
+        assert!((found[2] - RATE[2]).abs() < 1e-14);
+        // The rate of rest is that of any basis.
+        let sum: f64 = principal_rates([0.0; 6], RATE).iter().sum();
+        assert!((sum - RATE[..3].iter().sum::<f64>()).abs() < 1e-14);
     }
 }

@@ -36,7 +36,7 @@ pub use heat::{HeatLoads, HeatProblem, ModalRow, ThermalFace};
 pub use nonlinear::{NonlinearFailure, heat_mesh};
 pub use plan::{Mechanics, Plan, PlanRequest, Refinement};
 pub use solid::{
-    ClassRow, Deformation, Extreme, Flaws, ImageStress, NodalFields, Remembered, SolidFem,
+    ClassRow, Deformation, Extreme, Flaws, FlawsIn, ImageStress, NodalFields, Remembered, SolidFem,
     SolidLoads, SolidModes, Temperatures,
 };
 pub use solver_choice::{

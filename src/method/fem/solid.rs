@@ -1,6 +1,7 @@
 //! A solid: heat and elasticity on one mesh, and readings of their solution.
 
 mod extremes;
+mod failure_density;
 mod influence;
 mod modal;
 mod recovered;
@@ -27,6 +28,7 @@ use crate::method::mesh::{Geometry, Mesh, Parity};
 use crate::runtime::allowance::Allowance;
 use crate::state::Layout;
 pub use extremes::Extreme;
+pub use failure_density::FlawsIn;
 pub use influence::ClassRow;
 pub use modal::SolidModes;
 use recovered::{FaceStresses, Recoveries};

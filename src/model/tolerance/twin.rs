@@ -56,9 +56,8 @@ impl Twin {
         }
         let mut simplified = Vec::new();
         let own = |gives: &[Gives]| -> Vec<Gives> {
-            let wanted = |what: &&Gives| {
-                what.is_mechanical() == is_mechanical && **what != Gives::PlasticStrain
-            };
+            let wanted =
+                |what: &&Gives| what.is_mechanical() == is_mechanical && !what.is_of_history();
             gives.iter().filter(wanted).copied().collect()
         };
         let mut twin = scene.alone(name);

@@ -5,7 +5,7 @@ use crate::scene::LargeStrain;
 use crate::scene::grid::{Grid, lateral_extents, section_size};
 use crate::scene::locate::Path;
 use crate::scene::lookup::{Place, split_place};
-use crate::scene::types::{Disc, FaceName, Field, Plane, Shape, Solid};
+use crate::scene::types::{Disc, FaceName, Field, Gives, Plane, Shape, Solid};
 
 pub fn check(checker: &mut Checker) {
     for (i, field) in checker.scene.field.iter().enumerate() {
@@ -21,8 +21,7 @@ pub fn check(checker: &mut Checker) {
             field_cells::check(checker, &path, field, footprint);
             if let Some(solid) = field.body().and_then(|body| checker.scene.solid(body)) {
                 let body = field.body().unwrap_or_default();
-                probe::yields(checker, &path.at("gives"), &field.gives, (body, solid));
-                probe::cracks(checker, &path.at("gives"), &field.gives, (body, solid));
+                probe::gives_of_solid(checker, &path, &field.gives, (body, solid));
             }
             continue;
         }
@@ -30,11 +29,22 @@ pub fn check(checker: &mut Checker) {
         let place = place(checker, &path, field);
         if let Some((_, solid)) = place {
             let body = field.body().unwrap_or_default();
-            probe::yields(checker, &path.at("gives"), &field.gives, (body, solid));
+            probe::gives_of_solid(checker, &path, &field.gives, (body, solid));
+            surface_density(checker, &path, field);
         }
         if let Some((place, solid)) = place.filter(|_| is_fine) {
             extent(checker, &path.at("size"), &Grid::at(place, field, &solid.shape), &solid.shape);
         }
+    }
+}
+
+/// Refuses a density over the faces in a section.
+fn surface_density(checker: &mut Checker, path: &Path, field: &Field) {
+    let place = field.gives.iter().position(|gives| *gives == Gives::SurfaceFailureDensity);
+    if let Some(place) = place.filter(|_| field.on.is_none()) {
+        let message = "a section lies within the body, whose flaws are on its faces";
+        let path = path.at("gives").index(place);
+        checker.refuse(&path, message, "`on = \"BODY.FACE\"`, or quantities of the interior");
     }
 }
 

@@ -18,8 +18,8 @@ pub fn check(checker: &mut Checker) {
         if let Some(solid) = checker.body(&path.at("in"), &probe.body) {
             place(checker, &path.at("at"), probe, &solid.shape);
             side(checker, &path.at("side"), probe, solid);
-            yields(checker, &path.at("gives"), &probe.gives, (&probe.body, solid));
-            cracks(checker, &path.at("gives"), &probe.gives, (&probe.body, solid));
+            gives_of_solid(checker, &path, &probe.gives, (&probe.body, solid));
+            surface_density(checker, &path, probe, &solid.shape);
         }
     }
 }
@@ -82,33 +82,68 @@ pub fn gives_of_large_strain(
 ) {
     let yields = solid.yields();
     for (n, gives) in gives.iter().enumerate() {
-        let fine = match gives {
-            Gives::PlasticStrain => yields,
-            Gives::Damage => false,
-            _ => true,
+        let (fine, what) = match gives {
+            Gives::PlasticStrain => (yields, "yields or cracks"),
+            Gives::Damage => (false, "yields or cracks"),
+            Gives::FailureDensity | Gives::SurfaceFailureDensity => (false, "has `weibull` flaws"),
+            _ => continue,
         };
-        let message = format!("no part of `{name}` yields or cracks");
+        let message = format!("no part of `{name}` {what}");
         let allowed = "what an elastic body gives";
         checker.require(fine, &path.at("gives").index(n), message, allowed);
     }
 }
 
-/// Refuses plastic strain as an output of bodies that do not yield.
-pub fn yields(checker: &mut Checker, path: &Path, gives: &[Gives], (name, solid): (&str, &Solid)) {
-    let place = gives.iter().position(|gives| *gives == Gives::PlasticStrain);
-    if let Some(place) = place.filter(|_| !solid.yields()) {
-        let message = format!("no part of `{name}` yields");
-        checker.refuse(&path.index(place), message, "what a body without a yield stress gives");
+/// Refuses quantities that a solid does not have: plastic strain of bodies that do not yield, damage of bodies that do
+/// not crack, and densities of failure of bodies without such flaws.
+pub fn gives_of_solid(
+    checker: &mut Checker,
+    path: &Path,
+    gives: &[Gives],
+    (name, solid): (&str, &Solid),
+) {
+    for (n, gives) in gives.iter().enumerate() {
+        let (fine, what, allowed) = match gives {
+            Gives::PlasticStrain => {
+                (solid.yields(), "yields", "what a body without a yield stress gives")
+            }
+            Gives::Damage => (solid.cracks(), "cracks", "what a body without `fracture` gives"),
+            Gives::FailureDensity => (
+                solid.has_flaws_of(|own| own.area.is_none()),
+                "has `weibull` flaws in its volume",
+                "`surface_failure_density` with `weibull = { area = … }`, or what a body without flaws gives",
+            ),
+            Gives::SurfaceFailureDensity => (
+                solid.has_flaws_of(|own| own.area.is_some()),
+                "has `weibull` flaws on its faces",
+                "`failure_density` with `weibull = { volume = … }`, or what a body without flaws gives",
+            ),
+            _ => continue,
+        };
+        let message = format!("no part of `{name}` {what}");
+        checker.require(fine, &path.at("gives").index(n), message, allowed);
     }
 }
 
-/// Refuses damage as an output of bodies that do not crack.
-pub fn cracks(checker: &mut Checker, path: &Path, gives: &[Gives], (name, solid): (&str, &Solid)) {
-    let place = gives.iter().position(|gives| *gives == Gives::Damage);
-    if let Some(place) = place.filter(|_| !solid.cracks()) {
-        let message = format!("nothing cracks in `{name}`");
-        checker.refuse(&path.index(place), message, "what a body without `fracture` gives");
+/// Refuses densities over the faces at points within a body.
+fn surface_density(checker: &mut Checker, path: &Path, probe: &Probe, shape: &Shape) {
+    let place = probe.gives.iter().position(|gives| *gives == Gives::SurfaceFailureDensity);
+    if let Some(place) = place.filter(|_| !is_on_face(shape, probe.at)) {
+        let message =
+            format!("the point lies within `{}`, whose flaws are on its faces", probe.body);
+        let path = path.at("gives").index(place);
+        checker.refuse(&path, message, "`at` on a face, or quantities of the interior");
     }
+}
+
+/// Returns true if a point of a body is on one of its faces.
+fn is_on_face(shape: &Shape, [x, y, z]: [f64; 3]) -> bool {
+    let at = |value: f64, end: f64| fits(value, end) && fits(end, value);
+    let lateral = match shape {
+        Shape::Box([length, width, _]) => at(x.abs(), length / 2.0) || at(y.abs(), width / 2.0),
+        Shape::Disc(disc) => at(x.hypot(y), disc.radius),
+    };
+    lateral || z == 0.0 || at(-z, shape.thickness())
 }
 
 fn place(checker: &mut Checker, path: &Path, probe: &Probe, shape: &Shape) {

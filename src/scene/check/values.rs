@@ -23,7 +23,9 @@ pub fn check(checker: &mut Checker) {
             | Gives::VonMises
             | Gives::MaxPrincipal
             | Gives::PlasticStrain
-            | Gives::Damage => 1,
+            | Gives::Damage
+            | Gives::FailureDensity
+            | Gives::SurfaceFailureDensity => 1,
             Gives::Displacement => 3,
             Gives::Stress => 7,
         });

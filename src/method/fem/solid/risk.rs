@@ -5,6 +5,7 @@
 //! along each axis as its values vary, up to those that integrate the power of a linear function exactly, and all
 //! values are relative to the largest.
 
+use super::tangent::present;
 use super::{Deformation, Extreme, SolidFem, Temperatures};
 use crate::laws::{Extent, FlawStatistics};
 use crate::math::gauss::gauss_legendre;
@@ -94,6 +95,11 @@ impl Flaws {
     /// Returns true if flaws of a layer grow slowly.
     pub fn grow(&self) -> bool {
         self.layers.iter().flatten().any(|own| own.slow_growth.is_some())
+    }
+
+    /// The distribution in a layer, from the lowest on; `None` where nothing is known to break.
+    pub(super) fn of_layer(&self, layer: usize) -> Option<&FlawStatistics> {
+        self.layers.get(layer)?.as_ref()
     }
 
     /// The distribution of a patch.
@@ -208,7 +214,21 @@ impl Patch {
     }
 }
 
-/// Nodal values of a patch relative to the largest of the body.
+/// Shape functions and measures of points along each axis.
+type Points = [Vec<([f64; 3], f64)>; 3];
+
+/// A patch with a share of the risk.
+struct Share<'s> {
+    own: &'s FlawStatistics,
+    patch: &'s Patch,
+    /// Nodal values relative to the largest of the patch.
+    local: &'s Local,
+    points: &'s Points,
+    /// The largest value over the strength.
+    most: f64,
+}
+
+/// Nodal values of a patch relative to a scale.
 struct Local {
     values: [f64; 27],
     counts: [usize; 3],
@@ -247,10 +267,54 @@ impl Local {
     }
 
     /// `∫ ⟨s⟩^m` over the patch, with a list of points for each axis.
-    fn integral(&self, points: &[Vec<([f64; 3], f64)>; 3], power: impl Fn(f64) -> f64) -> f64 {
-        // Interpolation between positive and negative nodes may overshoot.
-        let cap = if self.least < 0.0 { self.most } else { f64::INFINITY };
+    fn integral(&self, points: &Points, power: impl Fn(f64) -> f64) -> f64 {
+        let cap = self.cap();
         let mut sum = 0.0;
+        self.for_points(points, |value, _, measure| {
+            if value > 0.0 {
+                sum += measure * power(value.min(cap));
+            }
+        });
+        sum
+    }
+
+    /// `∫ m ⟨s⟩^(m−1) ṡ` over the patch, with the nodal values of ṡ.
+    fn integral_of_change(
+        &self,
+        change: &Self,
+        points: &Points,
+        slope: impl Fn(f64) -> f64,
+    ) -> f64 {
+        let cap = self.cap();
+        let mut sum = 0.0;
+        self.for_points(points, |value, shapes, measure| {
+            if value > 0.0 {
+                sum += measure * slope(value.min(cap)) * change.at(shapes);
+            }
+        });
+        sum
+    }
+
+    /// Interpolation between positive and negative nodes may overshoot.
+    fn cap(&self) -> f64 {
+        if self.least < 0.0 { self.most } else { f64::INFINITY }
+    }
+
+    /// Value at a point of given shape functions along the axes.
+    fn at(&self, [x, y, z]: [&[f64; 3]; 3]) -> f64 {
+        let mut sum = 0.0;
+        for c in 0..self.counts[2] {
+            for b in 0..self.counts[1] {
+                for a in 0..self.counts[0] {
+                    sum += x[a] * y[b] * z[c] * self.values[a + 3 * (b + 3 * c)];
+                }
+            }
+        }
+        sum
+    }
+
+    /// Passes the value, the shape functions and the measure of each point.
+    fn for_points(&self, points: &Points, mut pass: impl FnMut(f64, [&[f64; 3]; 3], f64)) {
         for (along_z, of_z) in &points[2] {
             let plane: [f64; 9] = std::array::from_fn(|n| {
                 (0..self.counts[2]).map(|c| along_z[c] * self.values[n + 9 * c]).sum()
@@ -261,13 +325,10 @@ impl Local {
                 });
                 for (along_x, of_x) in &points[0] {
                     let value: f64 = along_x.iter().zip(line).map(|(n, value)| n * value).sum();
-                    if value > 0.0 {
-                        sum += of_x * of_y * of_z * power(value.min(cap));
-                    }
+                    pass(value, [along_x, along_y, along_z], of_x * of_y * of_z);
                 }
             }
         }
-        sum
     }
 }
 
@@ -277,7 +338,7 @@ impl SolidFem {
     }
 
     /// Mirror images of the mesh that make the body, the mesh first.
-    fn all_images(&self) -> impl Iterator<Item = [bool; 2]> {
+    pub(super) fn all_images(&self) -> impl Iterator<Item = [bool; 2]> {
         let [x, y] = self.mesh.mirrored;
         let all = [[false, false], [true, false], [false, true], [true, true]];
         all.into_iter().filter(move |image| (!image[0] || x) && (!image[1] || y))
@@ -311,8 +372,32 @@ impl SolidFem {
             };
             stress.iter().enumerate().map(value).collect::<Vec<f64>>()
         };
-        let known: Vec<_> =
-            stresses.iter().map(|(image, stress)| (*image, of_image(stress))).collect();
+        let known = stresses.iter().map(|(image, stress)| (*image, of_image(stress))).collect();
+        self.over_all_images(known)
+    }
+
+    /// Rate of [`Self::equivalent_stress`] when temperatures and deformation change by `change`.
+    pub fn equivalent_stress_rate(
+        &self,
+        flaws: &Flaws,
+        (temperatures, deformation): (&Temperatures, &Deformation),
+        (temperature_change, change): (&Temperatures, &Deformation),
+    ) -> Vec<f64> {
+        let (nodal, nodal_change) = (self.nodal_strains(deformation), self.nodal_strains(change));
+        let of_image = |image: [bool; 2]| {
+            let stresses = self.stress_of_image(temperatures, &nodal, image);
+            let rates = self.stress_of_image(temperature_change, &nodal_change, image);
+            let value = |(node, (stress, rate)): (usize, ([f64; 6], [f64; 6]))| {
+                self.statistics(flaws, node).map_or(0.0, |own| own.continued_rate(stress, rate))
+            };
+            (image, stresses.into_iter().zip(rates).enumerate().map(value).collect())
+        };
+        let images = self.images(&present(&deformation.displacement, &change.displacement));
+        self.over_all_images(images.into_iter().map(of_image).collect())
+    }
+
+    /// Values at the nodes of all images from those of the distinct ones.
+    fn over_all_images(&self, known: Vec<([bool; 2], Vec<f64>)>) -> Vec<f64> {
         let like = |image: [bool; 2]| {
             let same = |&[x, y]: &[bool; 2]| (!x || image[0]) && (!y || image[1]);
             // Of the distinct images, the one that shares most reflections.
@@ -406,6 +491,35 @@ impl SolidFem {
         if equivalent.iter().any(|value| value.is_nan()) {
             return f64::NAN;
         }
+        let mut total = 0.0;
+        self.for_shares(flaws, equivalent, |Share { own, local, points, most, .. }| {
+            let integral = local.integral(points, |value| own.power(value));
+            total += (own.modulus * most.ln()).exp() * integral / own.extent.size();
+        });
+        total
+    }
+
+    /// Rate of the risk B when the equivalent stress changes at a rate [1/s, or per unit of what changes].
+    pub fn risk_rate(&self, flaws: &Flaws, equivalent: &[f64], rate: &[f64]) -> f64 {
+        let nodes = self.mesh.sided_nodes();
+        let images = equivalent.chunks_exact(nodes).zip(rate.chunks_exact(nodes));
+        images.map(|(values, rates)| self.risk_rate_of_image(flaws, values, rates)).sum()
+    }
+
+    fn risk_rate_of_image(&self, flaws: &Flaws, equivalent: &[f64], rates: &[f64]) -> f64 {
+        let mut total = 0.0;
+        self.for_shares(flaws, equivalent, |Share { own, patch, local, points, most }| {
+            let scale = most * own.strength;
+            let change = Local::of(&self.mesh, patch, rates, scale);
+            let slope = |value: f64| own.modulus * own.power(value) / value;
+            let integral = local.integral_of_change(&change, points, slope);
+            total += (own.modulus * most.ln()).exp() * integral / own.extent.size();
+        });
+        total
+    }
+
+    /// Passes the patches that matter to the risk of an equivalent stress.
+    fn for_shares(&self, flaws: &Flaws, equivalent: &[f64], mut pass: impl FnMut(Share)) {
         let patches = &flaws.patches;
         let bound = |patch: &Patch| {
             let own = flaws.of_patch(patch);
@@ -422,7 +536,6 @@ impl SolidFem {
         let highest = bounds.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let least = highest + (LEFT_OUT / patches.len() as f64).ln();
         let minor = highest + MINOR.ln();
-        let mut total = 0.0;
         for (patch, bound) in patches.iter().zip(bounds) {
             if bound < least || bound == f64::NEG_INFINITY {
                 continue;
@@ -445,10 +558,8 @@ impl SolidFem {
                 let count = ((wanted + (more * variation).ceil()) as usize).min(MOST_POINTS);
                 patch.spans[axis].points(&self.mesh.axes[axis], &flaws.rules[count - 1])
             });
-            let integral = relative.integral(&points, |value| own.power(value));
-            total += (own.modulus * most.ln()).exp() * integral / own.extent.size();
+            pass(Share { own, patch, local: &relative, points: &points, most });
         }
-        total
     }
 
     /// Place of the largest failure density, h/V₀ or h/A₀ [m]; the centre of the top if there is none.

@@ -70,7 +70,7 @@ impl Highest {
 }
 
 /// For each class, a list that is empty only if both are empty.
-fn present(a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<Vec<f64>> {
+pub(super) fn present(a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let either = |(a, b): (&Vec<f64>, &Vec<f64>)| vec![0.0; a.len().max(b.len()).min(1)];
     a.iter().zip(b).map(either).collect()
 }
