@@ -29,7 +29,7 @@ struct Range {
     last: f64,
 }
 
-/// Ranges of probes, fields, flaws and the extremes of solids.
+/// Ranges of probes, fields, flaws, the extremes of solids, and the totals of lattices and solids of large strain.
 pub struct Ranges {
     ranges: Vec<Range>,
     /// Range of each column of a run's table, if it has one.
@@ -112,10 +112,17 @@ fn followed(scene: &Scene, variable: &Variable) -> Option<(usize, Quantity)> {
         Reading::Point { .. } | Reading::Mean { .. } | Reading::Flaw { .. } => true,
         Reading::Total(_) => {
             let body = scene.body.keys().nth(output.body);
-            matches!(quantity, Quantity::Temperature | Quantity::Stress)
-                && body.is_some_and(|name| scene.solid(name).is_some())
+            body.is_some_and(|name| match scene.solid(name) {
+                Some(_) => matches!(quantity, Quantity::Temperature | Quantity::Stress),
+                None => is_loaded(scene, name),
+            })
         }
         _ => false,
     };
     is_followed.then_some((output.body, quantity))
+}
+
+/// Returns true for bodies whose totals are histories of a test: lattices and solids of large strain.
+pub fn is_loaded(scene: &Scene, name: &str) -> bool {
+    scene.large_strain(name).is_some() || scene.lattices().any(|(own, _)| own == name)
 }

@@ -4,6 +4,7 @@ use impinge::scene::Scene;
 use impinge::variables::{Output, Quantity, Registry, Slot, Variable};
 use impinge::warning::{self, Warning};
 
+use super::ranges::is_loaded;
 use super::table::table;
 use super::units::{decimal, engineering, kelvin};
 
@@ -153,8 +154,11 @@ pub fn totals_table(model: &Model, state: &State, cache: &mut Cache) -> Result<S
         let Some(quantity) = variable.quantity else { continue };
         let is_total = matches!(output.reading, Reading::Total(_));
         let body = model.scene().body.keys().nth(output.body);
-        let is_shown = body.is_none_or(|name| model.scene().solid(name).is_none())
-            || IS_FLOW.iter().any(|key| variable.name.ends_with(key));
+        let scene = model.scene();
+        let is_shown = body.is_none_or(|name| {
+            let is_flow = || IS_FLOW.iter().any(|key| variable.name.ends_with(key));
+            !is_loaded(scene, name) && (scene.solid(name).is_none() || is_flow())
+        });
         if is_total && is_shown {
             let value = model.output(state, cache, output)?;
             let value = match variable.name.split_once(FIRST_CRACK) {

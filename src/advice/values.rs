@@ -11,6 +11,7 @@ pub fn review(reviewer: &mut Reviewer, schema: &Schema, cold: Cold) {
     let of_strand = |name| Path::default().key("body").key(name).at("fluid.viscosity");
     let of_strands: Vec<Path> =
         reviewer.scene.filaments().map(|(name, _)| of_strand(name)).collect();
+    let is_of_strand = |path: &Path| of_strands.iter().any(|own| path.is_within(own));
     let mut warned_list = None;
     schema.numbers(reviewer.source, &mut |place, limits, value| {
         // In a list, only the first number out of range is reported: the others are hardly better.
@@ -18,13 +19,13 @@ pub fn review(reviewer: &mut Reviewer, schema: &Schema, cold: Cold) {
         if limits.is_usual(value) || is_said {
             return;
         }
-        let Some(finding) = limits.plausible(cold).and_then(|range| implausible(&range, value))
-        else {
-            return;
-        };
         let path = place.path();
-        let is_thick = of_strands.contains(&path) && STRAND_VISCOSITY.holds(value);
-        if !is_thick && !copies.iter().any(|copy| path.is_within(copy)) {
+        let Some(mut range) = limits.plausible(cold) else { return };
+        if range.unit == STRAND_VISCOSITY.unit && is_of_strand(&path) {
+            range = STRAND_VISCOSITY.clone();
+        }
+        let Some(finding) = implausible(&range, value) else { return };
+        if !copies.iter().any(|copy| path.is_within(copy)) {
             warned_list = place.list();
             reviewer.warn(&path, finding);
         }

@@ -93,7 +93,7 @@ def path(
     scene: str | os.PathLike[str],
     target: str | Sequence[Sequence[float]] | None = None,
     *,
-    by: str = "cma",
+    by: str = "gauss-newton",
     speed: float,
     flow: float | None = None,
     waypoints: int | Sequence[tuple[tuple[float, float], tuple[float, float]]] = 3,
@@ -114,12 +114,13 @@ def path(
     scene: of a filament with `path = "input"`, or the unit of one.
     target: the filament whose `[[target]]` is meant (the only one if left out), or places [x, y]
         that take its place.
-    by: "cma" (needs the extra `path`), "swarm" (Clerc and Kennedy) or "gauss-newton", which takes
-        the fewest runs where deviations are mild.
+    by: "gauss-newton", which takes the fewest runs, "cma" (needs the extra `path`), which goes on
+        where that ends in a minimum nearby, or "swarm" (Clerc and Kennedy).
     speed: of the nozzle along its path [m/s]. flow [m³/s]: the scene's `nozzle.flow` if left out.
     waypoints: how many, or of each the range of its part s of the target's length and that of its
         offset along the normal to the left [m]. Between waypoints offsets are cubic and do not
-        overshoot; outside of `region`, a range of s, the nozzle follows the target.
+        overshoot; outside of `region`, a range of s, the nozzle follows the target. A region that
+        is little longer than the bends, with two or three waypoints for each, is found best.
     spacing: of the places to which the nozzle moves evenly [m]; the segment length if left out,
         half the nozzle's diameter for particles.
     run_out: how far the nozzle goes on beyond the target's end [m]; by the lag if left out.

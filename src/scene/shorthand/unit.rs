@@ -65,6 +65,9 @@ const DEGREE: Unit = unit(PI / 180.0, ANGLE);
 const CELSIUS: Unit = Unit { zero: 273.15, ..unit(1.0, KELVIN) };
 const FAHRENHEIT: Unit = Unit { zero: 459.67, ..unit(1.0 / 1.8, KELVIN) };
 
+/// Powers that stand for a root.
+const HALF: [&str; 6] = ["^0.5", "^.5", "^(0.5)", "^(1/2)", "(1/2)", "^½"];
+
 /// Units without prefixes.
 const PLAIN: [(&str, Unit); 22] = [
     ("min", unit(60.0, TIME)),
@@ -168,15 +171,10 @@ impl<'t> Reader<'t> {
         let all = self.rest;
         if self.takes('√') {
             self.descend()?;
-            let (unit, power) = self.factor()?;
+            let (inner, power) = self.factor()?;
             self.depth -= 1;
-            let dimension = unit.dimension.map(|twice| twice * power);
-            if dimension.iter().any(|twice| twice % 2 != 0) {
-                return Err(all.to_owned());
-            }
-            let (factor, dimension) =
-                (unit.factor.powi(power).sqrt(), dimension.map(|twice| twice / 2));
-            return Ok((Unit { factor, zero: 0.0, dimension }, 1));
+            let raised = unit(1.0, NUMBER).times(inner, power);
+            return root(raised).map(|root| (root, 1)).ok_or_else(|| all.to_owned());
         }
         let unit = if self.takes('(') {
             self.descend()?;
@@ -194,7 +192,10 @@ impl<'t> Reader<'t> {
             self.rest = rest;
             named(name).ok_or_else(|| if name.is_empty() { rest } else { name }.to_owned())?
         };
-        Ok((unit, self.power()))
+        if !HALF.iter().any(|half| self.takes_text(half)) {
+            return Ok((unit, self.power()));
+        }
+        root(unit).map(|root| (root, 1)).ok_or_else(|| all.to_owned())
     }
 
     /// Enters a bracket or a root; refuses more than anyone writes.
@@ -221,6 +222,19 @@ impl<'t> Reader<'t> {
         self.rest = rest.unwrap_or(self.rest);
         rest.is_some()
     }
+
+    fn takes_text(&mut self, text: &str) -> bool {
+        let rest = self.rest.strip_prefix(text);
+        self.rest = rest.unwrap_or(self.rest);
+        rest.is_some()
+    }
+}
+
+/// The root of a unit; `None` if exponents would not be multiples of a half.
+fn root(unit: Unit) -> Option<Unit> {
+    let is_even = unit.dimension.iter().all(|twice| twice % 2 == 0);
+    let dimension = unit.dimension.map(|twice| twice / 2);
+    is_even.then_some(Unit { factor: unit.factor.sqrt(), zero: 0.0, dimension })
 }
 
 fn is_letter(c: char) -> bool {
@@ -272,6 +286,9 @@ mod tests {
         expect("/K", 1.0, "1/K");
         expect("W √s/(cm² K)", 1e4, "kg/(s² √s K)");
         expect("GPa", 1e9, "kg/(m s²)");
+        for root in ["√m", "m^0.5", "m^.5", "m^(1/2)", "m(1/2)", "m^½"] {
+            expect(&format!("MPa {root}"), 1e6, "Pa √m");
+        }
     }
 
     #[test]
@@ -283,5 +300,7 @@ mod tests {
         assert!(Unit::read("m²²").is_err());
         assert!(Unit::read(&"(".repeat(100_000)).is_err());
         assert!(Unit::read("W/√√m").is_err());
+        assert!(Unit::read("√m^0.5").is_err());
+        assert!(Unit::read("m^0.25").is_err());
     }
 }
