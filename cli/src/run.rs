@@ -188,8 +188,11 @@ impl Run {
             super::print_message("note", &note);
         }
         super::print_message("note", &self.announcement(&run));
-        let mut record = self.record(&run)?;
         let folder = self.folder(&scene);
+        if former(&folder, &scene).is_some() {
+            run.rehearse()?;
+        }
+        let mut record = self.record(&run)?;
         let mut story = Story::begin(&model, &estimates, &self.source())?;
         story.write(&folder)?;
         report::remove_page(&folder)?;
@@ -275,11 +278,7 @@ impl Run {
 
     /// Refuses a folder that holds another run or files being read, and anything that is not a folder.
     fn check_folder(&self, folder: &Path, scene: &Scene) -> Result<(), CliError> {
-        let table = folder.join(TABLE);
-        let own = [table, folder.join(report::FILE)];
-        let own = own.into_iter().find(|file| file.symlink_metadata().is_ok());
-        let taken = own.or_else(|| FieldSeries::found_in(folder, scene));
-        if let Some(file) = taken.filter(|_| !self.options.overwrite) {
+        if let Some(file) = former(folder, scene).filter(|_| !self.options.overwrite) {
             return Err(CliError::Taken { folder: folder.to_owned(), file });
         }
         if folder.exists() && !folder.is_dir() {
@@ -335,6 +334,13 @@ impl Run {
         let rows_every = usize::try_from(self.options.rows_every).unwrap_or(usize::MAX);
         Ok(Record { table, fields, every, rows_every, place, _lock: lock })
     }
+}
+
+/// A file of a former run in a folder.
+fn former(folder: &Path, scene: &Scene) -> Option<PathBuf> {
+    let own = [folder.join(TABLE), folder.join(report::FILE)];
+    let own = own.into_iter().find(|file| file.symlink_metadata().is_ok());
+    own.or_else(|| FieldSeries::found_in(folder, scene))
 }
 
 /// The state at time zero with the requested inputs, and those of a table before a first step [s].
@@ -421,6 +427,18 @@ impl Running<'_> {
         }
         progress.finish_and_clear();
         Ok(record.check_present()?)
+    }
+
+    /// Takes the first step and goes back, so that a run which fails at once leaves the files of a former one.
+    fn rehearse(&mut self) -> Result<(), CliError> {
+        let start = self.state.clone();
+        if self.timeline.count > 0 {
+            self.step(0)?;
+        }
+        self.state = start;
+        self.cache = Cache::default();
+        self.balances.clear();
+        Ok(())
     }
 
     /// Advances by the step after the first `i` steps.

@@ -4,7 +4,7 @@ use super::Reviewer;
 use crate::limits::number;
 use crate::quantity::percent;
 use crate::scene::locate::Path;
-use crate::scene::{Face, Flaw, FlawShape, Scene, Solid};
+use crate::scene::{Face, Flaw, FlawGives, FlawShape, Scene, Solid};
 use crate::warning;
 
 /// Depth over diffusion length √(κt) at which a suddenly cooled edge crack has its highest stress intensity.
@@ -20,6 +20,9 @@ pub fn review(reviewer: &mut Reviewer) {
             let path = Path::default().key("flaw").index(i);
             if solid.yields() {
                 reviewer.warn(&path.key("in"), warning::flaw_in_yielding_body());
+            }
+            if solid.relaxes() && flaw.gives.contains(&FlawGives::EnergyReleaseRate) {
+                reviewer.warn(&path.key("gives"), warning::flaw_in_relaxing_body());
             }
             let Some(depth) = flaw.depth.given() else { continue };
             if is_shocked(scene, (name, solid), depth) {

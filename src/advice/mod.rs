@@ -128,6 +128,7 @@ fn implausible(range: &Range, value: f64) -> Option<Finding> {
             let given = format!("{} {unit_of_value}", number(value));
             warning::wrong_unit(what, low, high, unit, number(meant), given)
         }
+        None if *unit == "1" => warning::implausible_number(what, low, high),
         None => warning::implausible_value(what, low, high, unit),
     })
 }

@@ -13,7 +13,7 @@ const CLOSE: f64 = 1.0;
 const ALIKE: f64 = 0.02;
 
 /// Warns of each substance whose constants are taken beyond their range, or that a body is colder or hotter than, on
-/// the first such temperature; and of drops that are of another temperature than their constants.
+/// the temperature that is farthest off; and of drops that are of another temperature than their constants.
 pub fn review(reviewer: &mut Reviewer, schema: &Schema) {
     let scene = reviewer.scene;
     for named in &scene.substances {
@@ -25,7 +25,9 @@ pub fn review(reviewer: &mut Reviewer, schema: &Schema) {
                 return;
             }
             let path = place.path();
-            if outside.is_none() && is_met(scene, named, &path) {
+            let beyond = |value: f64| (low - value).max(value - high);
+            let is_worse = outside.as_ref().is_none_or(|(_, other)| beyond(value) > beyond(*other));
+            if is_worse && is_met(scene, named, &path) {
                 outside = Some((path, value));
             }
         });

@@ -90,7 +90,7 @@ impl Model {
         Some(finding.at(name).of_subject(format!("{name} beyond {substance}")))
     }
 
-    /// Warns of all values of whole bodies in a state.
+    /// Warns of all values of whole bodies and of probes in a state.
     pub fn warnings_on_values(
         &self,
         state: &State,
@@ -100,7 +100,7 @@ impl Model {
         let mut reader = self.reader(state, cache)?;
         for variable in Registry::of(&self.scene).variables {
             let Slot::Output(output) = &variable.slot else { continue };
-            if matches!(output.reading, Reading::Total(_)) {
+            if matches!(output.reading, Reading::Total(_) | Reading::Point { alone: true, .. }) {
                 let value = reader.value(output)?;
                 found.extend(self.warning_on_value(output, value));
             }

@@ -96,7 +96,7 @@ pub enum Carries {
     Power,
     /// Pressure that acts into the body [Pa].
     Pressure,
-    /// Shear traction [Pa]: along x and y; radial on rings.
+    /// Shear traction [Pa]: along x and y; radial on rings; not on plane sections.
     Shear,
 }
 

@@ -93,7 +93,7 @@ rules! {
     Step torn_apart(opening)
     "a crack is open {opening} times as wide as its elements: it has torn a part off, which the millionth of the \
      stiffness that broken elements keep does not hold";
-    "do not rely on displacements and stresses from here on: `crack_area` and the place of the cracks hold"
+    "do not rely on displacements, stresses and `crack_area` from here on: the place of the cracks holds"
 
     Step flaw_unresolved(flaw, elements, finer)
     "the mesh has {elements} elements over the depth of `{flaw}`, too few for the stress along it";
@@ -102,6 +102,11 @@ rules! {
     Step flaw_has_grown(flaw, part, most)
     "`{flaw}` has grown through {part} of what was behind its mouth, and its stress intensity is that of a half plane";
     "do not rely on it beyond {most}"
+
+    Step sides_pass_faces(passed)
+    "free sides have bulged by {passed} m through the planes of the faces that press the body: it has no contact with \
+     what presses it beyond these faces";
+    "do not rely on `height`, nor on forces to some per cent; a finer mesh bulges more"
 
     Step films_stack(most)
     "more than {most} films that still transfer heat lie on one place: heat and temperatures there stay between \
@@ -112,6 +117,14 @@ rules! {
     "the film is {layers} distances of particles high, and its height depends on how these happen to stand: the \
      error is some {usual} %, often {large} %";
     "a `spacing` {finer} times as small has errors below 10 %, from 6 distances on"
+
+    Read strain_is_large(what)
+    "{what}, so strains are not small: the model adds them up linearly, and keeps loads, areas and stiffness as they were";
+    "a body with `strain = \"finite\"` takes any deformation"
+
+    Step stack_yields(ratio)
+    "a stack of layers weighs {ratio} times what the yield stress of its lowest layer bears: it flows, and the line keeps \
+     its shape"; "`method = \"particles\"` lets it flow"
 
     Read dissipation_below_zero(value)
     "{value} J are dissipated, less than nothing: at large strain the law of a body that relaxes stores more than the work \

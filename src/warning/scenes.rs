@@ -6,6 +6,9 @@ rules! {
     Check implausible_value(what, low, high, unit)
     "{what} is plausible from {low} to {high} {unit}"; "check the unit of the value"
 
+    Check implausible_number(what, low, high)
+    "{what} is plausible from {low} to {high}"; "check the value"
+
     Check wrong_unit(what, low, high, unit, meant, given)
     "{what} is plausible from {low} to {high} {unit}"; "did you mean {meant} ({given})?"
 
@@ -141,6 +144,10 @@ rules! {
     Check flaw_in_yielding_body()
     "the body yields, and the stress intensity of its flaws is that of linear elasticity, with the stress of the \
      yielding body"; "do not rely on it where the stress has reached the yield stress"
+
+    Check flaw_in_relaxing_body()
+    "moduli of the body relax, and the energy release rate of its flaws is that of the moduli at once";
+    "take `stress_intensity`, and the modulus of the time that counts"
 
     Check damage_wider_than_body(length, extent)
     "damage spreads over {length} m, more than a third of the body's extent of {extent} m: it fails as a whole, before a \

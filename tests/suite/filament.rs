@@ -98,6 +98,33 @@ fn the_plate_carries_the_strand() {
     assert!((trial.get("ink.force") / weight - 1.0).abs() < 1e-9);
 }
 
+/// A wall of cement paste warns once its lowest layer cannot bear what is above, and not before there is a stack.
+#[test]
+fn stacks_that_yield_are_warned_of() {
+    let text = r#"
+name = "Wall"
+stop_time = 8.0
+step = 0.5
+[body.ink]
+kind = "filament"
+fluid = { density = 2050.0, viscosity = { law = "bingham", yield_stress = 180.0, plastic_viscosity = 4.0 }, specific_heat = 1600.0, conductivity = 1.0 }
+nozzle = { diameter = 12e-3, height = 10e-3, temperature = 295.0, flow = 0.0 }
+path = { time = [0.0, 1.9, 2.0, 3.9, 4.0, 5.9, 6.0, 7.9], x = [0.0, 0.1, 0.1, 0.0, 0.0, 0.1, 0.1, 0.0], y = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], z = [0.01, 0.01, 0.02, 0.02, 0.03, 0.03, 0.04, 0.04], flow = [6e-6, 0.0, 6e-6, 0.0, 6e-6, 0.0, 6e-6, 0.0] }
+most = 1e-3
+"#;
+    let mut trial = Trial::new(text);
+    for (until, wanted) in [(2.0, false), (8.0, true)] {
+        while trial.state.time < until - 1e-9 {
+            trial.step(0.5);
+        }
+        let ratio = trial.get("ink.bearing_ratio");
+        let found = trial.model.warnings(&trial.state);
+        let is_warned = found.iter().any(|warning| warning.finding().id == "stack_yields");
+        assert_eq!(is_warned, wanted, "{until} s: {ratio}");
+        assert_eq!(ratio > 1.0, wanted, "{until} s: {ratio}");
+    }
+}
+
 /// On an insulated plane in air a strand cools as a lump, at its Biot number of 0.01: `T = T_a + (T_0 − T_a) exp(−h A
 /// t/(ρ c V))`.
 #[test]

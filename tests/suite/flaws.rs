@@ -204,6 +204,10 @@ fn steps_that_miss_a_peak_deep_cracks_and_yielding_bodies_are_warned_of() {
         .replace("thermoelastic", "elastoplastic")
         .replace("young", "yield_stress = 1e9, young");
     assert_eq!(warned(&yielding), ["flaw_in_yielding_body"]);
+    let relaxing = plate(20.0, "", &fine)
+        .replace("thermoelastic", "viscoelastic")
+        .replace("young", "shear_relaxation = [{ fraction = 0.5, time = 1.0 }], young");
+    assert_eq!(warned(&relaxing), ["flaw_in_relaxing_body"]);
 }
 
 #[test]

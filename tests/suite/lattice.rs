@@ -93,6 +93,29 @@ fn closing_a_crack_dissipates_nothing() {
     assert_eq!(trial.get("beam.max_damage"), damage);
 }
 
+/// Sudden breaks release energy and never take any, however far links open within them.
+#[test]
+fn sudden_breaks_release_energy() {
+    const CONCRETE: &str = "young = 18e9, poisson = 0.17, softening = { model = \"openings\", strength = 3e6, openings = \
+                            [12e-6, 150e-6], share = 0.2 }";
+    for arrangement in ["across", "along", "random"] {
+        let keys = format!("spacing = 8e-3\narrangement = \"{arrangement}\"");
+        let mut trial = Trial::new(&pulled(CONCRETE, &keys));
+        let mut before = 0.0;
+        // Pulled, closed and pulled apart.
+        for to in [1e-5, 2e-5, 3e-5, 4e-5, -1e-5, 3e-5, 5e-5, 1e-4, 3e-4] {
+            trial.set("strip.displacement", to);
+            trial.step(0.1);
+            let [released, dissipated] = ["released_energy", "dissipated_energy"]
+                .map(|key| trial.get(&format!("strip.{key}")));
+            let least = before - 1e-3 * dissipated;
+            assert!(released >= least, "{arrangement} at {to:e}: {released:e} after {before:e}");
+            before = released;
+        }
+        assert!(trial.get("strip.max_damage") == 1.0);
+    }
+}
+
 /// Loads do not depend on the number of communication steps.
 #[test]
 fn communication_steps_do_not_matter() {

@@ -2,6 +2,7 @@
 
 use crate::common::{Trial, off};
 use impinge::closed_form::{CircularPlate, DiscPressure, Elastic, SquarePlate};
+use impinge::model::Cache;
 
 /// A box of soft numbers with the given mesh, faces and further tables.
 fn block(poisson: f64, mesh: &str, faces: &str, rest: &str) -> String {
@@ -371,5 +372,21 @@ start = {{ pressure = 1.0 }}
                 assert!(radial.abs() < tolerance, "{shape}, order {order}, {poisson}: {radial}");
             }
         }
+    }
+}
+
+/// Pressed by more than it bears at small strain, a body says so where its stress or its displacement is read.
+#[test]
+fn deformation_that_is_not_small_is_warned_of() {
+    let load = "[[load]]\nname = \"press\"\non = \"block.top\"\ncarries = [\"pressure\"]\n\
+                footprint = { tiles = { count = [1, 1], size = [2.0, 1.5] } }\n";
+    let rest = load.to_owned() + &probe("top", "block", [0.0; 3], "\"displacement\"");
+    let mut trial = Trial::new(&block(0.3, MESHES[0], ISOSTATIC, &rest));
+    for (pressure, wanted) in [(5.0, 0), (300.0, 1), (700.0, 2)] {
+        trial.set("press.pressure[1,1]", pressure);
+        trial.step(0.1);
+        let found = trial.model.warnings_on_values(&trial.state, &mut Cache::default()).unwrap();
+        let ids: Vec<_> = found.iter().map(|warning| warning.finding().id).collect();
+        assert_eq!(ids, vec!["strain_is_large"; wanted], "{pressure}");
     }
 }

@@ -46,6 +46,13 @@ pub fn omissions(scene: &Scene, forecast: &Forecast) -> Vec<String> {
         list.push(
             "inertia, swelling and coiling of strands, bridges between them, boiling and evaporation".to_owned(),
         );
+        let pulls = |name: &str| {
+            let mut below = scene.coupling.iter().filter(|own| own.from == name);
+            below.any(|own| scene.asks_mechanics(own.to.split('.').next().unwrap_or_default()))
+        };
+        if scene.filaments().any(|(name, _)| pulls(name)) {
+            list.push("the pull of strands on what lies below as they cool and shrink".to_owned());
+        }
     }
     if scene.lattices().next().is_some() {
         let rests = scene.lattices().any(|(_, lattice)| !lattice.inertia);

@@ -166,6 +166,46 @@ fn killed_run_counts_as_earlier_run() {
     }
 }
 
+/// A modulus that relaxes to nothing within the first step bears no load: the step fails.
+#[test]
+fn a_run_that_fails_at_once_leaves_the_former_one() {
+    let pad = |fraction: &str| {
+        format!(
+            r#"
+name = "Pad"
+stop_time = 2.0
+step = 1.0
+[body.pad]
+kind = "solid"
+shape = {{ disc = {{ radius = 1e-3, thickness = 0.5e-3 }} }}
+initial_temperature = 300.0
+mesh = {{ spacing = 0.25e-3, depth_spacing = 0.1e-3 }}
+material = {{ model = "viscoelastic", density = 1190.0, specific_heat = 1470.0, conductivity = 0.19, young = 3.3e9, poisson = 0.37, expansion = 7e-5, shear_relaxation = [{{ fraction = {fraction}, time = 1e-12 }}] }}
+faces.bottom = {{ roller = true }}
+[[load]]
+name = "press"
+on = "pad.top"
+footprint = {{ disc = {{ radius = 0.6e-3 }} }}
+carries = ["pressure"]
+start = {{ pressure = 1e6 }}
+[[probe]]
+name = "top"
+in = "pad"
+at = [0.0, 0.0, 0.0]
+gives = ["displacement"]
+"#
+        )
+    };
+    let place = Workplace::new();
+    fs::write(place.path("scene.toml"), pad("0.5")).unwrap();
+    place.run(&["--out", "o"]).succeeds();
+    let (files, (_, rows)) = (place.files("o"), place.table("o"));
+    fs::write(place.path("scene.toml"), pad("1.0")).unwrap();
+    place.run(&["--out", "o", "--overwrite"]).fails(1, &["pad"]);
+    assert_eq!(place.files("o"), files);
+    assert_eq!(place.table("o").1, rows);
+}
+
 #[test]
 fn a_folder_that_another_run_is_writing_to_is_left_alone() {
     let place = Workplace::new();

@@ -223,8 +223,10 @@ impl Advice for FilamentBody {
         }
         let strand = self.structure(state);
         let beyond = self.line.reaches_beyond(&strand).then(warning::strand_beyond_edge);
+        let bearing = self.line.bearing_of_stacks(&strand);
         plan::nozzle_warnings([strand.jump, self.line.plan().spacing], strand.late == 1.0)
             .chain(beyond)
+            .chain((bearing >= 1.0).then(|| warning::stack_yields(format!("{bearing:.1}"))))
             .map(|finding| finding.at(&self.name))
             .collect()
     }

@@ -7,7 +7,7 @@ use super::snapshot::copies;
 use super::totals::{held_faces, loaded_faces, moved_faces};
 use crate::inputs::InputLayout;
 use crate::method::large_strain::{Deformable, FaceLoad, LoadedFaces};
-use crate::scene::{LargeStrain, LoadComponent};
+use crate::scene::{FaceName, LargeStrain, LoadComponent};
 use crate::space::{Form, Mesh, Side};
 
 /// Conditions on the faces of a body and where their values are among its inputs.
@@ -18,6 +18,8 @@ pub struct Faces {
     bearers: Vec<[Option<usize>; 3]>,
     /// Number of held faces, moved ones included.
     held: usize,
+    /// Numbers among held faces of bottom and top, if both are plane and held or moved along z.
+    platens: Option<[usize; 2]>,
     /// Axes along which the displacements of faces are prescribed, face by face.
     moved: Vec<Vec<usize>>,
     /// Components of the loads on faces, face by face.
@@ -80,6 +82,7 @@ impl Faces {
             holds,
             bearers,
             held: held_faces(solid).len(),
+            platens: platens(solid),
             moved,
             loaded,
             mirrors: solid.mirrors(),
@@ -184,7 +187,7 @@ impl Faces {
         match (words.is_empty(), from.rise == to.rise) {
             (false, _) => format!("between {}", words.join(", ")),
             (true, false) => "as its temperatures change".to_owned(),
-            (true, true) => "under its weight".to_owned(),
+            (true, true) => "under its weight and what its faces bear".to_owned(),
         }
     }
 
@@ -201,6 +204,20 @@ impl Faces {
         places.chain(loads).chain([own.temperature]).collect()
     }
 
+    /// How far nodes have passed the planes of bottom and top between which the body is held [m], and the distance of
+    /// these planes [m].
+    pub fn passed(&self, places: &[[f64; 3]], displacements: &[[f64; 3]]) -> Option<[f64; 2]> {
+        let heights = || places.iter().zip(displacements).map(|(at, u)| at[2] + u[2]);
+        let plane = |face: usize| {
+            let mut own = heights().zip(&self.bearers).filter(|(_, by)| by[2] == Some(face));
+            own.next().map(|(height, _)| height)
+        };
+        let [low, high] = self.platens?.map(plane);
+        let (low, high) = (low?, high?);
+        let passed = heights().map(|height| (low - height).max(height - high));
+        Some([passed.fold(0.0, f64::max), high - low])
+    }
+
     /// Refuses displacements of nodes that are fixed.
     pub fn check(&self, displacements: &[[f64; 3]]) -> Result<(), String> {
         for (holds, u) in self.holds.iter().zip(displacements) {
@@ -210,6 +227,14 @@ impl Faces {
         }
         Ok(())
     }
+}
+
+/// Numbers among held faces of bottom and top of a plate, if both are held along z.
+fn platens(solid: &LargeStrain) -> Option<[usize; 2]> {
+    solid.plate()?;
+    let held = held_faces(solid);
+    let number = |face: FaceName| held.iter().position(|own| *own == face);
+    Some([number(FaceName::Bottom)?, number(FaceName::Top)?])
 }
 
 /// The loaded faces of a solid on its body.

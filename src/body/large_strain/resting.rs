@@ -10,8 +10,8 @@ use super::totals::Sums;
 use super::warming::{Temperatures, Warming, heat_totals};
 use super::{View, is_large, named, plan};
 use crate::body::{
-    Acts, Advice, Approach, BodyError, Events, Given, Giver, Maxima, Memo, Reading, Resources,
-    Structured,
+    Acts, Advice, Approach, BodyError, Events, Given, Giver, Maxima, Memo, Occasion, Reading,
+    Resources, Structured,
 };
 use crate::inputs::InputLayout;
 use crate::laws::solid::large_strain::Thermal;
@@ -22,7 +22,7 @@ use crate::method::sph::ParticleFields;
 use crate::runtime::allowance::{Allowance, Interrupt, cost};
 use crate::scene::{LargeStrain, Scene};
 use crate::state::{Field, Fields, Per};
-use crate::warning::Warning;
+use crate::warning::{self, Warning};
 
 /// A body without inertia.
 pub struct RestingBody {
@@ -74,6 +74,8 @@ const HALVINGS_OF_CONCRETE: u32 = 14;
 const PASSED: f64 = 0.05;
 /// Iterations of a usual step.
 const ITERATIONS: f64 = 5.0;
+/// Part of the distance between two faces by which sides may bulge beyond them without a warning.
+const BULGED: f64 = 0.01;
 /// Share of the energy that the balance of a state may miss.
 const ENERGY: f64 = 1e-6;
 
@@ -452,11 +454,29 @@ impl Events for RestingBody {}
 
 impl Maxima for RestingBody {}
 
+impl RestingBody {
+    /// Warns of free sides that have bulged through the planes of the faces which press the body.
+    fn warning_on_sides(&self, state: &[f64]) -> Option<Warning> {
+        let body = &self.equilibrium.body;
+        let displacements = body.displacements(&self.structure(state).rest.displacement);
+        let [passed, distance] = self.faces.passed(&body.space.nodes, &displacements)?;
+        let is_through = passed > BULGED * distance;
+        is_through.then(|| warning::sides_pass_faces(format!("{passed:.1e}")).at(&self.name))
+    }
+}
+
 impl Approach for RestingBody {}
 
 impl Advice for RestingBody {
     fn notes(&self) -> Vec<String> {
         self.advised.notes()
+    }
+
+    fn warnings(&self, state: &[f64], occasion: Occasion) -> Vec<Warning> {
+        match occasion {
+            Occasion::Step => self.warning_on_sides(state).into_iter().collect(),
+            Occasion::Response { .. } | Occasion::End => Vec::new(),
+        }
     }
 
     fn warning_on_value(&self, reading: &Reading, value: f64) -> Option<Warning> {

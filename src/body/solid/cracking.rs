@@ -174,7 +174,8 @@ impl Cracking {
 
     fn cracks(&self, flat: &[f64]) -> Cracks {
         let [_, damage, _] = self.places();
-        self.problem.elements.section.cracks(&flat[damage], self.sides)
+        let elements = &self.problem.elements;
+        elements.section.cracks(&flat[damage], self.sides, elements.law.length)
     }
 
     /// Refuses damage outside of its range, and impossible temperatures and times.

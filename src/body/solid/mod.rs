@@ -46,6 +46,7 @@ use super::{
 use crate::body::{Advice, Approach, Giver, Maxima, Occasion, Resources};
 use crate::coupling::FaceMeans;
 use crate::inputs::InputLayout;
+use crate::laws::{Constants, Material};
 use crate::method::fem::{ElasticProblem, HeatFailure, Mesh, Plan, SolidFem, heat_mesh};
 use crate::runtime::allowance::Allowance;
 use crate::scene::{FaceName, PeakOf, Scene, Shape, Solid};
@@ -83,6 +84,8 @@ pub struct SolidBody {
     cracks: Vec<(usize, Crack)>,
     /// Quantities with running maxima.
     peaks: Vec<PeakOf>,
+    /// Largest shear modulus of the layers at the start [Pa]; `None` if nothing mechanical is known.
+    shear_modulus: Option<f64>,
     /// True if a face has a prescribed temperature, which may jump.
     prescribes_temperature: bool,
     /// Relative tolerance of outputs.
@@ -135,6 +138,7 @@ impl SolidBody {
             shape: solid.shape,
             cracks,
             peaks: solid.peaks.clone(),
+            shear_modulus: shear_modulus(solid),
             prescribes_temperature: solid.faces.values().any(|face| face.temperature.is_some()),
             tolerance: scene.fidelity.tolerance,
             threads,
@@ -378,7 +382,21 @@ impl Maxima for SolidBody {
 
 impl Approach for SolidBody {}
 
+/// Largest shear modulus of the layers of a solid at the start [Pa].
+fn shear_modulus(solid: &Solid) -> Option<f64> {
+    let materials = solid.materials_of_layers().into_iter();
+    let modulus = |own: &Material| {
+        let Constants { young, poisson, .. } = own.at(solid.initial_temperature);
+        Some(0.5 * young? / (1.0 + poisson?))
+    };
+    materials.filter_map(modulus).reduce(f64::max)
+}
+
 impl Advice for SolidBody {
+    fn warning_on_value(&self, reading: &Reading, value: f64) -> Option<Warning> {
+        warnings::of_large_strain(self, reading, value)
+    }
+
     fn resolved_from(&self) -> f64 {
         self.plan.resolved_from
     }

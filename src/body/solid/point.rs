@@ -139,6 +139,10 @@ impl PointQuantity {
         !matches!(self.measure, Measure::Temperature)
     }
 
+    pub(super) fn is_displacement(&self) -> bool {
+        matches!(self.measure, Measure::Displacement(_))
+    }
+
     /// Returns true if it depends on the body's history.
     pub(super) fn is_of_history(&self) -> bool {
         matches!(

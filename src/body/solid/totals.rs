@@ -319,6 +319,11 @@ pub fn is_mechanical(place: usize) -> bool {
     matches!(TOTALS[place].of, Offered::Mechanical | Offered::Relaxing)
 }
 
+/// Returns true for the highest von Mises stress.
+pub fn is_von_mises(place: usize) -> bool {
+    TOTALS[place].descriptor.key == "max_von_mises"
+}
+
 /// Returns true for risks of failure.
 pub fn is_risk(place: usize) -> bool {
     TOTALS[place].of == Offered::Breaking

@@ -1,10 +1,12 @@
 //! Warnings about a state of a solid: heat of particles, and melting fronts.
 
-use super::SolidBody;
 use super::crack::Coarse;
+use super::{SolidBody, point_quantities, totals};
+use crate::body::Reading;
+use crate::limits::number;
 use crate::quantity::percent;
-use crate::scene::Flaw;
-use crate::warning::{self, Finding};
+use crate::scene::{Flaw, lateral_extents};
+use crate::warning::{self, Finding, Warning};
 
 /// Share of the transferred heat that particles may create or lose without a warning.
 const MOST_DRIFT: f64 = 0.05;
@@ -43,11 +45,38 @@ pub fn of_torn_parts(body: &SolidBody, state: &[f64]) -> Option<Finding> {
     (opening > TORN).then(|| warning::torn_apart(format!("{opening:.0}")))
 }
 
+/// Elastic shear strain over the root of three, and displacement over the smallest extent, from which on strain counts
+/// as large.
+const LARGE_STRAIN: f64 = 0.1;
+const LARGE_DISPLACEMENT: f64 = 0.5;
+
+/// Warns of a stress or a displacement that small strain does not hold for.
+pub fn of_large_strain(body: &SolidBody, reading: &Reading, value: f64) -> Option<Warning> {
+    let large = match *reading {
+        Reading::Total(place) if totals::is_von_mises(place) => {
+            let strain = value / (3.0 * body.shear_modulus?);
+            let percents = format!("{:.0}", 100.0 * strain);
+            (strain > LARGE_STRAIN).then(|| format!("elastic strain is {percents} %"))
+        }
+        Reading::Point { quantity, .. } if point_quantities()[quantity].is_displacement() => {
+            let [width, depth] = lateral_extents(&body.shape);
+            let least = width.min(depth).min(body.shape.thickness());
+            (value.abs() > LARGE_DISPLACEMENT * least).then(|| {
+                format!("a point has moved by {value:.1e} m in a body of {} m", number(least))
+            })
+        }
+        _ => None,
+    };
+    large.map(|what| warning::strain_is_large(what).at(&body.name))
+}
+
 /// Returns `None` unless the whole body is damaged alike.
 pub fn of_even_damage(body: &SolidBody, state: &[f64]) -> Option<Finding> {
     let (most, mean) = (body.max_damage(state), body.mean_damage(state));
     let [shown, shown_mean] = [most, mean].map(|damage| format!("{damage:.2}"));
-    (most > DAMAGED && mean > EVEN * most).then(|| warning::damage_is_even(shown, shown_mean))
+    let is_torn = body.opening_of_cracks(state) > TORN;
+    (most > DAMAGED && mean > EVEN * most && !is_torn)
+        .then(|| warning::damage_is_even(shown, shown_mean))
 }
 
 /// Returns the flaws along which the mesh is too coarse, and those that have grown too deep for their formula.

@@ -35,6 +35,32 @@ impl Softening {
         }
     }
 
+    /// The stretch at which a damage ω is reached; α₃ S_t if broken.
+    pub fn stretch_of(&self, damage: f64) -> f64 {
+        let Self { onset, share, knee, end } = *self;
+        let fall = (knee - share) / (knee - 1.0);
+        let at_knee = fall * (1.0 - 1.0 / knee);
+        let ratio = match damage <= at_knee {
+            true => 1.0 / (1.0 - damage / fall),
+            false => end / (1.0 + (1.0 - damage) * (end - knee) / share),
+        };
+        onset * ratio
+    }
+
+    /// Energy that growing damage dissipates, over that of the undamaged link at a stretch of one: `½ ∫ ε² dω` along the
+    /// law. On each branch `ω = A − B/ε`, so that it is `½ Δω ε₀ ε₁`.
+    pub fn dissipation(&self, [from, to]: [f64; 2]) -> f64 {
+        let at_knee = self.damage(self.onset * self.knee).0;
+        let branch = |from: f64, to: f64| {
+            if to > from {
+                0.5 * (to - from) * self.stretch_of(from) * self.stretch_of(to)
+            } else {
+                0.0
+            }
+        };
+        branch(from, to.min(at_knee)) + branch(from.max(at_knee), to)
+    }
+
     /// Energy that breaks a link, over that of the undamaged link at twice S_t²: `½[1 + (1 + α₁)(α₂ − 1) + α₁(α₃ −
     /// α₂)]`.
     pub fn energy(&self) -> f64 {
@@ -80,5 +106,33 @@ impl SofteningLaw {
                 Softening { onset, share, knee, end }
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LAW: Softening = Softening { onset: 1.5e-4, share: 0.13, knee: 20.0, end: 415.0 };
+
+    #[test]
+    fn the_stretch_of_a_damage_is_the_one_that_causes_it() {
+        for ratio in [1.0, 1.3, 7.0, 19.9, 20.1, 200.0, 415.0] {
+            let stretch = ratio * LAW.onset;
+            let found = LAW.stretch_of(LAW.damage(stretch).0);
+            assert!((found / stretch - 1.0).abs() < 1e-9, "{ratio}: {found}");
+        }
+    }
+
+    #[test]
+    fn dissipation_adds_up_to_the_energy_of_a_link() {
+        let whole = LAW.energy() * LAW.onset * LAW.onset;
+        let near = |found: f64, wanted: f64| (found / wanted - 1.0).abs() < 1e-12;
+        assert!(near(LAW.dissipation([0.0, 1.0]), whole));
+        // Steps across the knee, too.
+        let ends = [0.0, 0.3, 0.9, 0.97, 0.995, 1.0];
+        let sum: f64 = ends.windows(2).map(|pair| LAW.dissipation([pair[0], pair[1]])).sum();
+        assert!(near(sum, whole), "{sum} {whole}");
+        assert_eq!(LAW.dissipation([0.5, 0.5]), 0.0);
     }
 }

@@ -187,7 +187,7 @@ impl Kcc {
         let surfaces = Surfaces::new(coefficients, residual, tensile, self.biaxial, &meridians)
             .ok_or((
                 "uniaxial compression does not yield below its strength, or sections across the axis are not convex",
-                "`yielding` below `strength`; `pressure` of `meridians` ascending from that of `biaxial`, ratios from 0.5 to 1"
+                "`yielding` below `strength`, `tensile_strength` far below both; `pressure` of `meridians` ascending from that of `biaxial`, ratios from 0.5 to 1"
                     .to_owned(),
             ))?;
         let points = pairs(&self.damage.lambda, &self.damage.eta)?;

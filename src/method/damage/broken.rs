@@ -62,16 +62,33 @@ fn regions(grid: Grid, damage: &[f64]) -> Vec<Vec<usize>> {
 }
 
 impl Section {
-    /// Counts cracks and measures their depth, with the kind of both sides along each axis.
-    pub fn cracks(&self, damage: &[f64], sides: [[Side; 2]; 2]) -> Cracks {
+    /// Counts cracks and measures their depth, with the kind of both sides along each axis. Cracks that damage within a
+    /// skin of the faces [m] has joined stay as many as reach below it.
+    pub fn cracks(&self, damage: &[f64], sides: [[Side; 2]; 2], skin: f64) -> Cracks {
         let grid = self.grid();
-        let regions = regions(grid, damage);
         let mirrored = sides[0][0] == Side::Mirror;
         let touches = |region: &[usize]| region.iter().any(|node| node % grid.counts[0] == 0);
         // Those that touch the plane of symmetry are one with their image.
         let copies = |region: &Vec<usize>| if mirrored && !touches(region) { 2 } else { 1 };
-        let depths = regions.iter().map(|region| self.depth(region, sides));
-        Cracks { count: regions.iter().map(copies).sum(), depth: depths.fold(0.0, f64::max) }
+        let whole = regions(grid, damage);
+        let deep = regions(grid, &self.below_skin(damage, sides, skin));
+        let count = |region: &Vec<usize>| {
+            let nodes: BTreeSet<usize> = region.iter().copied().collect();
+            let parts = deep.iter().filter(|part| nodes.contains(&part[0]));
+            parts.map(copies).sum::<usize>().max(copies(region))
+        };
+        let depths = whole.iter().map(|region| self.depth(region, sides));
+        Cracks { count: whole.iter().map(count).sum(), depth: depths.fold(0.0, f64::max) }
+    }
+
+    /// Damage of the nodes below a skin of the faces [m]; zero within it.
+    fn below_skin(&self, damage: &[f64], sides: [[Side; 2]; 2], skin: f64) -> Vec<f64> {
+        let faces = (0..4).map(|face| [face / 2, face % 2]);
+        let faces: Vec<_> =
+            faces.filter(|[axis, side]| sides[*axis][*side] == Side::Face).collect();
+        let is_skin = |node: usize| faces.iter().any(|&face| self.distance(node, face) < skin);
+        let own = damage.iter().enumerate();
+        own.map(|(node, &damage)| if is_skin(node) { 0.0 } else { damage }).collect()
     }
 
     /// Nodes of the elements through which a straight crack passes, from one point to another [m].
@@ -209,10 +226,22 @@ mod tests {
     #[test]
     fn separate_cracks_are_counted_with_their_depth() {
         let (section, damage) = broken(&[[2, 4], [3, 3], [3, 2], [6, 4], [6, 3], [8, 0]]);
-        let found = section.cracks(&damage, FACES);
+        let found = section.cracks(&damage, FACES, 0.0);
         assert_eq!(found.count, 2);
         assert!((found.depth - 2e-3).abs() < 1e-15);
-        assert_eq!(section.cracks(&[0.5; 45], FACES), Cracks::default());
+        assert_eq!(section.cracks(&[0.5; 45], FACES, 0.0), Cracks::default());
+    }
+
+    #[test]
+    fn cracks_stay_several_where_their_mouths_have_joined() {
+        let mouths: Vec<[usize; 2]> = (2..=6).map(|i| [i, 4]).collect();
+        let cracks = [[2, 3], [2, 2], [6, 3], [6, 2]];
+        let (section, damage) = broken(&[&mouths[..], &cracks].concat());
+        let count = |skin: f64| section.cracks(&damage, FACES, skin).count;
+        assert_eq!([count(0.0), count(0.5e-3)], [1, 2]);
+        // A crack within the skin is one, too.
+        let (section, damage) = broken(&mouths);
+        assert_eq!(section.cracks(&damage, FACES, 0.5e-3).count, 1);
     }
 
     #[test]
@@ -232,17 +261,17 @@ mod tests {
     fn images_count_and_no_depth_is_measured_from_a_plane_of_symmetry() {
         let (section, damage) = broken(&[[0, 2], [1, 2], [6, 4], [6, 3]]);
         let sides = [[Side::Mirror, Side::Face], [Side::Face; 2]];
-        let found = section.cracks(&damage, sides);
+        let found = section.cracks(&damage, sides, 0.0);
         assert_eq!(found.count, 3);
         assert!((found.depth - 2e-3).abs() < 1e-15);
         let sides = [[Side::Axis, Side::Face], [Side::Face; 2]];
-        assert_eq!(section.cracks(&damage, sides).count, 2);
+        assert_eq!(section.cracks(&damage, sides, 0.0).count, 2);
     }
 
     #[test]
     fn through_crack_has_the_depth_of_the_body() {
         let (section, damage) = broken(&[0, 1, 2, 3, 4].map(|j| [1, j]));
-        assert!((section.cracks(&damage, FACES).depth - 4e-3).abs() < 1e-15);
+        assert!((section.cracks(&damage, FACES, 0.0).depth - 4e-3).abs() < 1e-15);
     }
 
     #[test]

@@ -287,6 +287,16 @@ impl Line {
     /// from 1 on (N. Roussel 2018, doi 10.1016/j.cemconres.2018.04.005). 0 without a yield stress; frozen segments bear
     /// all.
     fn bearing(&self, strand: &Strand) -> f64 {
+        self.bearing_of(strand, |_| true)
+    }
+
+    /// The same of segments on which others are stacked: one alone that is wide and flat may be beyond 1, at rest.
+    pub fn bearing_of_stacks(&self, strand: &Strand) -> f64 {
+        self.bearing_of(strand, |above| above > 0.0)
+    }
+
+    /// The largest ratio of the segments that are chosen by the height above their own tops [m].
+    fn bearing_of(&self, strand: &Strand, is_chosen: impl Fn(f64) -> bool) -> f64 {
         let fluid = &self.plan.fluid;
         if fluid.viscosity.yield_stress() == 0.0 {
             return 0.0;
@@ -298,7 +308,7 @@ impl Line {
             if let Some(below) = segment.below {
                 tops[below] = tops[below].max(tops[n]);
             }
-            if self.frozen(&segment) < PACKED {
+            if self.frozen(&segment) < PACKED && is_chosen(tops[n] - segment.top()) {
                 let curve = fluid.viscosity.at(self.temperature(&segment));
                 let weight = fluid.density * self.plan.gravity * (tops[n] - segment.base);
                 largest = largest.max(weight / (3.0_f64.sqrt() * curve.yield_stress()));

@@ -234,6 +234,8 @@ fn stacks_load_their_lowest_layer() {
         let expected = 2300.0 * 9.81 * top / (3.0_f64.sqrt() * 800.0);
         let found = line.totals(&strand).bearing;
         assert!((found / expected - 1.0).abs() < 1e-9, "{layers}: {found} {expected}");
+        let stacked = line.bearing_of_stacks(&strand);
+        assert_eq!(stacked, if layers == 1 { 0.0 } else { found });
         assert!(top > 0.9 * f64::from(layers) * strand.segment(9).height(), "{layers}: {top}");
         height = top + 0.015;
     }

@@ -196,42 +196,53 @@ impl Equilibrium {
     ) -> Result<(Balanced, f64), LatticeError> {
         let mut now = start.clone();
         let mut dissipated = 0.0;
-        let mut before: Option<Vec<Deformation>> = None;
+        let mut has_moved = false;
         for relaxation in 0..MOST_RELAXATIONS {
             allowance.spend(1.0, ITERATIONS, WORK * now.displacement.len())?;
             if relaxation % RELAXATIONS == RELAXATIONS - 1
                 && let Some(found) = self.solve(&now, reached, wanted, allowance)?
             {
                 let Found { balanced, trial, .. } = found;
-                let old = before.as_ref().unwrap_or(&trial.deformation);
-                dissipated += self.dissipation([old, &trial.deformation], [reached, &trial.damage]);
+                dissipated += self.broken(&trial.deformation, [reached, &trial.damage]);
                 reached.copy_from_slice(&trial.damage);
                 return Ok((balanced, dissipated));
             }
             let trial = self.trial(&now.displacement, reached);
-            let old = before.as_ref().unwrap_or(&trial.deformation);
-            dissipated += self.dissipation([old, &trial.deformation], [reached, &trial.damage]);
             let residual = self.residual(&trial, now.force);
-            let is_balanced = norm(&residual) <= TOLERANCE * self.scale(&trial) && before.is_some();
+            let is_balanced = norm(&residual) <= TOLERANCE * self.scale(&trial) && has_moved;
             let lengthened = if relaxation < SLOW { 1.0 } else { LENGTHENED };
+            let old = reached.to_vec();
             for (own, new) in reached.iter_mut().zip(&trial.damage) {
                 *own = (*own + lengthened * (new - *own)).min(1.0);
             }
+            dissipated += self.broken(&trial.deformation, [&old, reached]);
             if is_balanced {
                 return Ok((now, dissipated));
             }
-            let remaining = |l: usize| self.remaining(&trial.deformation[l], reached[l]);
-            let factor = self.pattern.factor(&self.links, remaining)?;
-            let mut unit = vec![0.0; residual.len()];
-            for &(at, part) in &self.pattern.frame.load {
-                unit[at] += part;
-            }
-            factor.solve_in_place(&mut unit);
-            now.force = wanted / product(&self.control, &unit);
-            now.displacement = unit.iter().map(|part| now.force * part).collect();
-            before = Some(trial.deformation);
+            now = self.unbroken(&now.displacement, reached, wanted)?;
+            has_moved = true;
         }
         Err(LatticeError::NoEquilibrium { relaxations: MOST_RELAXATIONS })
+    }
+
+    /// The equilibrium at a value of the control with the damage that there is. Links that are closed at a displacement
+    /// [m] stay closed, and others open.
+    pub fn unbroken(
+        &self,
+        displacement: &[f64],
+        damage: &[f64],
+        wanted: f64,
+    ) -> Result<Balanced, LatticeError> {
+        let deformation = self.deformations(displacement);
+        let remaining = |l: usize| self.remaining(&deformation[l], damage[l]);
+        let factor = self.pattern.factor(&self.links, remaining)?;
+        let mut unit = vec![0.0; displacement.len()];
+        for &(at, part) in &self.pattern.frame.load {
+            unit[at] += part;
+        }
+        factor.solve_in_place(&mut unit);
+        let force = wanted / product(&self.control, &unit);
+        Ok(Balanced { force, displacement: unit.iter().map(|part| force * part).collect() })
     }
 
     /// Energy that growing damage dissipates between two states [J], `½ Δω q₀·D q₁` of each link: with it the elastic
@@ -247,6 +258,24 @@ impl Equilibrium {
                 forces[0] = 0.0;
             }
             0.5 * growth * forces.iter().zip(&q[1][l]).map(|(a, b)| a * b).sum::<f64>()
+        };
+        self.links.iter().enumerate().map(of_link).sum()
+    }
+
+    /// Energy that damage dissipates in a sudden break [J]: that of the law of each link between two values of its
+    /// damage, however far the link has opened, in the proportion of stretch and bending that it has now.
+    pub fn broken(&self, q: &[Deformation], [before, after]: [&[f64]; 2]) -> f64 {
+        let of_link = |(l, link): (usize, &Link)| {
+            let (stretch, _) = link.stretch(&q[l], self.bending);
+            if after[l] <= before[l] || stretch <= 0.0 {
+                return 0.0;
+            }
+            let mut forces = link.elastic(&q[l]);
+            if self.closes && q[l][0] < 0.0 {
+                forces[0] = 0.0;
+            }
+            let twice: f64 = forces.iter().zip(&q[l]).map(|(a, b)| a * b).sum();
+            link.softening.dissipation([before[l], after[l]]) * twice / (stretch * stretch)
         };
         self.links.iter().enumerate().map(of_link).sum()
     }

@@ -69,16 +69,13 @@ const EASY: usize = 6;
 const LENGTHENED: f64 = 1.5;
 
 impl LatticePlan {
-    /// Stress at which links along the pull soften [Pa], and an estimate of the energy of a crack per area [J/m²]: of
-    /// the two links that it cuts in each spacing, `2 c E s S_t²/(√3 (1 − ν))` with c of [`Softening::energy`].
-    ///
-    /// [`Softening::energy`]: crate::laws::fracture::Softening::energy
+    /// Stress at which a link softens along itself [Pa], and the area below its law, the energy that it takes per area
+    /// [J/m²].
     pub fn strength_and_energy(&self) -> (f64, f64) {
-        let Sheet { young, poisson, .. } = self.sheet;
+        let young = self.sheet.young;
         let spacing = self.strip.fitted_spacing();
         let law = self.softening.of_link(spacing, young, 1.0);
-        let links = 2.0 / (3.0_f64.sqrt() * (1.0 - poisson));
-        (young * law.onset, links * law.energy() * young * spacing * law.onset * law.onset)
+        (young * law.onset, law.energy() * young * spacing * law.onset * law.onset)
     }
 
     /// Longest step of what is prescribed [m].
@@ -206,8 +203,13 @@ impl Lattice {
             Control::Displacement => self.equilibrium.settle(&start, damage, wanted, allowance)?,
             Control::Opening => self.equilibrium.relax(&start, damage, wanted, allowance)?,
         };
-        // The load moves before links break: it falls by what they release.
-        let work = self.work(state, &balanced).max(state.force * self.moved(state, &balanced));
+        let work = match self.plan.control {
+            Control::Displacement => self.work_before_break(state, &balanced),
+            // The load moves before links break: it falls by what they release.
+            Control::Opening => {
+                self.work(state, &balanced).max(state.force * self.moved(state, &balanced))
+            }
+        };
         state.work += work;
         state.dissipated += dissipated;
         state.displacement = balanced.displacement;
@@ -219,6 +221,15 @@ impl Lattice {
     /// Work of the mean load from a state to the next equilibrium [J].
     fn work(&self, state: &LatticeState, next: &Balanced) -> f64 {
         0.5 * (state.force + next.force) * self.moved(state, next)
+    }
+
+    /// Work of a load that moves to the next equilibrium before links break [J]: without more damage, the strip is linear
+    /// from the start on.
+    fn work_before_break(&self, state: &LatticeState, next: &Balanced) -> f64 {
+        let moved = self.moved(state, next);
+        let place = product(&self.equilibrium.pattern.frame.load, &state.displacement);
+        let stiffness = if place == 0.0 { 0.0 } else { (state.force / place).max(0.0) };
+        (state.force + 0.5 * stiffness * moved) * moved
     }
 
     /// Motion of the load from a state to the next equilibrium [m].

@@ -1,7 +1,7 @@
 //! Sudden breaks under a held load, as motion that comes to rest.
 
 use super::LatticeError;
-use super::equilibrium::{Balanced, Equilibrium, Found, norm, product};
+use super::equilibrium::{Balanced, Equilibrium, Found, norm};
 use crate::runtime::allowance::Allowance;
 
 /// Mass of each unknown for a density of one, the time step that the highest frequency allows, and the part of a speed
@@ -33,20 +33,16 @@ impl Equilibrium {
         allowance: &Allowance,
     ) -> Result<(Balanced, f64), LatticeError> {
         let Masses { of_unknowns: mass, time_step, fading } = &self.masses;
-        let mut now = start.clone();
+        // The load moves while no link breaks, so that no wave starts from it.
+        let mut now = self.unbroken(&start.displacement, reached, wanted)?;
         let mut velocity = vec![0.0; mass.len()];
         let load = &self.pattern.frame.load;
         let compliance: f64 = load.iter().map(|&(at, part)| part * part / mass[at]).sum();
-        let missing = wanted - product(load, &now.displacement);
-        for &(at, part) in load {
-            now.displacement[at] += part / mass[at] * missing / compliance;
-        }
-        let mut before = self.deformations(&start.displacement);
         let mut dissipated = 0.0;
         for step in 0..MOST_STEPS {
             allowance.spend(1.0, STEPS, WORK * mass.len())?;
             let trial = self.trial(&now.displacement, reached);
-            dissipated += self.dissipation([&before, &trial.deformation], [reached, &trial.damage]);
+            dissipated += self.broken(&trial.deformation, [reached, &trial.damage]);
             reached.copy_from_slice(&trial.damage);
             let driven: f64 =
                 load.iter().map(|&(at, part)| part * trial.forces[at] / mass[at]).sum();
@@ -58,8 +54,7 @@ impl Equilibrium {
                 && let Some(found) = self.solve(&now, reached, wanted, allowance)?
             {
                 let Found { balanced, trial: end, .. } = found;
-                let ends = [&trial.deformation[..], &end.deformation];
-                dissipated += self.dissipation(ends, [reached, &end.damage]);
+                dissipated += self.broken(&end.deformation, [reached, &end.damage]);
                 reached.copy_from_slice(&end.damage);
                 return Ok((balanced, dissipated));
             }
@@ -70,7 +65,6 @@ impl Equilibrium {
             for (own, velocity) in now.displacement.iter_mut().zip(&velocity) {
                 *own += time_step * velocity;
             }
-            before = trial.deformation;
         }
         Err(LatticeError::NotSettled { steps: MOST_STEPS })
     }

@@ -86,8 +86,10 @@ fn constants(checker: &mut Checker, path: &Path, droplet: &Droplet, freezing: &F
     // Contents are linear in the temperature between solidus and liquidus.
     let sensible = 0.5 * (fluid.specific_heat + freezing.specific_heat) * (liquidus - solidus);
     let least = (LEAST_CHANGE * fluid.specific_heat * liquidus - sensible).max(f64::MIN_POSITIVE);
-    let message =
-        "the law of a front does not hold for so little heat between liquidus and solidus";
+    let amount = if latent_heat > MOST_LATENT { "much" } else { "little" };
+    let message = format!(
+        "the law of a front does not hold for so {amount} heat between liquidus and solidus"
+    );
     let allowed = format!("{} to {}, or no `melting`", number(least), number(MOST_LATENT));
     let is_enough = (least..=MOST_LATENT).contains(&latent_heat);
     checker.require(is_enough, &path.at("fluid.melting.latent_heat"), message, allowed);

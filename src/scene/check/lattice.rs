@@ -9,6 +9,9 @@ use crate::scene::locate::Path;
 const MOST_PARTICLES: f64 = 1e6;
 /// Least number of particles over the depth.
 const LEAST_LAYERS: f64 = 4.0;
+/// Least depth below the load of a bent strip, over the spacing: links within two spacings of the load stay intact, and
+/// a narrower rest bends like a hinge that does not break.
+const LEAST_LIGAMENT: f64 = 5.0;
 
 pub fn check(checker: &mut Checker) {
     for (name, lattice) in checker.scene.lattices() {
@@ -87,14 +90,19 @@ fn spacing(checker: &mut Checker, path: &Path, lattice: &Lattice) {
 fn notch(checker: &mut Checker, path: &Path, lattice: &Lattice) {
     let Some(notch) = lattice.notch else { return };
     let path = path.key("notch");
-    let most = lattice.depth - 2.0 * lattice.spacing;
-    let message = "the notch leaves too little of the depth";
-    checker.require(
-        fits(notch.depth, most),
-        &path.key("depth"),
-        message,
-        format!("up to {}", number(most)),
-    );
+    let (rows, why) = match lattice.support {
+        LatticeSupport::Ends => (2.0, ""),
+        LatticeSupport::ThreePoint(_) => {
+            (LEAST_LIGAMENT, ", as links within two spacings of the load stay intact")
+        }
+    };
+    let most = lattice.depth - rows * lattice.spacing;
+    let message = format!("the notch leaves too little of the depth{why}");
+    let allowed = match most > 0.0 {
+        true => format!("up to {}, or a smaller `spacing`", number(most)),
+        false => "a smaller `spacing`".to_owned(),
+    };
+    checker.require(fits(notch.depth, most), &path.key("depth"), message, allowed);
     let message = "the notch is shallower than particles are apart";
     let allowed = format!(">= {}, or a smaller `spacing`", number(lattice.spacing));
     checker.require(fits(lattice.spacing, notch.depth), &path.key("depth"), message, allowed);
@@ -124,6 +132,11 @@ fn place(
 
 fn support(checker: &mut Checker, path: &Path, lattice: &Lattice) {
     let LatticeSupport::ThreePoint(own) = lattice.support else { return };
+    let least = lattice.depth / LEAST_LIGAMENT;
+    let message =
+        "links within two spacings of the load stay intact, and too little of the depth is left";
+    let allowed = format!("up to {}", number(least));
+    checker.require(fits(lattice.spacing, least), &path.key("spacing"), message, allowed);
     let (body, path) = (path, path.at("support.three_point.span"));
     let most = lattice.length - lattice.spacing;
     let message = "the supports are not below the strip";

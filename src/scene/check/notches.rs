@@ -43,7 +43,15 @@ pub fn check(checker: &mut Checker, path: &Path, solid: &Solid) {
             continue;
         }
         let own = [notch.from, notch.to];
-        ligaments(checker, &path.index(i), (own, [[low, bottom], [high, 0.0]]), solid);
+        let corners = [[low, bottom], [high, 0.0]];
+        ligaments(checker, &path.index(i), (own, corners), solid);
+        let edges = if low == 0.0 { &[1, 2, 3][..] } else { &[0, 1, 2, 3] };
+        let along = edges.iter().any(|&edge| own.iter().all(|at| is_on_edge(*at, corners, edge)));
+        let message = "a notch along an edge of the section cuts nothing off, and breaks the elements along it";
+        checker.require(!along, &path.index(i), message, "a notch into the section");
+        let is_known = inside.iter().any(|(_, other)| is_same(own, *other));
+        let message = "this notch is in the list before";
+        checker.require(!is_known, &path.index(i), message, "each notch once");
         inside.push((i, own));
         // Half a section stands for a whole one; a notch in its plane of symmetry is its own image.
         if low == 0.0 && own.iter().any(|at| at[0] != 0.0) {
@@ -57,7 +65,21 @@ pub fn check(checker: &mut Checker, path: &Path, solid: &Solid) {
     }
 }
 
-/// Refuses a notch of which an end is off an edge of the meshed section by less than an element, all of which it breaks.
+/// Returns true if a point is on an edge of a rectangle between two corners: the low and the high one along x, then
+/// along z.
+fn is_on_edge(at: Place, [low, high]: [Place; 2], edge: usize) -> bool {
+    let [axis, end] = [edge / 2, edge % 2];
+    let own = if end == 0 { low } else { high };
+    (at[axis] - own[axis]).abs() <= TOUCHING * (high[axis] - low[axis])
+}
+
+/// Returns true if two notches have the same ends.
+fn is_same([a, b]: Segment, other: Segment) -> bool {
+    other == [a, b] || other == [b, a]
+}
+
+/// Refuses notches that are shorter than an element, and those of which an end is off an edge of the meshed section by less than an element,
+/// all of which they break.
 fn ligaments(
     checker: &mut Checker,
     path: &Path,
@@ -66,10 +88,24 @@ fn ligaments(
 ) {
     let Some(law) = solid.damage() else { return };
     let spacing = solid.mesh.spacing_of_cracks(law.length);
+    let sizes = [0, 1].map(|axis| {
+        let extent = high[axis] - low[axis];
+        extent / Mesh::elements_of_cracks(extent, spacing[axis]) as f64
+    });
+    let least = sizes[0].min(sizes[1]);
+    let message = format!(
+        "a notch of {} m is shorter than an element, all of which it breaks",
+        short(distance(ends[0], ends[1]))
+    );
+    let is_long = distance(ends[0], ends[1]) >= least * (1.0 - TOUCHING);
+    // A notch without length is refused as such.
+    if ends[0] != ends[1] {
+        checker.require(is_long, path, message, format!(">= {} m long", short(least)));
+    }
     for (key, end) in ["from", "to"].into_iter().zip(ends) {
         for axis in 0..2 {
             let extent = high[axis] - low[axis];
-            let size = extent / Mesh::elements_of_cracks(extent, spacing[axis]) as f64;
+            let size = sizes[axis];
             let left = (end[axis] - low[axis]).min(high[axis] - end[axis]);
             let message = format!(
                 "a notch leaves {} m to the edge of the meshed section, less than an element, which is {} m long: it \
