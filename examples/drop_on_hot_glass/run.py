@@ -24,19 +24,29 @@ class Result:
     scratch: np.ndarray  # Pa √m
     worst: np.ndarray  # Pa √m and m
     stress: np.ndarray  # Pa, xx of each ring at each time: the mean of radial and hoop stress
+    density: np.ndarray  # 1/m², risk so far over the area of each ring, in the end
 
 
 def simulate(fmu: Path) -> Result:
     names = ["plate.failure_risk", "plate.present_failure_risk", "scratch.stress_intensity"]
     names += ["worst.stress_intensity", "worst.depth"]
     rings = [f"face.stress_xx[{i}]" for i in range(1, RINGS + 1)]
+    densities = [f"face.surface_failure_density[{i}]" for i in range(1, RINGS + 1)]
     rows = []
     with Unit(fmu) as unit:
         for step in range(round(STOP / STEP)):
             unit.step_to((step + 1) * STEP)
             rows.append([unit.time, *unit.get(names + rings)])
+        density = np.array(unit.get(densities))
     rows = np.array(rows)
-    return Result(rows[:, 0], rows[:, 1:3], rows[:, 3], rows[:, 4:6], rows[:, 6:])
+    return Result(rows[:, 0], rows[:, 1:3], rows[:, 3], rows[:, 4:6], rows[:, 6:], density)
+
+
+def shares(result: Result) -> np.ndarray:
+    """Parts of the risk so far that lie within the outer radius of each ring."""
+    edges = np.linspace(0.0, RADIUS, RINGS + 1)
+    risks = result.density * np.pi * np.diff(edges**2)
+    return np.cumsum(risks) / result.risks[-1, 0]
 
 
 def report(result: Result):
@@ -50,6 +60,9 @@ def report(result: Result):
             + [f"{result.scratch[at] * 1e-6:.3f}", f"{worst * 1e-6:.3f}", f"{depth * 1e6:.0f}"]
         )
     shared.print_table(["t/ms", "P", "P now", "K/(MPa √m)", "worst K", "at µm"], rows)
+    within = shares(result)
+    half, most = [RADIUS / RINGS * (np.argmax(within > part) + 1) * 1e3 for part in [0.5, 0.95]]
+    print(f"half of the risk lies within {half:.2f} mm, 95 % within {most:.2f} mm")
 
 
 def draw(result: Result, folder: Path):
@@ -95,6 +108,7 @@ def check(result: Result):
     assert np.all(so_far >= present * (1 - 1e-2)), "more at once than ever"
     assert np.all(result.worst[:, 0] >= result.scratch * (1 - 1e-3)), "a depth is worse"
     assert result.scratch.max() > 0.0, "the cold film opens the scratch"
+    assert abs(shares(result)[-1] - 1) < 0.05, "the risk is not that of the surface"
     # The skin cannot be pulled more than if it took the temperature of the water.
     most = 70e9 * 9e-6 * 75.0 / 0.8
     assert result.stress.max() < most, result.stress.max()

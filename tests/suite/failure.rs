@@ -257,7 +257,7 @@ const RANGE: &str = "range = { x = [-0.8e-3, 0.8e-3] }";
 /// The derivative of the risk of the moment is the limit of differences: with respect to inputs which act at once, and
 /// to time.
 #[test]
-fn the_risk_of_the_moment_has_a_derivative() {
+fn present_risk_has_a_derivative() {
     const FACES: &str =
         "[body.plate.faces]\nbottom = { clamped = true }\nleft = { temperature = 480.0 }\n";
     for keys in ["volume = 1e-9", "volume = 1e-9, directions = \"normal\"", "area = 1e-6"] {

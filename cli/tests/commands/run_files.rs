@@ -168,7 +168,7 @@ fn killed_run_counts_as_earlier_run() {
 
 /// A modulus that relaxes to nothing within the first step bears no load: the step fails.
 #[test]
-fn a_run_that_fails_at_once_leaves_the_former_one() {
+fn failed_runs_leave_the_files_of_former_ones() {
     let pad = |fraction: &str| {
         format!(
             r#"

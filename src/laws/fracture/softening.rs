@@ -116,7 +116,7 @@ mod tests {
     const LAW: Softening = Softening { onset: 1.5e-4, share: 0.13, knee: 20.0, end: 415.0 };
 
     #[test]
-    fn the_stretch_of_a_damage_is_the_one_that_causes_it() {
+    fn stretch_and_damage_are_inverse() {
         for ratio in [1.0, 1.3, 7.0, 19.9, 20.1, 200.0, 415.0] {
             let stretch = ratio * LAW.onset;
             let found = LAW.stretch_of(LAW.damage(stretch).0);

@@ -242,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn the_rate_is_that_of_a_small_change() {
+    fn rates_are_those_of_small_changes() {
         let change = [0.3, -0.7, 0.2, 0.5, -0.4, 0.1].map(|own| own * 1e8);
         for directions in [Directions::Independent, Directions::Normal] {
             for modulus in [3.0, 10.0, 17.5] {
