@@ -456,7 +456,7 @@ kind = "lattice"
 length = 0.2
 depth = 0.06
 thickness = 0.1
-spacing = 10e-3
+spacing = 7.5e-3
 notch = { depth = 0.02 }
 support = { three_point = { span = 0.18 } }
 control = "opening"
