@@ -20,7 +20,7 @@ mod warnings;
 
 pub use cache::Cache;
 pub use error::ModelError;
-pub use memory::check_memory;
+pub use memory::{check_memory, check_room_to_read};
 pub use peaks::Peak;
 use peaks::When;
 pub use reader::Reader;

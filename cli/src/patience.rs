@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use impinge::advice;
-use impinge::model::forecast;
+use impinge::model::{self, forecast};
 use impinge::scene::{self, Scene};
 use impinge::warning::Warning;
 
@@ -20,6 +20,7 @@ const PROPOSED: f64 = DAY;
 
 /// Reads and checks the scene in a file; prints a notice before it reads a large one.
 pub fn read(path: &Path) -> Result<(Scene, Vec<Warning>), CliError> {
+    model::check_room_to_read().map_err(CliError::Model)?;
     let file = path.display().to_string();
     let text = scene::text_of(path, &file)?;
     if let Some(note) = scene::note_on_reading(&text, &file) {

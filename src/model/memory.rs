@@ -89,6 +89,14 @@ pub fn check_memory(scene: &Scene, available: f64) -> Result<(), ModelError> {
     })
 }
 
+/// Address space to read and check a scene [B].
+const READING: usize = 6 << 20;
+
+/// Refuses to read a scene where not even that fits.
+pub fn check_room_to_read() -> Result<(), ModelError> {
+    Ok(address_space::expect(READING)?)
+}
+
 /// Address space to build a model with this amount of data, on this number of threads [B].
 fn space(data: f64, threads: usize) -> usize {
     let arena = if data > WITHIN_ARENA { ARENA } else { 0 };

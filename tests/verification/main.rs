@@ -27,6 +27,7 @@ mod heat;
 mod large_strain;
 mod lattice;
 mod particles;
+mod quench;
 #[path = "../common/random_scenes.rs"]
 mod random_scenes;
 mod reproducing;

@@ -302,15 +302,8 @@ impl Local {
 
     /// Value at a point of given shape functions along the axes.
     fn at(&self, [x, y, z]: [&[f64; 3]; 3]) -> f64 {
-        let mut sum = 0.0;
-        for c in 0..self.counts[2] {
-            for b in 0..self.counts[1] {
-                for a in 0..self.counts[0] {
-                    sum += x[a] * y[b] * z[c] * self.values[a + 3 * (b + 3 * c)];
-                }
-            }
-        }
-        sum
+        let nodes = self.values.iter().enumerate();
+        nodes.map(|(n, value)| x[n % 3] * y[n / 3 % 3] * z[n / 9] * value).sum()
     }
 
     /// Passes the value, the shape functions and the measure of each point.
