@@ -103,6 +103,12 @@ rules! {
     "`{flaw}` has grown through {part} of what was behind its mouth, and its stress intensity is that of a half plane";
     "do not rely on it beyond {most}"
 
+    Step breaks_take_energy(part)
+    "sudden breaks have taken {part} of the energy that damage dissipated, where they can only release some: the \
+     equilibrium after one of them is not the one to which it leads";
+    "do not rely on loads, cracks and energies from there on; try steps of another length, `inertia = true`, or a smaller \
+     `spacing`"
+
     Step sides_pass_faces(passed)
     "free sides have bulged by {passed} m through the planes of the faces that press the body: it has no contact with \
      what presses it beyond these faces";

@@ -116,6 +116,29 @@ fn sudden_breaks_release_energy() {
     }
 }
 
+/// A break that ends in an equilibrium to which it does not lead seems to take energy.
+#[test]
+fn breaks_that_take_energy_are_warned_of() {
+    let keys = "control = \"opening\"\narrangement = \"random\"\nseed = 0";
+    let text = beam(keys)
+        .replace("length = 0.25", "length = 0.25908")
+        .replace("spacing = 9.5e-3", "spacing = 7.62e-3")
+        .replace("depth = 19e-3, width = 2e-3", "depth = 25.4e-3");
+    let mut trial = Trial::new(&text);
+    for n in 1..=52 {
+        let fine = f64::from(n.min(28)) * 2e-6;
+        let coarse = f64::from((n - 28).max(0)) / 24.0 * (0.6e-3 - 56e-6);
+        trial.set("beam.opening", fine + coarse);
+        trial.step(0.1);
+        let [released, dissipated] =
+            ["released_energy", "dissipated_energy"].map(|key| trial.get(&format!("beam.{key}")));
+        let found = trial.model.warnings(&trial.state);
+        let is_warned = found.iter().any(|warning| warning.finding().id == "breaks_take_energy");
+        assert_eq!(is_warned, released < -0.02 * dissipated, "{n}: {released:e} {dissipated:e}");
+    }
+    assert!(trial.get("beam.released_energy") < 0.0);
+}
+
 /// Loads do not depend on the number of communication steps.
 #[test]
 fn communication_steps_do_not_matter() {

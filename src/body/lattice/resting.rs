@@ -1,13 +1,16 @@
 //! A lattice in equilibrium with what its input prescribes.
 
 use crate::body::{
-    Acts, Advice, Approach, BodyError, Events, Given, Giver, Maxima, Reading, Resources, Structured,
+    Acts, Advice, Approach, BodyError, Events, Given, Giver, Maxima, Occasion, Reading, Resources,
+    Structured,
 };
 use crate::inputs::InputLayout;
 use crate::method::lattice::{Lattice, LatticeState};
 use crate::method::sph::ParticleFields;
+use crate::quantity::percent;
 use crate::runtime::allowance::{Allowance, cost};
 use crate::scene;
+use crate::warning::{self, Warning};
 
 use super::totals::{self, Seen};
 use super::{Drawn, forecast, named, plan};
@@ -134,7 +137,18 @@ impl Advice for RestingLatticeBody {
     fn notes(&self) -> Vec<String> {
         self.notes.iter().map(|note| format!("{}: {note}", self.name)).collect()
     }
+
+    /// Warns of breaks that seem to take energy: the equilibrium after them is not one to which they lead.
+    fn warnings(&self, state: &[f64], occasion: Occasion) -> Vec<Warning> {
+        let LatticeState { dissipated, released, .. } = self.structure(state);
+        let is_wrong = matches!(occasion, Occasion::Step) && released < -TAKEN * dissipated;
+        let part = percent(-released / dissipated);
+        is_wrong.then(|| warning::breaks_take_energy(part).at(&self.name)).into_iter().collect()
+    }
 }
+
+/// Part of the dissipated energy that breaks may seem to take, by errors of their steps.
+const TAKEN: f64 = 0.02;
 
 impl Resources for RestingLatticeBody {
     fn foresee(&self, _: &[f64], dt: f64, allowance: &Allowance) -> Result<(), BodyError> {

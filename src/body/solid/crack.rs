@@ -17,7 +17,7 @@ use crate::laws::Constants;
 use crate::laws::fracture::CrackGrowth;
 use crate::math::gauss::gauss_on;
 use crate::math::lagrange::interpolation_weights;
-use crate::method::fem::{Component, Functional, Geometry, Mesh, Plan, SolidFem};
+use crate::method::fem::{Component, Functional, Geometry, Mesh, NodalSum, Plan, SolidFem};
 use crate::scene::{FaceName, Flaw, FlawShape, Scene, Solid};
 
 /// Safety of closed cracks, and of all that are safer.
@@ -274,6 +274,13 @@ impl Crack {
             Ok(self.across.iter().zip(stress).map(|(factor, own)| factor * own).sum())
         };
         self.points.iter().map(across).collect()
+    }
+
+    /// The stress intensity of a given depth as a sum over nodes; `None` if the depth is searched or grows, or if the sum
+    /// is over more than the nodes of one image.
+    pub fn nodal_sum(&self, solid: &SolidFem) -> Option<NodalSum> {
+        let Extent::Given { weights, .. } = &self.extent else { return None };
+        solid.nodal_sum(&self.points, weights, self.across)
     }
 
     /// Stress intensity of a given depth, negative in compression, from a solution.

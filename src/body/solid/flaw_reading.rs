@@ -91,17 +91,25 @@ pub fn flaw_quantities(flaw: &Flaw) -> Vec<(usize, Descriptor)> {
 }
 
 impl SolidBody {
-    /// A flaw, by its place among the scene's, in the order of which they are listed.
+    /// A flaw, by its place among the scene's.
     pub(super) fn crack(&self, flaw: usize) -> Result<&Crack, BodyError> {
-        let found = self.cracks.binary_search_by_key(&flaw, |(place, _)| *place);
-        Ok(&self.cracks[found.map_err(|_| BodyError::NoSuchReading)?].1)
+        let found = self.place_of_flaw(flaw).ok_or(BodyError::NoSuchReading)?;
+        Ok(&self.cracks[found].1)
+    }
+
+    /// Place of a flaw among the body's, which are listed in the scene's order.
+    pub(super) fn place_of_flaw(&self, flaw: usize) -> Option<usize> {
+        self.cracks.binary_search_by_key(&flaw, |(place, _)| *place).ok()
     }
 }
 
 /// Signed stress intensity of a flaw of given depth, by its row or a solution; `None` if the depth is searched or
 /// grows.
 fn signed(reader: &mut SolidReader, crack: &Crack, flaw: usize) -> Result<Option<f64>, BodyError> {
-    match reader.flaw_by_row(flaw) {
+    if let Some(value) = reader.flaw_by_row(flaw) {
+        return value.map(Some);
+    }
+    match reader.flaw_by_nodes(flaw) {
         Some(value) => value.map(Some),
         None => crack.signed(reader),
     }

@@ -252,7 +252,11 @@ impl SolidMemo {
     }
 
     /// Stress at the nodes of all distinct images.
-    fn stresses(&mut self, body: &SolidBody, state: &[f64]) -> Result<&[ImageStress], BodyError> {
+    pub fn stresses(
+        &mut self,
+        body: &SolidBody,
+        state: &[f64],
+    ) -> Result<&[ImageStress], BodyError> {
         if self.stresses.is_none() {
             let (temperatures, deformation) = self.solve(body, state)?;
             let found = body.solid.stresses(temperatures, deformation);

@@ -71,6 +71,14 @@ impl SolidReader<'_> {
         self.by_rows().of_flaw(flaw)
     }
 
+    /// Signed stress intensity of a flaw from the stress of all nodes; `None` if it is not read so.
+    pub fn flaw_by_nodes(&mut self, flaw: usize) -> Option<Result<f64, BodyError>> {
+        let body = self.body;
+        let sum = body.flaw_sums.get(body.place_of_flaw(flaw)?)?.as_ref()?;
+        let stresses = self.memo.stresses(body, self.state);
+        Some(stresses.map(|stresses| body.solid.value_of(sum, stresses)))
+    }
+
     /// [m]
     fn displacement_at(&mut self, point: [f64; 3]) -> Result<[f64; 3], BodyError> {
         let (_, deformation) = self.memo.solve(self.body, self.state)?;

@@ -36,8 +36,8 @@ pub use heat::{HeatLoads, HeatProblem, ModalRow, ThermalFace};
 pub use nonlinear::{NonlinearFailure, heat_mesh};
 pub use plan::{Mechanics, Plan, PlanRequest, Refinement};
 pub use solid::{
-    ClassRow, Deformation, Extreme, Flaws, FlawsIn, ImageStress, NodalFields, Remembered, SolidFem,
-    SolidLoads, SolidModes, Temperatures,
+    ClassRow, Deformation, Extreme, Flaws, FlawsIn, ImageStress, NodalFields, NodalSum, Remembered,
+    SolidFem, SolidLoads, SolidModes, Temperatures,
 };
 pub use solver_choice::{
     expected_entries, factor_memory, solver_memory, suits_conjugate_gradients,
