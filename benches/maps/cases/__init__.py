@@ -9,6 +9,7 @@ SHOWN = {
     "moved_spots",
     "particle_grading",
     "held_inputs",
+    "even_bar",
     "resolution",
     "films",
     "spreads",

@@ -1,12 +1,15 @@
 """The maps of solids, by name."""
 
 from cases.solids import (
+    broken_bars,
+    flaws,
     footprints,
     fronts_and_yield,
     inputs_in_time,
     locking,
     particle_clouds,
     particle_steps,
+    splits,
     sudden_heat,
 )
 
@@ -32,5 +35,12 @@ ALL = (
     fronts_and_yield.melting_front,
     fronts_and_yield.limit_load,
     fronts_and_yield.hardening_block,
+    flaws.risk_of_linear_stress,
+    flaws.risk_of_shock,
+    flaws.risk_of_shock_linear,
+    broken_bars.broken_bar_energy,
+    broken_bars.broken_bar_stress,
+    broken_bars.even_bar,
+    splits.splits,
 )
 MAPS = {build.__name__: build for build in ALL}
