@@ -10,6 +10,7 @@ SHOWN = {
     "particle_grading",
     "held_inputs",
     "even_bar",
+    "shock_cracks",
     "resolution",
     "films",
     "spreads",

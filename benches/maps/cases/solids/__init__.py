@@ -9,6 +9,7 @@ from cases.solids import (
     locking,
     particle_clouds,
     particle_steps,
+    shocks,
     splits,
     sudden_heat,
 )
@@ -42,5 +43,7 @@ ALL = (
     broken_bars.broken_bar_stress,
     broken_bars.even_bar,
     splits.splits,
+    shocks.first_crack,
+    shocks.shock_cracks,
 )
 MAPS = {build.__name__: build for build in ALL}
