@@ -6,6 +6,7 @@ from cases.solids import (
     footprints,
     fronts_and_yield,
     inputs_in_time,
+    lattices,
     locking,
     particle_clouds,
     particle_steps,
@@ -45,5 +46,8 @@ ALL = (
     splits.splits,
     shocks.first_crack,
     shocks.shock_cracks,
+    lattices.lattice_peak,
+    lattices.lattice_work,
+    lattices.lattice_steps,
 )
 MAPS = {build.__name__: build for build in ALL}
