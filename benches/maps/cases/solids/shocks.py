@@ -90,7 +90,7 @@ REFERENCES = {
 
 
 def time_of(answer: Answer, severity: float, _: float) -> float:
-    """How late the first crack is, over the time of the highest stress; zero is none."""
+    """Returns how late the first crack is, over the time of the highest stress; zero is none."""
     found = answer.values["plate.first_crack_time"][-1]
     expected = REFERENCES[severity].value("plate.first_crack_time")
     if (found > 0.0) != (expected > 0.0):
