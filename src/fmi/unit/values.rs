@@ -36,7 +36,7 @@ impl Unit {
         let has_rules = self.scene.has_drops()
             || !self.scene.substances.is_empty()
             || self.scene.large_strains().next().is_some()
-            || self.scene.solids().any(|(name, _)| self.scene.asks_mechanics(name));
+            || self.scene.body.keys().any(|name| self.scene.asks_mechanics(name));
         let Some(run) = self.run.as_ref().filter(|_| has_rules) else { return };
         let model = Arc::clone(&run.model);
         for (variable, &value) in variables.iter().zip(values) {
