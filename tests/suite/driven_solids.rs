@@ -152,24 +152,6 @@ fn a_load_that_comes_at_once_dissipates_nothing_until_the_body_relaxes() {
     assert!(trial.get("pad.dissipated") > 0.1 * stored);
 }
 
-/// Sides of a bonded pad bulge through the planes of the platens if these press hard enough.
-#[test]
-fn sides_that_bulge_through_platens_are_warned_of() {
-    let faces = "faces = { bottom = { clamped = true }, top = { displacement = [0.0, 0.0, 0.0] } }";
-    for (pressed, warned) in [(0.05, false), (0.45, true)] {
-        let text =
-            rubber(&format!("{DISC}\n{faces}")).replace("spacing = 2e-3", "spacing = 0.5e-3");
-        let mut trial = Trial::new(&text.replace("poisson = 0.4", "poisson = 0.49"));
-        for n in 1..=10 {
-            trial.set("pad.top.displacement_z", -6e-3 * pressed * f64::from(n) / 10.0);
-            trial.step(1e-2);
-        }
-        let found = trial.model.warnings(&trial.state);
-        let is_warned = found.iter().any(|warning| warning.finding().id == "sides_pass_faces");
-        assert_eq!(is_warned, warned, "{pressed}: height {}", trial.get("pad.height"));
-    }
-}
-
 /// A strip that is drawn to three times its length stores more than the work done, and half as far it does not.
 #[test]
 fn dissipation_below_zero_is_warned_of() {

@@ -322,3 +322,48 @@ fn flaw_at_its_toughness_runs_and_impossible_depths_are_refused() {
         assert!(trial.model.check_state(&state).is_err(), "{depth}");
     }
 }
+
+/// From 64 flaws on, those that no rows serve share the stress of the nodes: the same as from their own points, on the
+/// mirrored parts of a plate, too, whatever the direction of their planes.
+#[test]
+fn many_flaws_are_read_like_a_few() {
+    let flaw = |n: usize| {
+        let [x, y] = [2e-3 * (0.7 * n as f64).sin(), 1.2e-3 * (1.9 * n as f64).cos()];
+        let [along, across] = [(0.3 * n as f64).cos(), (0.3 * n as f64).sin()];
+        format!(
+            "[[flaw]]\nname = \"f{n}\"\nin = \"plate\"\nat = [{x}, {y}, 0.0]\nnormal = [{along}, {across}, 0.0]\n\
+             depth = {:e}\ngives = [\"stress_intensity\"]\n",
+            5e-5 + 2e-6 * n as f64
+        )
+    };
+    let load = "[[load]]\nname = \"spot\"\non = \"plate.top\"\nfootprint = { gaussian = { radius = 0.8e-3 } }\n\
+                carries = [\"heat_flux\", \"shear\"]\n\
+                start = { heat_flux = -5e6, shear_x = 1e6, x = 0.7e-3, y = 0.4e-3 }\n";
+    let plate = |flaws: &str| {
+        format!(
+            "name = \"Plate\"\nstop_time = 1e-2\nstep = 2e-3\n[body.plate]\nkind = \"solid\"\n\
+             shape = {{ box = [6e-3, 4e-3, 2e-3] }}\ninitial_temperature = 500.0\n\
+             mesh = {{ spacing = 5e-4, depth_spacing = 1e-4 }}\nfaces.bottom = {{ clamped = true }}\n\
+             faces.top = {{ convection = {{ coefficient = 2e4, ambient = 300.0 }} }}\n\
+             material = {{ model = \"thermoelastic\", density = 6050.0, specific_heat = 450.0, conductivity = 2.0, young \
+             = 205e9, poisson = 0.31, expansion = 10.5e-6, toughness = 8e6, weibull = {{ modulus = 10.0, strength = 500e6, \
+             volume = 1e-9 }} }}\n{load}{flaws}"
+        )
+    };
+    let read = |flaws: &[usize]| {
+        let text: String = flaws.iter().map(|&n| flaw(n)).collect();
+        let mut trial = Trial::new(&plate(&text));
+        trial.step(2e-3);
+        trial.step(2e-3);
+        let of = |n: &usize| trial.get(&format!("f{n}.stress_intensity"));
+        flaws.iter().map(of).collect::<Vec<f64>>()
+    };
+    let all: Vec<usize> = (0..70).collect();
+    let some: Vec<usize> = all.iter().copied().step_by(5).collect();
+    let (many, few) = (read(&all), read(&some));
+    let scale = few.iter().copied().fold(0.0, f64::max);
+    assert!(scale > 1e5);
+    for (n, few) in some.iter().zip(few) {
+        assert!((many[*n] - few).abs() < 1e-10 * scale, "{n}: {} {few}", many[*n]);
+    }
+}

@@ -150,3 +150,46 @@ material = {{ density = 2346.0, young = {young}, poisson = {poisson}, softening 
         }
     }
 }
+
+/// Strips of 60 × 40 mm that are pulled until they are in two take a share of the area below the law of a link, f (s f/2E
+/// + (1 + α₁) w₂/2 + α₁ (w₃ − w₂)/2), that depends on the arrangement.
+#[test]
+fn cracks_take_their_share_of_the_energy_of_links() {
+    let (strength, young, spacing, share, [knee, end]) = (3e6, 18e9, 2.5e-3, 0.2, [12e-6, 150e-6]);
+    let law = strength
+        * (0.5 * spacing * strength / young
+            + 0.5 * (1.0 + share) * knee
+            + 0.5 * share * (end - knee));
+    for (arrangement, least, most) in
+        [("across", 0.8, 1.0), ("along", 1.25, 1.45), ("random", 0.95, 1.2)]
+    {
+        for poisson in [0.0, 0.2] {
+            let text = format!(
+                r#"
+name = "Strip"
+stop_time = 1.0
+step = 0.02
+[body.strip]
+kind = "lattice"
+length = 0.06
+depth = 0.04
+thickness = 0.04
+spacing = {spacing}
+arrangement = "{arrangement}"
+support = "ends"
+material = {{ density = 2200.0, young = {young}, poisson = {poisson}, softening = {{ model = "openings", strength = {strength}, openings = [{knee}, {end}], share = {share} }} }}
+"#
+            );
+            let mut trial = Trial::new(&text);
+            for n in 1..=50 {
+                trial.set("strip.displacement", 4e-6 * f64::from(n));
+                trial.step(0.02);
+            }
+            let found = trial.get("strip.dissipated_energy") / (0.04 * 0.04 * law);
+            println!(
+                "{arrangement}, ν {poisson}: a crack takes {found:.3} of the energy of a link"
+            );
+            assert!((least..most).contains(&found), "{arrangement}, {poisson}: {found}");
+        }
+    }
+}

@@ -204,8 +204,8 @@ impl Faces {
         places.chain(loads).chain([own.temperature]).collect()
     }
 
-    /// Returns how far nodes have passed the planes of bottom and top between which the body is held [m], and the distance of
-    /// these planes [m].
+    /// Returns how far nodes have passed the planes of bottom and top between which the body is held [m], and the
+    /// distance of these planes [m].
     pub fn passed(&self, places: &[[f64; 3]], displacements: &[[f64; 3]]) -> Option<[f64; 2]> {
         let heights = || places.iter().zip(displacements).map(|(at, u)| at[2] + u[2]);
         let plane = |face: usize| {

@@ -108,8 +108,9 @@ fn ligament(plan: &LatticePlan) -> String {
     })
 }
 
-/// Energy of a crack over the area below the law of a link, in strips that are pulled until they are in two: means of
-/// ν = 0 to 0.33 at 2.5 mm, 0.84 to 0.96, 1.3 to 1.4 and 1.0 to 1.2. Bent strips take a tenth to a quarter more.
+/// Energy of a crack over the area below the law of a link, in strips that are pulled until they are in two, at ν = 0 to
+/// 0.2: 0.84 to 0.94, 1.3 to 1.4 and 1.0 to 1.1 (`tests/verification/lattice.rs`). At ν = 1/3, where links do not bend,
+/// `along` takes half of that. Bent strips take a tenth to a quarter more.
 fn share_of_crack(arrangement: LatticeArrangement) -> f64 {
     match arrangement {
         LatticeArrangement::Across => 0.9,

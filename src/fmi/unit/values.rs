@@ -33,17 +33,15 @@ impl Unit {
 
     /// Warns once of each output whose value is less accurate than it seems.
     fn warn_of_values(&mut self, variables: &[&Variable], values: &[f64]) {
-        let has_rules = self.scene.has_drops()
-            || !self.scene.substances.is_empty()
-            || self.scene.large_strains().next().is_some()
-            || self.scene.body.keys().any(|name| self.scene.asks_mechanics(name));
-        let Some(run) = self.run.as_ref().filter(|_| has_rules) else { return };
+        let Some(run) = self.run.as_ref() else { return };
+        let has_substances = !self.scene.substances.is_empty();
         let model = Arc::clone(&run.model);
         for (variable, &value) in variables.iter().zip(values) {
             let warning =
                 output_of(variable).and_then(|output| model.warning_on_value(output, value));
             self.warn_once(warning.map(|warning| warning.of_subject(&variable.name)));
-            if let Some(output) = output_of(variable)
+            if has_substances
+                && let Some(output) = output_of(variable)
                 && variable.quantity == Some(Quantity::Temperature)
             {
                 self.warn_once(model.warning_on_temperature(output.body, value));

@@ -53,8 +53,7 @@ impl SolidFem {
 
     /// The layer at a height; on interfaces the one above.
     fn layer_at(&self, z: f64) -> usize {
-        let axis = &self.mesh.axes[2];
-        self.mesh.layering.layer_of(axis.shape_at(z).first / axis.order)
+        self.mesh.layering.layer_of(self.element_at(z))
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::risk::like_image;
 use super::{ImageStress, SolidFem};
 use crate::method::mesh::Geometry;
 
@@ -50,10 +51,8 @@ impl SolidFem {
 
     /// Value of a sum for the stresses of all distinct images.
     pub fn value_of(&self, sum: &NodalSum, stresses: &[ImageStress]) -> f64 {
-        let shares = |&[x, y]: &[bool; 2]| (!x || sum.image[0]) && (!y || sum.image[1]);
-        // Of the distinct images, the one that shares most reflections; the others change signs alone.
-        let known = stresses.iter().rev().find(|(own, _)| shares(own));
-        let Some((own, stress)) = known else { return 0.0 };
+        let Some((own, stress)) = like_image(stresses, sum.image) else { return 0.0 };
+        // The reflections that are left change signs alone.
         let left = [0, 1].map(|axis| own[axis] != sum.image[axis]);
         let factors = self.imaged(sum.factors, left);
         let of_node = |&(node, weight): &(usize, f64)| {

@@ -102,9 +102,13 @@ impl SolidFem {
 
     /// The law of flow at a height; on interfaces that of the layer above.
     fn flow_law_at(&self, z: f64) -> Option<&dyn FlowLaw> {
+        self.flow_laws.get(self.element_at(z)).map(|law| &**law)
+    }
+
+    /// Number of the element at a height; on interfaces that of the layer above.
+    pub(super) fn element_at(&self, z: f64) -> usize {
         let axis: &Axis = &self.mesh.axes[2];
-        let element = axis.shape_at(z).first / axis.order;
-        self.flow_laws.get(element).map(|law| &**law)
+        axis.shape_at(z).first / axis.order
     }
 
     fn tensor_at(&self, field: &[[f64; 6]], nodes: &[Weights; 3]) -> [f64; 6] {

@@ -325,6 +325,11 @@ impl Local {
     }
 }
 
+/// Of the values of distinct images, those of the one that shares most reflections with an image.
+pub(super) fn like_image<T>(known: &[([bool; 2], T)], image: [bool; 2]) -> Option<&([bool; 2], T)> {
+    known.iter().rev().find(|([x, y], _)| (!x || image[0]) && (!y || image[1]))
+}
+
 impl SolidFem {
     pub fn flaws(&self) -> Option<&Flaws> {
         self.flaws.as_ref()
@@ -391,11 +396,7 @@ impl SolidFem {
 
     /// Values at the nodes of all images from those of the distinct ones.
     fn over_all_images(&self, known: Vec<([bool; 2], Vec<f64>)>) -> Vec<f64> {
-        let like = |image: [bool; 2]| {
-            let same = |&[x, y]: &[bool; 2]| (!x || image[0]) && (!y || image[1]);
-            // Of the distinct images, the one that shares most reflections.
-            known.iter().rev().find(|(own, _)| same(own)).map_or(&known[0].1, |(_, own)| own)
-        };
+        let like = |image| like_image(&known, image).map_or(&[][..], |(_, own)| own);
         self.all_images().flat_map(|image| like(image).iter().copied()).collect()
     }
 
