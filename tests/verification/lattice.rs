@@ -161,7 +161,7 @@ fn cracks_take_their_share_of_the_energy_of_links() {
             + 0.5 * (1.0 + share) * knee
             + 0.5 * share * (end - knee));
     for (arrangement, least, most) in
-        [("across", 0.8, 1.0), ("along", 1.25, 1.45), ("random", 0.95, 1.2)]
+        [("across", 0.8, 0.9), ("along", 1.2, 1.4), ("random", 0.9, 1.0)]
     {
         for poisson in [0.0, 0.2] {
             let text = format!(
