@@ -391,8 +391,8 @@ static void live_or_be_refused(void) {
 }
 
 /* Processes with little address space, none of which may end but by itself: with all sizes from the
- * beginning on, with the smallest ones from later moments on. Answers how many were refused nothing; the one
- * with most has enough. */
+ * beginning on, with the smallest ones and the largest from later moments on. Answers how many were refused
+ * nothing; the largest is enough from each moment on. */
 static void sweep(void) {
   const size_t fine[] = {64, 256, 512, 1024, 2048, 3072, 6144, 8192};
   int complete = 0;
@@ -400,8 +400,8 @@ static void sweep(void) {
   const int stride = getenv("SWEEP_ALL") ? 1 : 8;
   alarm(300);
   for (int from = 0; from < 3; from++) {
-    for (int k = 0; k < (from == 0 ? 8 + 39 : 8); k++) {
-      if (k >= 8 && k < 8 + 38 && (k - 8) % stride) continue;
+    for (int k = 0; k < 8 + 39; k++) {
+      if (k >= 8 && k < 8 + 38 && (from > 0 || (k - 8) % stride)) continue;
       space_left = k < 8 ? fine[k] << 10 : (size_t)(4 + 4 * (k - 7)) * 1000000;
       space_from = from;
       const pid_t child = fork();
