@@ -13,7 +13,7 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
 
 use super::conjugate_gradients::NotConverged;
-use super::panel_solve;
+use super::panel_solve::Partition;
 use super::supernodes::{self, Columns};
 use crate::runtime::address_space::TooLittle;
 use crate::runtime::parallel::Team;
@@ -82,7 +82,11 @@ impl SparseCholesky {
     pub fn rounded(&self) -> RoundedCholesky {
         let scale = self.values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let values = self.values.iter().map(|value| (value / scale) as f32).collect();
-        RoundedCholesky { symbolic: Arc::clone(&self.symbolic), scale, values }
+        let partition = match self.symbolic.raw() {
+            SymbolicCholeskyRaw::Supernodal(panels) => Some(Partition::of(panels)),
+            SymbolicCholeskyRaw::Simplicial(_) => None,
+        };
+        RoundedCholesky { symbolic: Arc::clone(&self.symbolic), partition, scale, values }
     }
 
     /// Number of stored entries of L.
@@ -94,6 +98,8 @@ impl SparseCholesky {
 /// A factorisation in single precision, for preconditioners.
 pub struct RoundedCholesky {
     symbolic: Arc<SymbolicCholesky<usize>>,
+    /// Of the panels, if there are any.
+    partition: Option<Partition>,
     /// Largest entry of L, relative to which the others are stored.
     scale: f64,
     values: Vec<f32>,
@@ -101,23 +107,25 @@ pub struct RoundedCholesky {
 
 impl RoundedCholesky {
     /// Replaces `b` by the solution of `A x = b` in single precision, of one right-hand side of any size.
-    pub fn solve_in_place(&self, b: &mut [f64]) {
+    ///
+    /// The solution is the same to the bit on any number of threads.
+    pub fn solve_in_place(&self, b: &mut [f64], team: &Team) {
         let unknowns = self.symbolic.nrows();
         let size = b.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         if unknowns == 0 || size == 0.0 {
             return;
         }
         let mut rounded: Vec<f32> = b.iter().map(|value| (value / size) as f32).collect();
-        match self.symbolic.raw() {
-            SymbolicCholeskyRaw::Supernodal(panels) => {
+        match (self.symbolic.raw(), &self.partition) {
+            (SymbolicCholeskyRaw::Supernodal(panels), Some(partition)) => {
                 let place = self.symbolic.perm().map(|order| order.arrays().1);
                 let place = |i: usize| place.map_or(i, |place| place[i]);
                 let mut ordered = vec![0.0; unknowns];
                 rounded.iter().enumerate().for_each(|(i, value)| ordered[place(i)] = *value);
-                panel_solve::solve(panels, &self.values, &mut ordered);
+                partition.solve(panels, &self.values, &mut ordered, team);
                 rounded.iter_mut().enumerate().for_each(|(i, value)| *value = ordered[place(i)]);
             }
-            SymbolicCholeskyRaw::Simplicial(_) => {
+            _ => {
                 let need = self.symbolic.solve_in_place_scratch::<f32>(1, Par::Seq);
                 let mut buffer = MemBuffer::new(need);
                 LltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
@@ -313,10 +321,27 @@ mod tests {
         let load: Vec<f64> = (0..n * n * n).map(|i| 1e9 * (i as f64).sin()).collect();
         let (mut exact, mut rounded) = (load.clone(), load);
         factor.solve_in_place(&mut exact);
-        factor.rounded().solve_in_place(&mut rounded);
+        factor.rounded().solve_in_place(&mut rounded, &Team::new(1));
         let size = exact.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         for (rounded, exact) in rounded.iter().zip(&exact) {
             assert!((rounded - exact).abs() < 1e-5 * size, "{rounded} {exact}");
+        }
+    }
+
+    #[test]
+    fn rounded_solution_is_bit_identical_for_any_number_of_threads() {
+        for n in [2, 9, 24] {
+            let order = crate::math::nested_dissection::nested_dissection([n - 1; 3], 1);
+            let factor = SparseCholesky::factor(&cube(n), &order, 1).unwrap().rounded();
+            let solve = |threads| {
+                let mut b: Vec<f64> = (0..n * n * n).map(|i| (i as f64).sin()).collect();
+                factor.solve_in_place(&mut b, &Team::new(threads));
+                b
+            };
+            let sequential = solve(1);
+            for threads in [2, 5] {
+                assert!(sequential == solve(threads), "{n}, {threads} threads");
+            }
         }
     }
 

@@ -1,12 +1,37 @@
 //! Solution with a Cholesky factor that is stored in supernodal panels, in single precision.
 //!
-//! Each panel is read once forwards and once backwards, in the order of memory. Sums are formed in a fixed order.
+//! Each panel is read once forwards and once backwards, in the order of memory. Subtrees of the elimination tree are
+//! processed on the threads of a team; the partition and the order of sums are fixed.
+
+use std::ops::Range;
 
 use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
+
+use crate::runtime::parallel::Team;
 
 /// Columns that are processed together, and interleaved partial sums of a dot product.
 const COLUMNS: usize = 4;
 const SUMS: usize = 16;
+
+/// Largest share of all entries in a subtree that one thread processes.
+const SHARE: f64 = 1.0 / 8.0;
+
+/// Partition of the panels of a factor: subtrees of the elimination tree, which are independent of each other, and the
+/// panels above them. It is the same for any number of threads, and so are sums.
+pub struct Partition {
+    /// Ascending; panels and unknowns of each follow on each other.
+    subtrees: Vec<Subtree>,
+    /// Panels above the subtrees, ascending.
+    top: Vec<usize>,
+    /// Place of each unknown among those of the panels above, and their number.
+    place: Vec<u32>,
+    count: usize,
+}
+
+struct Subtree {
+    panels: Range<usize>,
+    unknowns: Range<usize>,
+}
 
 /// A panel: its first unknown, the rows below its diagonal block, and its columns.
 struct Panel<'a> {
@@ -16,28 +41,160 @@ struct Panel<'a> {
     values: &'a [f32],
 }
 
-/// Replaces `x` by the solution of `L Lᵀ x = b`, in the order of the factor.
-pub fn solve(symbolic: &SymbolicSupernodalCholesky<usize>, values: &[f32], x: &mut [f32]) {
-    let panel = |s: usize| {
-        let node = symbolic.supernode(s);
-        let [first, last] = [0, 1].map(|k| symbolic.col_ptr_for_val()[s + k]);
+/// The panels of a factor.
+#[derive(Clone, Copy)]
+struct Panels<'a> {
+    symbolic: &'a SymbolicSupernodalCholesky<usize>,
+    values: &'a [f32],
+}
+
+impl<'a> Panels<'a> {
+    fn at(&self, s: usize) -> Panel<'a> {
+        let node = self.symbolic.supernode(s);
+        let [first, last] = [0, 1].map(|k| self.symbolic.col_ptr_for_val()[s + k]);
         Panel {
             start: node.start(),
-            width: symbolic.supernode_end()[s] - node.start(),
+            width: self.symbolic.supernode_end()[s] - node.start(),
             pattern: node.pattern(),
-            values: &values[first..last],
+            values: &self.values[first..last],
         }
-    };
-    let mut room = Vec::new();
-    for s in 0..symbolic.n_supernodes() {
-        panel(s).forward(x, &mut room);
-    }
-    for s in (0..symbolic.n_supernodes()).rev() {
-        panel(s).backward(x, &mut room);
     }
 }
 
+impl Partition {
+    pub fn of(symbolic: &SymbolicSupernodalCholesky<usize>) -> Self {
+        let count = symbolic.n_supernodes();
+        let [begin, end] = [symbolic.supernode_begin(), symbolic.supernode_end()];
+        let sizes = symbolic.col_ptr_for_val();
+        let parents = parents(symbolic);
+        // Of the subtree of each panel: its entries, its panels, and the first of these.
+        let mut entries: Vec<usize> = (0..count).map(|s| sizes[s + 1] - sizes[s]).collect();
+        let mut members = vec![1; count];
+        let mut first: Vec<usize> = (0..count).collect();
+        for s in 0..count {
+            if let Some(parent) = parents[s] {
+                entries[parent] += entries[s];
+                members[parent] += members[s];
+                first[parent] = first[parent].min(first[s]);
+            }
+        }
+        let most = SHARE * sizes[count] as f64;
+        let is_subtree = |s: usize| members[s] == s + 1 - first[s] && entries[s] as f64 <= most;
+        let (mut subtrees, mut top) = (Vec::new(), Vec::new());
+        let mut next = count;
+        while let Some(s) = next.checked_sub(1) {
+            if is_subtree(s) {
+                let panels = first[s]..s + 1;
+                let unknowns = begin[panels.start]..end[s];
+                next = panels.start;
+                subtrees.push(Subtree { panels, unknowns });
+            } else {
+                top.push(s);
+                next = s;
+            }
+        }
+        subtrees.reverse();
+        top.reverse();
+        let mut place = vec![u32::MAX; symbolic.nrows()];
+        let above = top.iter().flat_map(|&s| begin[s]..end[s]);
+        let mut count = 0;
+        for unknown in above {
+            place[unknown] = count as u32;
+            count += 1;
+        }
+        Self { subtrees, top, place, count }
+    }
+
+    /// Replaces `x` by the solution of `L Lᵀ x = b`, in the order of the factor.
+    pub fn solve(
+        &self,
+        symbolic: &SymbolicSupernodalCholesky<usize>,
+        values: &[f32],
+        x: &mut [f32],
+        team: &Team,
+    ) {
+        let panels = Panels { symbolic, values };
+        let mut subtrees = self.split(x);
+        let sums = team.map_each(&mut subtrees, |(subtree, x)| self.forward(subtree, x, panels));
+        for sums in &sums {
+            let above = self.top.iter().flat_map(|&s| panels.at(s).unknowns());
+            above.zip(sums).for_each(|(unknown, sum)| x[unknown] += sum);
+        }
+        let mut room = Vec::new();
+        for &s in &self.top {
+            panels.at(s).forward(x, |x, row, sum| x[row] += sum, &mut room);
+        }
+        for &s in self.top.iter().rev() {
+            panels.at(s).backward(x, |x, row| x[row], &mut room);
+        }
+        let above = self.top.iter().flat_map(|&s| panels.at(s).unknowns());
+        let above: Vec<f32> = above.map(|unknown| x[unknown]).collect();
+        team.for_each(&mut self.split(x), |_, (subtree, x)| {
+            self.backward(subtree, x, &above, panels);
+        });
+    }
+
+    /// Parts of a vector by subtree.
+    fn split<'x>(&self, mut x: &'x mut [f32]) -> Vec<(&Subtree, &'x mut [f32])> {
+        let mut parts = Vec::with_capacity(self.subtrees.len());
+        let mut done = 0;
+        for subtree in &self.subtrees {
+            let Range { start, end } = subtree.unknowns;
+            let rest = x.split_at_mut(start - done).1;
+            let (own, rest) = rest.split_at_mut(end - start);
+            parts.push((subtree, own));
+            (x, done) = (rest, end);
+        }
+        parts
+    }
+
+    /// Eliminates the unknowns of a subtree, of which `x` holds those alone; returns what they add above.
+    fn forward(&self, subtree: &Subtree, x: &mut [f32], panels: Panels) -> Vec<f32> {
+        let Range { start, end } = subtree.unknowns;
+        let mut sums = vec![0.0; self.count];
+        let mut room = Vec::new();
+        for s in subtree.panels.clone() {
+            let add = |x: &mut [f32], row: usize, sum: f32| match row < end {
+                true => x[row - start] += sum,
+                false => sums[self.place[row] as usize] += sum,
+            };
+            panels.at(s).from(start).forward(x, add, &mut room);
+        }
+        sums
+    }
+
+    /// Solves for the unknowns of a subtree, of which `x` holds those alone, from those above.
+    fn backward(&self, subtree: &Subtree, x: &mut [f32], above: &[f32], panels: Panels) {
+        let Range { start, end } = subtree.unknowns;
+        let value = |x: &[f32], row: usize| match row < end {
+            true => x[row - start],
+            false => above[self.place[row] as usize],
+        };
+        let mut room = Vec::new();
+        for s in subtree.panels.clone().rev() {
+            panels.at(s).from(start).backward(x, value, &mut room);
+        }
+    }
+}
+
+/// Panel that takes the first update of each panel.
+fn parents(symbolic: &SymbolicSupernodalCholesky<usize>) -> Vec<Option<usize>> {
+    let end = symbolic.supernode_end();
+    let owner = |row: usize| end.partition_point(|&end| end <= row);
+    let first = |s: usize| symbolic.supernode(s).pattern().first().copied();
+    (0..symbolic.n_supernodes()).map(|s| first(s).map(owner)).collect()
+}
+
 impl Panel<'_> {
+    /// The same panel among unknowns that are counted from another one on.
+    fn from(self, first: usize) -> Self {
+        Self { start: self.start - first, ..self }
+    }
+
+    fn unknowns(&self) -> Range<usize> {
+        self.start..self.start + self.width
+    }
+
     fn height(&self) -> usize {
         self.width + self.pattern.len()
     }
@@ -46,9 +203,14 @@ impl Panel<'_> {
         &self.values[k * self.height()..][..self.height()]
     }
 
-    /// Solves for the panel's own unknowns and subtracts their part from those of its pattern.
-    fn forward(&self, x: &mut [f32], room: &mut Vec<f32>) {
-        let own = self.start..self.start + self.width;
+    /// Solves for the panel's own unknowns and adds what they take from those of its pattern, negative.
+    fn forward(
+        &self,
+        x: &mut [f32],
+        mut add: impl FnMut(&mut [f32], usize, f32),
+        room: &mut Vec<f32>,
+    ) {
+        let own = self.unknowns();
         room.clear();
         room.extend_from_slice(&x[own.clone()]);
         room.resize(self.height(), 0.0);
@@ -66,7 +228,7 @@ impl Panel<'_> {
         }
         x[own].copy_from_slice(&room[..self.width]);
         for (&row, sum) in self.pattern.iter().zip(&room[self.width..]) {
-            x[row] += sum;
+            add(x, row, *sum);
         }
     }
 
@@ -88,11 +250,11 @@ impl Panel<'_> {
     }
 
     /// Solves for the panel's own unknowns from those of its pattern.
-    fn backward(&self, x: &mut [f32], room: &mut Vec<f32>) {
-        let own = self.start..self.start + self.width;
+    fn backward(&self, x: &mut [f32], value: impl Fn(&[f32], usize) -> f32, room: &mut Vec<f32>) {
+        let own = self.unknowns();
         room.clear();
         room.extend_from_slice(&x[own.clone()]);
-        room.extend(self.pattern.iter().map(|&row| x[row]));
+        room.extend(self.pattern.iter().map(|&row| value(x, row)));
         for k in (0..self.width).rev() {
             let column = self.column(k);
             room[k] = (room[k] - dot(&column[k + 1..], &room[k + 1..])) / column[k];

@@ -163,17 +163,20 @@ impl GradientDamage {
         1.0 - self.split.remaining(&self.elastic, strain).energy / intact
     }
 
+    /// Energy that a crack releases at the elastic strain of a point [J/m³].
+    pub fn released(&self, strain: Components) -> f64 {
+        let principal = InPlane::of(strain).principal(strain[2]);
+        let intact = self.elastic.intact(principal).energy;
+        intact - self.split.remaining(&self.elastic, principal).energy
+    }
+
     /// Response to the elastic strain of a point.
     pub fn respond(&self, strain: Components, damage: f64) -> PointResponse {
-        let [along, across, third, shear] = strain;
-        let (mean, half) = (0.5 * (along + across), 0.5 * (along - across));
-        let radius = (half * half + 0.25 * shear * shear).sqrt();
-        // Cosine and sine of twice the angle of the first principal axis.
-        let [cosine, sine] = match radius > 0.0 {
-            true => [half / radius, 0.5 * shear / radius],
-            false => [1.0, 0.0],
-        };
-        let principal = [mean + radius, mean - radius, third];
+        let in_plane = InPlane::of(strain);
+        let third = strain[2];
+        let principal = in_plane.principal(third);
+        let InPlane { mean, radius, double_angle } = in_plane;
+        let [cosine, sine] = double_angle;
         let intact = self.elastic.intact(principal);
         let left = self.split.remaining(&self.elastic, principal);
         let factor = degradation(damage);
@@ -190,10 +193,35 @@ impl GradientDamage {
         let stress = [centre + spread * cosine, centre - spread * cosine, p[2], spread * sine];
         PointResponse {
             stress,
-            stiffness: PrincipalStiffness { normal: h, turning, double_angle: [cosine, sine] },
+            stiffness: PrincipalStiffness { normal: h, turning, double_angle },
             released: intact.energy - left.energy,
             remaining: left.energy,
         }
+    }
+}
+
+/// Mohr's circle of the strain in the section.
+struct InPlane {
+    mean: f64,
+    radius: f64,
+    /// Cosine and sine of twice the angle of the first principal axis.
+    double_angle: [f64; 2],
+}
+
+impl InPlane {
+    fn of([along, across, _, shear]: Components) -> Self {
+        let (mean, half) = (0.5 * (along + across), 0.5 * (along - across));
+        let radius = (half * half + 0.25 * shear * shear).sqrt();
+        let double_angle = match radius > 0.0 {
+            true => [half / radius, 0.5 * shear / radius],
+            false => [1.0, 0.0],
+        };
+        Self { mean, radius, double_angle }
+    }
+
+    /// Principal strains, of which the third is given.
+    fn principal(&self, third: f64) -> [f64; 3] {
+        [self.mean + self.radius, self.mean - self.radius, third]
     }
 }
 

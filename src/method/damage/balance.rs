@@ -24,8 +24,10 @@ const MOST_HALVINGS: usize = 8;
 const MOST_ITERATIONS: usize = 400;
 /// Conjugate-gradient iterations that cost as much as a new factor.
 const WORTH_A_FACTOR: usize = 8;
-/// Reduction of the residual by the conjugate gradients of a Newton step.
+/// Reduction of the residual by the conjugate gradients of a Newton step, and part of the wanted residual at which they
+/// end, too.
 const REDUCTION: f64 = 1e-2;
+const ENOUGH: f64 = 0.3;
 /// Part of the forces that may be left where Newton's method no longer reduces it.
 const MOST_LEFT: f64 = 0.1;
 /// Updates per unknown that a factorisation and an iteration take, for the allowance of a step.
@@ -157,7 +159,8 @@ impl<'a> Balance<'a> {
                 return Ok(released(self.elements, displacement, self.team));
             }
             self.assemble(&Nodal { displacement, damage, rise });
-            let change = self.change(&residual)?;
+            let goal = (REDUCTION * size).max(ENOUGH * tolerance * self.scale(rise, load));
+            let change = self.change(&residual, goal)?;
             let slope = dot(&residual, &change);
             let before = displacement.to_vec();
             let mut part = 1.0;
@@ -247,16 +250,16 @@ impl<'a> Balance<'a> {
         (own * own + self.reactions * self.reactions).sqrt().max(f64::MIN_POSITIVE)
     }
 
-    /// Change of displacements under a change of force.
-    fn change(&mut self, force: &[f64]) -> Result<Vec<f64>, DamageError> {
+    /// Change of displacements under a change of force, of which at most `goal` is left.
+    fn change(&mut self, force: &[f64], goal: f64) -> Result<Vec<f64>, DamageError> {
         match self.factor.is_some() {
             true => self.correct()?,
             false => self.refactor()?,
         }
-        let (mut change, left) = self.iterate(force, WORTH_A_FACTOR)?;
+        let (mut change, left) = self.iterate(force, goal, WORTH_A_FACTOR)?;
         if let Some(left) = left {
             self.refactor()?;
-            let (rest, _) = self.iterate(&left, MOST_ITERATIONS)?;
+            let (rest, _) = self.iterate(&left, goal, MOST_ITERATIONS)?;
             change.iter_mut().zip(&rest).for_each(|(change, rest)| *change += rest);
         }
         Ok(change)
@@ -264,8 +267,9 @@ impl<'a> Balance<'a> {
 
     /// Corrects the factor where the stiffness has changed since.
     fn correct(&mut self) -> Result<(), DamageError> {
-        self.patch = None;
-        match Patch::between(&self.stiffness, &self.factored, self.unknowns, self.team.threads())? {
+        let last = self.patch.take();
+        let threads = self.team.threads();
+        match Patch::between(&self.stiffness, &self.factored, self.unknowns, threads, last)? {
             Extent::Nothing => (),
             Extent::Patch(patch) => self.patch = Some(patch),
             Extent::TooMuch => self.refactor()?,
@@ -294,11 +298,12 @@ impl<'a> Balance<'a> {
         Ok(())
     }
 
-    /// Preconditioned conjugate gradients from zero. Returns the residual, too, if it is too large after the most
-    /// iterations.
+    /// Preconditioned conjugate gradients from zero, until the residual is at most `goal`. Returns the residual, too, if
+    /// it is larger after the most iterations.
     fn iterate(
         &mut self,
         force: &[f64],
+        goal: f64,
         most: usize,
     ) -> Result<(Vec<f64>, Option<Vec<f64>>), DamageError> {
         let unknowns = self.unknowns;
@@ -308,10 +313,9 @@ impl<'a> Balance<'a> {
         let mut direction = Padded::<2>::zeros(unknowns.grid);
         direction.inner_mut().copy_from_slice(&improved);
         let mut energy = dot(&residual, &improved);
-        let wanted = REDUCTION * REDUCTION * energy;
         let mut product = vec![0.0; force.len()];
         for _ in 0..most {
-            if energy <= wanted || energy <= 0.0 {
+            if energy <= 0.0 {
                 return Ok((solution, None));
             }
             self.iterations += 1;
@@ -322,14 +326,16 @@ impl<'a> Balance<'a> {
                 solution[k] += length * along;
                 residual[k] -= length * product[k];
             }
+            if dot(&residual, &residual) <= goal * goal {
+                return Ok((solution, None));
+            }
             improved = self.improve(&residual);
             let next = dot(&residual, &improved);
             let part = next / energy;
             direction.inner_mut().iter_mut().zip(&improved).for_each(|(d, z)| *d = z + part * *d);
             energy = next;
         }
-        let is_large = energy > wanted;
-        Ok((solution, is_large.then_some(residual)))
+        Ok((solution, Some(residual)))
     }
 
     /// Displacements that a force brings about, nearly.
@@ -353,7 +359,7 @@ impl<'a> Balance<'a> {
         let factor = self.factor.as_ref().expect("it is made before the iteration");
         let free = || self.unknowns.number.iter().enumerate().filter(|(_, n)| **n != usize::MAX);
         let mut values: Vec<f64> = free().map(|(unknown, _)| residual[unknown]).collect();
-        factor.solve_in_place(&mut values);
+        factor.solve_in_place(&mut values, self.team);
         let mut out = vec![0.0; residual.len()];
         free().zip(values).for_each(|((unknown, _), value)| out[unknown] = value);
         out

@@ -139,6 +139,31 @@ impl Section {
         own.map(of_region).sum()
     }
 
+    /// Nodes that are farther than a distance [m] along one of the axes from all broken ones.
+    pub fn away_from_broken(&self, damage: &[f64], distance: f64) -> Vec<usize> {
+        let [columns, rows] = self.grid().counts;
+        // Numbers of broken nodes in the rectangles from the first node on.
+        let width = columns + 1;
+        let mut broken = vec![0_u32; width * (rows + 1)];
+        for (node, &damage) in damage.iter().enumerate() {
+            let at = node % columns + 1 + width * (node / columns + 1);
+            let own = u32::from(damage >= BROKEN);
+            broken[at] = own + broken[at - 1] + broken[at - width] - broken[at - width - 1];
+        }
+        let around = |axis: usize, at: f64| {
+            let nodes = &self.axes[axis];
+            let first = nodes.partition_point(|&place| place < at - distance);
+            [first, nodes.partition_point(|&place| place <= at + distance)]
+        };
+        let is_away = |&node: &usize| {
+            let [x, z] = self.place(node);
+            let ([left, right], [low, high]) = (around(0, x), around(1, z));
+            let up_to = |column: usize, row: usize| broken[column + width * row];
+            up_to(right, high) + up_to(left, low) == up_to(left, high) + up_to(right, low)
+        };
+        (0..damage.len()).filter(is_away).collect()
+    }
+
     /// Place of a node in the section [m].
     pub fn place(&self, node: usize) -> [f64; 2] {
         let columns = self.axes[0].len();
@@ -242,6 +267,17 @@ mod tests {
         // A crack within the skin is one, too.
         let (section, damage) = broken(&mouths);
         assert_eq!(section.cracks(&damage, FACES, 0.5e-3).count, 1);
+    }
+
+    #[test]
+    fn nodes_away_from_cracks_are_outside_of_squares_around_them() {
+        let (section, damage) = broken(&[[2, 4], [2, 3]]);
+        let away = section.away_from_broken(&damage, 2.1e-3);
+        for node in 0..45 {
+            let is_near = node % 9 <= 4 && node / 9 >= 1;
+            assert_eq!(away.contains(&node), !is_near, "{node}");
+        }
+        assert_eq!(section.away_from_broken(&[0.5; 45], 1.0).len(), 45);
     }
 
     #[test]

@@ -162,7 +162,9 @@ impl Elements {
         let mut of_rows: Vec<_> = released.chunks_mut(columns).collect();
         team.for_each(&mut of_rows, |row, own| {
             for (i, own) in own.iter_mut().enumerate() {
-                self.each_point([i, row], nodal, |q, _, response| own[q] = response.released);
+                self.each_strain([i, row], nodal, |q, _, strain, _| {
+                    own[q] = self.law.released(strain)
+                });
             }
         });
         released

@@ -6,7 +6,7 @@
 //! doi 10.1137/1034116) leaves them the smooth rest.
 
 use super::balance::Unknowns;
-use crate::math::cholesky::{SolverError, SparseCholesky};
+use crate::math::cholesky::{Elimination, SolverError, SparseCholesky};
 use crate::math::nine_point::{Grid, NinePoint, Padded};
 use crate::runtime::parallel::Team;
 
@@ -19,12 +19,22 @@ const LARGEST: f64 = 0.1;
 
 /// A part of a section whose equilibrium is solved for itself.
 pub struct Patch {
-    /// Its nodes, and those whose forces depend on its displacements, by number.
+    part: Part,
+    factor: SparseCholesky,
+    /// Diagonal of the stiffness that was factored, by node of the part.
+    diagonal: Vec<[f64; 2]>,
+}
+
+/// Some nodes of a section, and the elimination of their displacements.
+struct Part {
+    inside: Vec<bool>,
+    /// The nodes, and those whose forces depend on their displacements, by number.
     nodes: Vec<u32>,
     reached: Vec<u32>,
-    /// Places of its unknowns among all components.
+    /// Places of the unknowns among all components, and the number of each component; `usize::MAX` for others.
     places: Vec<usize>,
-    factor: SparseCholesky,
+    number: Vec<usize>,
+    elimination: Elimination,
 }
 
 /// Extent of the change of a stiffness.
@@ -35,53 +45,89 @@ pub enum Extent {
     TooMuch,
 }
 
+impl Part {
+    fn new(
+        inside: Vec<bool>,
+        stiffness: &NinePoint<2>,
+        unknowns: &Unknowns,
+    ) -> Result<Self, SolverError> {
+        let nodes = numbers(&inside);
+        let reached = numbers(&dilated(&inside, stiffness.grid()));
+        let (places, number, order) = unknowns.within(&inside);
+        let elimination = Elimination::new(&stiffness.lower_triangle(&number), &order)?;
+        Ok(Self { inside, nodes, reached, places, number, elimination })
+    }
+
+    fn factor(self, stiffness: &NinePoint<2>, threads: usize) -> Result<Patch, SolverError> {
+        let lower = stiffness.lower_triangle(&self.number);
+        let factor = self.elimination.factor(&lower, threads)?;
+        let diagonal = self.nodes.iter().map(|&node| stiffness.diagonal(node as usize)).collect();
+        Ok(Patch { part: self, factor, diagonal })
+    }
+}
+
 impl Patch {
-    /// Finds where a stiffness differs from that of an earlier factor, of which the diagonal is known.
+    /// Finds where a stiffness differs from that of an earlier factor, of which the diagonal is known. The last patch
+    /// serves again as far as it can.
     pub fn between(
         stiffness: &NinePoint<2>,
         diagonal: &[[f64; 2]],
         unknowns: &Unknowns,
         threads: usize,
+        last: Option<Self>,
     ) -> Result<Extent, SolverError> {
         let grid = stiffness.grid();
-        let has_changed = |node: usize| {
-            let now = stiffness.diagonal(node);
-            (0..2).any(|i| {
-                (now[i] - diagonal[node][i]).abs() > CHANGED * diagonal[node][i].min(now[i])
-            })
-        };
+        let has_changed = |node: usize| differs(stiffness.diagonal(node), diagonal[node]);
         let mut inside: Vec<bool> = (0..grid.nodes()).map(has_changed).collect();
+        let covers =
+            |patch: &Self| patch.part.inside.iter().zip(&inside).all(|(own, now)| *own || !now);
+        let last = match last {
+            Some(last) if covers(&last) && last.is_of(stiffness) => return Ok(Extent::Patch(last)),
+            last => last,
+        };
         if !inside.contains(&true) {
             return Ok(Extent::Nothing);
         }
         (0..OVERLAP).for_each(|_| inside = dilated(&inside, grid));
-        let nodes = numbers(&inside);
-        if nodes.len() as f64 > LARGEST * grid.nodes() as f64 {
+        let count = inside.iter().filter(|inside| **inside).count();
+        if count as f64 > LARGEST * grid.nodes() as f64 {
             return Ok(Extent::TooMuch);
         }
-        let (places, number, order) = unknowns.within(&inside);
-        let factor = SparseCholesky::factor(&stiffness.lower_triangle(&number), &order, threads)?;
-        let reached = numbers(&dilated(&inside, grid));
-        Ok(Extent::Patch(Self { nodes, reached, places, factor }))
+        let part = match last {
+            Some(last) if last.part.inside == inside => last.part,
+            _ => Part::new(inside, stiffness, unknowns)?,
+        };
+        Ok(Extent::Patch(part.factor(stiffness, threads)?))
+    }
+
+    /// Returns true if its factor is that of a stiffness, nearly.
+    fn is_of(&self, stiffness: &NinePoint<2>) -> bool {
+        let mut own = self.part.nodes.iter().zip(&self.diagonal);
+        own.all(|(&node, then)| !differs(stiffness.diagonal(node as usize), *then))
     }
 
     /// Adds the displacements of the patch under the forces in it, all else at rest.
     pub fn solve(&self, force: &[f64], displacement: &mut Padded<2>) {
-        let mut values: Vec<f64> = self.places.iter().map(|&place| force[place]).collect();
+        let mut values: Vec<f64> = self.part.places.iter().map(|&place| force[place]).collect();
         self.factor.solve_in_place(&mut values);
         let all = displacement.inner_mut();
-        self.places.iter().zip(values).for_each(|(&place, value)| all[place] += value);
+        self.part.places.iter().zip(values).for_each(|(&place, value)| all[place] += value);
     }
 
     /// Subtracts from a force what displacements of the patch alone take, wherever they do.
     pub fn balance_around(&self, force: &mut [f64], displacement: &Padded<2>, system: &System) {
-        subtract(&self.reached, force, displacement, system);
+        subtract(&self.part.reached, force, displacement, system);
     }
 
     /// Subtracts from a force what displacements take inside the patch.
     pub fn balance_inside(&self, force: &mut [f64], displacement: &Padded<2>, system: &System) {
-        subtract(&self.nodes, force, displacement, system);
+        subtract(&self.part.nodes, force, displacement, system);
     }
+}
+
+/// Returns true if the diagonal of a node belongs to another stiffness.
+fn differs(now: [f64; 2], then: [f64; 2]) -> bool {
+    (0..2).any(|i| (now[i] - then[i]).abs() > CHANGED * then[i].min(now[i]))
 }
 
 /// A stiffness, and the components whose displacements are prescribed.

@@ -14,11 +14,13 @@ use crate::runtime::parallel::Team;
 
 /// Largest number of alternations of a step.
 const MOST_ALTERNATIONS: usize = 3000;
-/// Change of damage in an alternation below which a step has converged, and part of the forces that may be left then.
+/// Change of damage in an alternation below which a step has converged, and part of the forces that may be left then;
+/// before, it may be more in proportion to the change, up to `LARGEST_TOLERANCE`.
 /// Damage at the tip of a crack is far more sensitive to these than the energy: with 1e-4 of the forces the edge
 /// crack of `benches/cracks.rs` grows by less than half of what it grows with 1e-6.
 const TOLERANCE: f64 = 1e-4;
 const TOLERANCE_OF_FORCES: f64 = 1e-6;
+const LARGEST_TOLERANCE: f64 = 1e-3;
 
 /// Equilibrium of a section that cracks.
 pub struct DamageProblem {
@@ -124,7 +126,8 @@ impl DamageProblem {
         let mut change = 1.0_f64;
         for alternation in 1..=MOST_ALTERNATIONS {
             let fields = (damage.inner(), rise);
-            let tolerance = TOLERANCE_OF_FORCES * (0.1 * change / TOLERANCE).clamp(1.0, 100.0);
+            let in_proportion = TOLERANCE_OF_FORCES * change / TOLERANCE;
+            let tolerance = in_proportion.clamp(TOLERANCE_OF_FORCES, LARGEST_TOLERANCE);
             let released = balance.settle(&mut state.displacement, fields, forces, tolerance)?;
             let load = self.elements.damage_system(&released, &mut matrix, team);
             let before = damage.inner().to_vec();
