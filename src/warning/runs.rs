@@ -138,8 +138,8 @@ rules! {
     "do not rely on `stored` and `dissipated` at these strains, take the work of forces and loads instead"
 
     End damage_is_even(most, mean)
-    "damage is nearly even, {most} at most and {mean} in the mean: where no place is weaker or more stressed than others, no \
-     crack is singled out";
+    "damage away from cracks is nearly even, {most} at most and {mean} in the mean: where no place is weaker or more \
+     stressed than others, a whole region takes energy before one crack is singled out";
     "`scatter = 0.05` of `fracture` makes elements differ as grains do"
 
     End fluid_comes_off(part)

@@ -169,8 +169,19 @@ fn what_is_torn_off_is_warned_of() {
     assert_eq!(ids(&trial), ["torn_apart"]);
 }
 
+/// Warnings at the end of a run of a strip that cools until it breaks, in small steps.
+fn warnings_of_broken_strip(fracture: &str) -> Vec<&'static str> {
+    let mut trial = Trial::new(&scene(STRIP, &alumina(fracture), HELD, ""));
+    for part in [0.9, 1.01, 1.02, 1.03, 1.05, 1.1, 1.2] {
+        cool(&mut trial, part * 300e6 / (YOUNG * EXPANSION));
+    }
+    assert!(trial.get("plate.max_damage") > 0.99);
+    let found = trial.model.closing_warnings(&trial.state);
+    found.iter().map(|warning| warning.finding().id).collect()
+}
+
 #[test]
-fn even_damage_is_warned_of() {
+fn even_damage_is_warned_of_even_after_a_crack() {
     let even = AT1.replace(", scatter = 0.04", "");
     let mut trial = Trial::new(&scene(STRIP, &alumina(&even), HELD, ""));
     // In one step from nothing, rounding would single out a crack.
@@ -180,6 +191,8 @@ fn even_damage_is_warned_of() {
     let found = trial.model.closing_warnings(&trial.state);
     let ids: Vec<_> = found.iter().map(|warning| warning.finding().id).collect();
     assert_eq!(ids, ["damage_is_even"]);
+    assert_eq!(warnings_of_broken_strip(&even), ["damage_is_even"]);
+    assert_eq!(warnings_of_broken_strip(AT1), [""; 0]);
 }
 
 /// A body far from breaking, cooled from the top.

@@ -6,7 +6,7 @@ use super::SolidBody;
 use super::memo::SolidMemo;
 use super::notched::Notched;
 use crate::body::{Acts, BodyError};
-use crate::laws::fracture::Components;
+use crate::laws::fracture::{Components, Dissipation};
 use crate::method::damage::{
     BreakingOrder, Cracks, DamageError, DamageProblem, DamageState, Elements, Energies, Form,
     Section, Side,
@@ -22,6 +22,8 @@ const MOST_HALVES: u32 = 4;
 const PART_OF_BREAKING: f64 = 0.25;
 /// Largest temperature above the stress-free one in a state [K].
 const HOTTEST: f64 = 1e100;
+/// Distance from a crack up to which its damage reaches with AT1, over the length of damage.
+const REACH: f64 = 2.0;
 
 /// The mechanics of a solid that cracks, in a section of its mesh.
 pub struct Cracking {
@@ -382,11 +384,22 @@ impl SolidBody {
         self.mechanics_of(state)[damage].iter().copied().fold(0.0, f64::max)
     }
 
-    /// Mean damage of all nodes [1]; zero without cracks.
-    pub(super) fn mean_damage(&self, state: &[f64]) -> f64 {
-        let Some(cracking) = &self.cracking else { return 0.0 };
+    /// Largest and mean damage of the nodes farther from broken ones than the damage of a crack reaches; zero without
+    /// such nodes. Bodies of AT2 are damaged everywhere, and all their nodes count.
+    pub(super) fn damage_away_from_cracks(&self, state: &[f64]) -> [f64; 2] {
+        let Some(cracking) = &self.cracking else { return [0.0; 2] };
         let [_, damage, _] = cracking.places();
-        self.mechanics_of(state)[damage].iter().sum::<f64>() / cracking.nodes() as f64
+        let damage = &self.mechanics_of(state)[damage];
+        let Elements { section, law, .. } = &cracking.problem.elements;
+        let away: Vec<f64> = match law.dissipation {
+            Dissipation::At1 => {
+                let nodes = section.away_from_broken(damage, REACH * law.length);
+                nodes.into_iter().map(|node| damage[node]).collect()
+            }
+            Dissipation::At2 => damage.to_vec(),
+        };
+        let most = away.iter().copied().fold(0.0, f64::max);
+        [most, away.iter().sum::<f64>() / away.len().max(1) as f64]
     }
 
     /// Width of the widest crack over the size of its elements [1]; zero without cracks.

@@ -70,9 +70,9 @@ pub fn of_large_strain(body: &SolidBody, reading: &Reading, value: f64) -> Optio
     large.map(|what| warning::strain_is_large(what).at(&body.name))
 }
 
-/// Returns `None` unless the whole body is damaged alike.
+/// Returns `None` unless all of the body but its cracks is damaged alike.
 pub fn of_even_damage(body: &SolidBody, state: &[f64]) -> Option<Finding> {
-    let (most, mean) = (body.max_damage(state), body.mean_damage(state));
+    let [most, mean] = body.damage_away_from_cracks(state);
     let [shown, shown_mean] = [most, mean].map(|damage| format!("{damage:.2}"));
     let is_torn = body.opening_of_cracks(state) > TORN;
     (most > DAMAGED && mean > EVEN * most && !is_torn)
