@@ -5,13 +5,13 @@
 //! the stiffness is factored anew, and a new iteration finds the rest. Factors are in single precision, which needs
 //! half of the memory. The stiffness is that of the intact section, in which damaged elements are corrected.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use super::DamageError;
 use super::damaged::Damaged;
 use super::elements::{Elements, Nodal, Released};
 use super::patch::{Extent, Patch, System};
-use crate::math::cholesky::{Elimination, RoundedCholesky};
+use crate::math::cholesky::{Elimination, RoundedCholesky, SolverError};
 use crate::math::nested_dissection::nested_dissection;
 use crate::math::nine_point::{Grid, NinePoint, Padded};
 use crate::math::separable::dot;
@@ -45,6 +45,8 @@ pub struct Unknowns {
     /// Order of elimination, and the pattern of all factors, once known.
     order: Vec<usize>,
     elimination: OnceLock<Elimination>,
+    /// Factor of the intact stiffness, from its first use to the first damage.
+    intact: Mutex<Option<Arc<RoundedCholesky>>>,
     count: usize,
 }
 
@@ -64,7 +66,8 @@ impl Unknowns {
             .map(|unknown| number[unknown])
             .collect();
         let none_held = vec![false; held.len()];
-        Self { grid, held, none_held, number, order, elimination: OnceLock::new(), count }
+        let (elimination, intact) = (OnceLock::new(), Mutex::new(None));
+        Self { grid, held, none_held, number, order, elimination, intact, count }
     }
 
     /// Unknowns of some nodes: their places among all components, their numbers by place (`usize::MAX` for others),
@@ -97,7 +100,7 @@ pub struct Balance<'a> {
     thermal: Option<Vec<f64>>,
     /// Elements whose stiffness differs from the intact one.
     damaged: Damaged,
-    factor: Option<RoundedCholesky>,
+    factor: Option<Arc<RoundedCholesky>>,
     /// Diagonal of the stiffness of that factor, and where the present stiffness differs from it.
     factored: Vec<[f64; 2]>,
     patch: Option<Patch>,
@@ -279,13 +282,32 @@ impl<'a> Balance<'a> {
 
     fn refactor(&mut self) -> Result<(), DamageError> {
         self.factorings += 1;
+        // The work of a step must not depend on what steps before have left.
         self.allowance.spend(WORK_OF_FACTOR, "factorisations", self.unknowns.count)?;
-        let lower = self.stiffness.lower_triangle(&self.unknowns.number);
-        let threads = self.team.threads();
         // The old factor goes before the new one comes.
         (self.factor, self.patch) = (None, None);
         let nodes = 0..self.unknowns.grid.nodes();
         self.factored = nodes.map(|node| self.stiffness.diagonal(node)).collect();
+        let is_intact = self.damaged.is_empty();
+        let known = self.known_factor().take().filter(|_| is_intact);
+        let factor = match known {
+            Some(known) => known,
+            None => Arc::new(self.factor()?),
+        };
+        if is_intact {
+            *self.known_factor() = Some(Arc::clone(&factor));
+        }
+        self.factor = Some(factor);
+        Ok(())
+    }
+
+    fn known_factor(&self) -> MutexGuard<'_, Option<Arc<RoundedCholesky>>> {
+        self.unknowns.intact.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Factors the stiffness.
+    fn factor(&self) -> Result<RoundedCholesky, SolverError> {
+        let lower = self.stiffness.lower_triangle(&self.unknowns.number);
         let known = &self.unknowns.elimination;
         let elimination = match known.get() {
             Some(elimination) => elimination,
@@ -294,8 +316,7 @@ impl<'a> Balance<'a> {
                 known.get_or_init(|| new)
             }
         };
-        self.factor = Some(elimination.factor(&lower, threads)?.rounded());
-        Ok(())
+        Ok(elimination.factor(&lower, self.team.threads())?.rounded())
     }
 
     /// Preconditioned conjugate gradients from zero, until the residual is at most `goal`. Returns the residual, too, if

@@ -23,6 +23,10 @@ impl Damaged {
         Self { places: all.filter(is_damaged).collect() }
     }
 
+    pub fn is_empty(&self) -> bool {
+        self.places.is_empty()
+    }
+
     /// Adds the forces of their stress to nodal forces, and takes those away that they have where nothing is damaged
     /// [N].
     pub fn correct_forces(

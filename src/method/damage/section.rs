@@ -8,6 +8,9 @@ use crate::math::nine_point::Grid;
 /// Number of quadrature points of an element.
 pub const POINTS: usize = 4;
 
+/// Places of the two-point Gauss rule on [0, 1]: ½ ∓ 1/√12.
+const GAUSS: [f64; 2] = [0.211_324_865_405_187_13, 0.788_675_134_594_812_9];
+
 /// Body that a section represents.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Form {
@@ -86,18 +89,13 @@ impl Section {
 
     pub fn points(&self, element: [usize; 2]) -> [Point; POINTS] {
         let size = self.size(element);
+        let per_length = size.map(|size| 1.0 / size);
         let start = self.axes[0][element[0]];
         std::array::from_fn(|q| {
-            // Two-point Gauss rule along both axes, on [0, 1].
-            let offset = 0.5 / 3.0_f64.sqrt();
-            let at = [q % 2, q / 2].map(|high| if high == 0 { 0.5 - offset } else { 0.5 + offset });
-            let along = |axis: usize, a: usize| {
-                let high = [a % 2, a / 2][axis] == 1;
-                if high {
-                    (at[axis], 1.0 / size[axis])
-                } else {
-                    (1.0 - at[axis], -1.0 / size[axis])
-                }
+            let at = [GAUSS[q % 2], GAUSS[q / 2]];
+            let along = |axis: usize, a: usize| match [a % 2, a / 2][axis] {
+                1 => (at[axis], per_length[axis]),
+                _ => (1.0 - at[axis], -per_length[axis]),
             };
             let both: [[(f64, f64); 2]; 4] = std::array::from_fn(|a| [along(0, a), along(1, a)]);
             let radius = start + at[0] * size[0];
