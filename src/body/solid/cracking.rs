@@ -25,6 +25,16 @@ const HOTTEST: f64 = 1e100;
 /// Distance from a crack up to which its damage reaches with AT1, over the length of damage.
 const REACH: f64 = 2.0;
 
+/// Damage of the nodes farther from broken ones than that of a crack reaches. Bodies of AT2 are damaged everywhere, and
+/// all their nodes count.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct DamageAway {
+    pub most: f64,
+    pub mean: f64,
+    /// Its part of the energy of all damage.
+    pub part: f64,
+}
+
 /// The mechanics of a solid that cracks, in a section of its mesh.
 pub struct Cracking {
     problem: DamageProblem,
@@ -384,22 +394,22 @@ impl SolidBody {
         self.mechanics_of(state)[damage].iter().copied().fold(0.0, f64::max)
     }
 
-    /// Largest and mean damage of the nodes farther from broken ones than the damage of a crack reaches; zero without
-    /// such nodes. Bodies of AT2 are damaged everywhere, and all their nodes count.
-    pub(super) fn damage_away_from_cracks(&self, state: &[f64]) -> [f64; 2] {
-        let Some(cracking) = &self.cracking else { return [0.0; 2] };
+    /// Damage away from cracks.
+    pub(super) fn damage_away(&self, state: &[f64]) -> DamageAway {
+        let Some(cracking) = &self.cracking else { return DamageAway::default() };
         let [_, damage, _] = cracking.places();
         let damage = &self.mechanics_of(state)[damage];
         let Elements { section, law, .. } = &cracking.problem.elements;
-        let away: Vec<f64> = match law.dissipation {
-            Dissipation::At1 => {
-                let nodes = section.away_from_broken(damage, REACH * law.length);
-                nodes.into_iter().map(|node| damage[node]).collect()
-            }
-            Dissipation::At2 => damage.to_vec(),
+        let nodes = match law.dissipation {
+            Dissipation::At1 => section.away_from_broken(damage, REACH * law.length),
+            Dissipation::At2 => (0..damage.len()).collect(),
         };
-        let most = away.iter().copied().fold(0.0, f64::max);
-        [most, away.iter().sum::<f64>() / away.len().max(1) as f64]
+        let most = nodes.iter().map(|&node| damage[node]).fold(0.0, f64::max);
+        let sum: f64 = nodes.iter().map(|&node| damage[node]).sum();
+        // The gradient takes as much energy as the damage of a crack itself.
+        let of_cracks = 2.0 * (damage.iter().sum::<f64>() - sum);
+        let mean = sum / nodes.len().max(1) as f64;
+        DamageAway { most, mean, part: if most > 0.0 { sum / (sum + of_cracks) } else { 0.0 } }
     }
 
     /// Width of the widest crack over the size of its elements [1]; zero without cracks.

@@ -80,7 +80,7 @@ const WITH_TABLES: f64 = 2.5;
 const WITH_CREEP: f64 = 11.0;
 /// Time per node for the equilibrium of a body in which cracks grow in a step [s], the middle of quenches, and memory
 /// per node [B].
-const CRACKING: f64 = 1e-4;
+const CRACKING: f64 = 2.5e-5;
 const CRACKING_MEMORY: f64 = 2e3;
 /// Time of a body with moduli that relax, over that of one that stays elastic: a step is compared with its halves.
 const WITH_RELAXATION: f64 = 4.0;

@@ -1,6 +1,7 @@
 //! Warnings about a state of a solid: heat of particles, and melting fronts.
 
 use super::crack::Coarse;
+use super::cracking::DamageAway;
 use super::{SolidBody, point_quantities, totals};
 use crate::body::Reading;
 use crate::limits::number;
@@ -35,8 +36,10 @@ pub fn of_particles(body: &SolidBody, state: &[f64]) -> Option<Finding> {
 
 /// Opening of a crack over the size of its elements from which on it has torn a part off.
 const TORN: f64 = 2.0;
-/// Damage from which on it counts, and the part of it that its mean reaches where it is even.
+/// Damage from which on it counts without cracks, its part of all energy of damage from which on it does beside them,
+/// and the part of the largest that the mean reaches where it is even.
 const DAMAGED: f64 = 0.05;
+const COSTLY: f64 = 0.1;
 const EVEN: f64 = 0.8;
 
 /// Returns `None` unless a crack has opened so wide that a part is loose.
@@ -70,13 +73,13 @@ pub fn of_large_strain(body: &SolidBody, reading: &Reading, value: f64) -> Optio
     large.map(|what| warning::strain_is_large(what).at(&body.name))
 }
 
-/// Returns `None` unless all of the body but its cracks is damaged alike.
+/// Returns `None` unless all of the body but its cracks is damaged alike, and that damage counts beside theirs.
 pub fn of_even_damage(body: &SolidBody, state: &[f64]) -> Option<Finding> {
-    let [most, mean] = body.damage_away_from_cracks(state);
-    let [shown, shown_mean] = [most, mean].map(|damage| format!("{damage:.2}"));
+    let DamageAway { most, mean, part } = body.damage_away(state);
+    let counts = if body.max_damage(state) > most { part > COSTLY } else { most > DAMAGED };
     let is_torn = body.opening_of_cracks(state) > TORN;
-    (most > DAMAGED && mean > EVEN * most && !is_torn)
-        .then(|| warning::damage_is_even(shown, shown_mean))
+    (counts && mean > EVEN * most && !is_torn)
+        .then(|| warning::damage_is_even(format!("{most:.2}"), format!("{mean:.2}")))
 }
 
 /// Returns the flaws along which the mesh is too coarse, and those that have grown too deep for their formula.
