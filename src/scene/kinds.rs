@@ -184,11 +184,6 @@ impl Scene {
         self.droplets().next().is_some()
     }
 
-    /// Returns true if part of the scene may melt.
-    pub fn melts(&self) -> bool {
-        self.solids().any(|(_, solid)| solid.melts())
-    }
-
     /// Returns true if drops are repeated from records or closed forms.
     pub fn has_replayed_drops(&self) -> bool {
         self.droplets().any(|(_, droplet)| droplet.is_replayed())

@@ -362,7 +362,7 @@ fn long_runs_have_a_proposal_that_shortens_them() {
     let forecast = |strength: &str| {
         let law = alumina(&AT1.replace("300e6", strength));
         let shape = "shape = { box = [20e-3, 1e-3, 8e-3] }\nsection = \"plane_stress\"";
-        let text = scene(shape, &law, HELD, "").replace("stop_time = 10.0", "stop_time = 100.0");
+        let text = scene(shape, &law, HELD, "").replace("stop_time = 10.0", "stop_time = 400.0");
         let scene = impinge::scene::parse(&text, "scene").unwrap();
         let found = impinge::model::forecast(&scene);
         (found.run_time(), found.bodies[0].savings.clone())

@@ -15,10 +15,10 @@ const SHORT_STEPS: &str = "short steps";
 const HELD_WALL: &str = "held wall";
 
 impl Unit {
-    /// Sends warnings about drops and melting that are only known at the end of a run, if memory allows.
+    /// Sends warnings that are only known at the end of a run, if memory allows.
     pub(super) fn warn_at_end(&mut self) {
         let Some(model) = self.run.as_ref().map(|run| Arc::clone(&run.model)) else { return };
-        if !(self.scene.has_drops() || self.scene.melts()) || self.expect_room().is_err() {
+        if self.expect_room().is_err() {
             return;
         }
         let state = &self.state;
