@@ -110,34 +110,37 @@ impl RoundedCholesky {
     ///
     /// The solution is the same to the bit on any number of threads.
     pub fn solve_in_place(&self, b: &mut [f64], team: &Team) {
-        let unknowns = self.symbolic.nrows();
         let size = b.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-        if unknowns == 0 || size == 0.0 {
+        if size == 0.0 {
             return;
         }
-        let mut rounded: Vec<f32> = b.iter().map(|value| (value / size) as f32).collect();
+        let back = size / self.scale / self.scale;
         match (self.symbolic.raw(), &self.partition) {
             (SymbolicCholeskyRaw::Supernodal(panels), Some(partition)) => {
-                let place = self.symbolic.perm().map(|order| order.arrays().1);
-                let place = |i: usize| place.map_or(i, |place| place[i]);
-                let mut ordered = vec![0.0; unknowns];
-                rounded.iter().enumerate().for_each(|(i, value)| ordered[place(i)] = *value);
+                let order = self.symbolic.perm().map(|order| order.arrays());
+                let mut ordered = vec![0.0; b.len()];
+                let right = &*b;
+                team.for_each(&mut ordered, |k, value| {
+                    *value = (right[order.map_or(k, |(order, _)| order[k])] / size) as f32;
+                });
                 partition.solve(panels, &self.values, &mut ordered, team);
-                rounded.iter_mut().enumerate().for_each(|(i, value)| *value = ordered[place(i)]);
+                team.for_each(b, |i, value| {
+                    *value = back * f64::from(ordered[order.map_or(i, |(_, place)| place[i])]);
+                });
             }
             _ => {
+                let mut rounded: Vec<f32> = b.iter().map(|value| (value / size) as f32).collect();
                 let need = self.symbolic.solve_in_place_scratch::<f32>(1, Par::Seq);
                 let mut buffer = MemBuffer::new(need);
                 LltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
                     Conj::No,
-                    MatMut::from_column_major_slice_mut(&mut rounded, unknowns, 1),
+                    MatMut::from_column_major_slice_mut(&mut rounded, b.len(), 1),
                     Par::Seq,
                     MemStack::new(&mut buffer),
                 );
+                b.iter_mut().zip(rounded).for_each(|(x, own)| *x = back * f64::from(own));
             }
         }
-        let back = size / self.scale / self.scale;
-        b.iter_mut().zip(rounded).for_each(|(value, own)| *value = back * f64::from(own));
     }
 }
 

@@ -40,24 +40,21 @@ pub struct Unknowns {
     /// True where a displacement is prescribed, both components of a node together.
     pub held: Vec<bool>,
     none_held: Vec<bool>,
-    /// Number of each unknown; `usize::MAX` where it is held.
+    /// Number of each unknown; `usize::MAX` where it is held. Place of each among all components.
     number: Vec<usize>,
+    places: Vec<usize>,
     /// Order of elimination, and the pattern of all factors, once known.
     order: Vec<usize>,
     elimination: OnceLock<Elimination>,
     /// Factor of the intact stiffness, from its first use to the first damage.
     intact: Mutex<Option<Arc<RoundedCholesky>>>,
-    count: usize,
 }
 
 impl Unknowns {
     pub fn new(grid: Grid, held: Vec<bool>) -> Self {
-        let mut count = 0;
         let mut number = vec![usize::MAX; held.len()];
-        for (number, _) in number.iter_mut().zip(&held).filter(|(_, held)| !**held) {
-            *number = count;
-            count += 1;
-        }
+        let places: Vec<usize> = (0..held.len()).filter(|&place| !held[place]).collect();
+        places.iter().enumerate().for_each(|(n, &place)| number[place] = n);
         let [x, z] = grid.elements();
         let order = nested_dissection([x, 0, z], 1)
             .into_iter()
@@ -67,7 +64,7 @@ impl Unknowns {
             .collect();
         let none_held = vec![false; held.len()];
         let (elimination, intact) = (OnceLock::new(), Mutex::new(None));
-        Self { grid, held, none_held, number, order, elimination, intact, count }
+        Self { grid, held, none_held, number, places, order, elimination, intact }
     }
 
     /// Unknowns of some nodes: their places among all components, their numbers by place (`usize::MAX` for others),
@@ -75,7 +72,7 @@ impl Unknowns {
     pub fn within(&self, inside: &[bool]) -> (Vec<usize>, Vec<usize>, Vec<usize>) {
         let mut number = vec![usize::MAX; self.number.len()];
         // Numbers of the unknowns by those among all.
-        let mut own = vec![usize::MAX; self.count];
+        let mut own = vec![usize::MAX; self.places.len()];
         let mut places = Vec::new();
         let is_inside = |place: &usize| inside[place / 2] && !self.held[*place];
         for place in (0..number.len()).filter(is_inside) {
@@ -283,7 +280,7 @@ impl<'a> Balance<'a> {
     fn refactor(&mut self) -> Result<(), DamageError> {
         self.factorings += 1;
         // The work of a step must not depend on what steps before have left.
-        self.allowance.spend(WORK_OF_FACTOR, "factorisations", self.unknowns.count)?;
+        self.allowance.spend(WORK_OF_FACTOR, "factorisations", self.unknowns.places.len())?;
         // The old factor goes before the new one comes.
         (self.factor, self.patch) = (None, None);
         let nodes = 0..self.unknowns.grid.nodes();
@@ -340,7 +337,11 @@ impl<'a> Balance<'a> {
                 return Ok((solution, None));
             }
             self.iterations += 1;
-            self.allowance.spend(WORK_OF_ITERATION, "iterations of equilibrium", unknowns.count)?;
+            self.allowance.spend(
+                WORK_OF_ITERATION,
+                "iterations of equilibrium",
+                unknowns.places.len(),
+            )?;
             self.stiffness.product(&direction, &unknowns.held, &mut product, self.team);
             let length = energy / dot(direction.inner(), &product);
             for (k, along) in direction.inner().iter().enumerate() {
@@ -378,11 +379,11 @@ impl<'a> Balance<'a> {
 
     fn precondition(&self, residual: &[f64]) -> Vec<f64> {
         let factor = self.factor.as_ref().expect("it is made before the iteration");
-        let free = || self.unknowns.number.iter().enumerate().filter(|(_, n)| **n != usize::MAX);
-        let mut values: Vec<f64> = free().map(|(unknown, _)| residual[unknown]).collect();
+        let places = &self.unknowns.places;
+        let mut values: Vec<f64> = places.iter().map(|&place| residual[place]).collect();
         factor.solve_in_place(&mut values, self.team);
         let mut out = vec![0.0; residual.len()];
-        free().zip(values).for_each(|((unknown, _), value)| out[unknown] = value);
+        places.iter().zip(values).for_each(|(&place, value)| out[place] = value);
         out
     }
 }
