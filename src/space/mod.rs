@@ -75,6 +75,13 @@ pub struct Space {
 }
 
 impl Space {
+    /// The same with one dilatation for as many consecutive points, those of a cell.
+    pub fn with_points_together(mut self, of_cell: usize) -> Self {
+        let cells = self.volume.len() / of_cell;
+        self.groups = (0..cells).map(|n| of_cell * n..of_cell * (n + 1)).collect();
+        self
+    }
+
     /// The same with a dilatation of its own at each point.
     pub fn with_points_alone(mut self) -> Self {
         self.groups = (0..self.volume.len()).map(|point| point..point + 1).collect();

@@ -74,6 +74,18 @@ pub enum Integration {
     Nsni,
 }
 
+impl Integration {
+    /// Number of points of a cell of the mesh, or of a node.
+    pub fn points_of_cell(self, form: Form) -> usize {
+        let axes = form.axes().len();
+        match self {
+            Self::Gauss(count) => count.pow(axes as u32),
+            Self::Scni => 1,
+            Self::Nsni => 2 * axes,
+        }
+    }
+}
+
 /// Creates the space of the reproducing-kernel functions of a mesh's nodes. Each point is alone in its group.
 ///
 /// With nodal integration the divergence theorem holds in sums, Σ w ∇Ψ = Σ Ψ n over the points of the volume and the

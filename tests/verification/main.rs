@@ -24,6 +24,7 @@ mod falling_drop;
 mod flows;
 mod fracture_mechanics;
 mod heat;
+mod kinematic;
 mod large_strain;
 mod lattice;
 mod particles;

@@ -5,7 +5,7 @@ mod approximation;
 #[path = "../reproducing/cantilever.rs"]
 mod cantilever;
 #[path = "../reproducing/closed_forms.rs"]
-mod closed_forms;
+pub mod closed_forms;
 #[allow(dead_code)]
 #[path = "../reproducing/linear.rs"]
 mod linear;

@@ -55,12 +55,9 @@ impl Deformation for ElastoplasticLaw {
         let kinematic = value(&self.yielding.kinematic_hardening).unwrap_or(0.0);
         let none = Saturation { saturation: yield_stress, rate: 0.0 };
         let Saturation { saturation, rate } = self.saturating.hardening.unwrap_or(none);
-        let deviator = Deviator::Plastic(Plastic { yield_stress, hardening, saturation, rate });
-        (kinematic == 0.0 && saturation >= yield_stress).then_some(LargeStrainLaw {
-            bulk,
-            shear,
-            deviator,
-        })
+        let plastic = Plastic { yield_stress, hardening, saturation, rate, kinematic };
+        let deviator = Deviator::Plastic(plastic);
+        (saturation >= yield_stress).then_some(LargeStrainLaw { bulk, shear, deviator })
     }
 
     fn flow_law(&self, stress_free_temperature: f64) -> Arc<dyn FlowLaw> {

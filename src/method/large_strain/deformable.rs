@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::{Course, Courses, Failure};
-use crate::laws::solid::large_strain::{Concrete, Deformed, LargeStrainLaw};
+use crate::laws::solid::large_strain::{Deformed, LargeStrainLaw};
 use crate::laws::solid::stress::von_mises;
 use crate::math::matrix3::{IDENTITY, Matrix3, contraction, packed, scale_deviator};
 use crate::runtime::parallel::Team;
@@ -236,10 +236,9 @@ impl Deformable {
     /// Returns true if a run may produce a history of all points.
     pub fn is_sound(&self, history: &[f64]) -> bool {
         let of_group = |group: usize| {
-            let length = self.law_of(group).history();
-            let is_concrete = self.law_of(group).concrete().is_some();
+            let law = self.law_of(group);
             let own = &history[self.history_of(group)];
-            !is_concrete || own.chunks_exact(length).all(Concrete::is_sound)
+            law.history() == 0 || own.chunks_exact(law.history()).all(|own| law.is_sound(own))
         };
         (0..self.space.groups.len()).all(of_group)
     }
@@ -354,6 +353,9 @@ impl Deformable {
                 true => Failure::Inverted { at, dilatation: least.0 },
                 false => Failure::NotFinite,
             });
+        }
+        if !energy.is_finite() {
+            return Err(Failure::NotFinite);
         }
         Ok(Stresses { energy, swelling, stiffening, least: least.0, ..stresses })
     }

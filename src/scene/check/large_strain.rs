@@ -270,8 +270,7 @@ fn check_law(checker: &mut Checker, path: &Path, material: &Material, temperatur
         let message = "a solid of large strain cannot be made of this material";
         let allowed = "`model = \"neo_hookean\"` with `young` and `poisson`; `\"concrete\"` with `kcc`, too; \
                        `\"viscoelastic\"` with `shear_relaxation`, without `bulk_relaxation`; or \
-                       `\"elastoplastic\"` with `yield_stress`, without `kinematic_hardening`, with a `saturation` \
-                       not below the yield stress";
+                       `\"elastoplastic\"` with `yield_stress`, with a `saturation` not below the yield stress";
         checker.refuse(path, message, allowed);
     }
 }

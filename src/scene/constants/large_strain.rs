@@ -6,8 +6,8 @@ use crate::laws::MaterialConstant;
 use crate::scene::large_strain::LargeStrain;
 
 /// Constants on which the motion depends.
-const MECHANICAL: [&str; 5] =
-    ["density", "young", "poisson", "yield_stress", "isotropic_hardening"];
+const MECHANICAL: [&str; 6] =
+    ["density", "young", "poisson", "yield_stress", "isotropic_hardening", "kinematic_hardening"];
 /// Constants on which the heat flow depends.
 const THERMAL: [&str; 3] = ["specific_heat", "conductivity", "expansion"];
 

@@ -2,11 +2,13 @@
 //!
 //! The energy of the dilatation `J = det F` per reference volume is `U(J) = ½ κ (½ (J² − 1) − ln J)`, source: J. C.
 //! Simo and T. J. R. Hughes, *Computational Inelasticity*, Springer 1998, eq. 9.2.3. Deviators have no part in the
-//! volume: [`relaxing`] is neo-Hooke with Maxwell branches, [`plastic`] multiplicative J₂ plasticity. [`concrete`] has
-//! the whole stress, and U is 0. [`thermal`] adds expansion, and [`thin`] sections without stress across them.
+//! volume: [`relaxing`] is neo-Hooke with Maxwell branches, [`plastic`] multiplicative J₂ plasticity, to
+//! which [`kinematic`] adds a back stress. [`concrete`] has the whole stress, and U is 0. [`thermal`] adds expansion, and
+//! [`thin`] sections without stress across them.
 
 pub mod concrete;
 mod deformed;
+mod kinematic;
 mod plastic;
 mod relaxing;
 mod thermal;
@@ -76,6 +78,15 @@ impl LargeStrainLaw {
     /// Returns true if the material yields.
     pub fn yields(&self) -> bool {
         matches!(self.deviator, Deviator::Plastic(_) | Deviator::Concrete(_))
+    }
+
+    /// Returns true if a run may produce a history of a point.
+    pub fn is_sound(&self, history: &[f64]) -> bool {
+        match &self.deviator {
+            Deviator::Relaxing(_) => true,
+            Deviator::Plastic(_) => Plastic::is_sound(history),
+            Deviator::Concrete(_) => Concrete::is_sound(history),
+        }
     }
 
     /// Returns the law of concrete, if it is one.

@@ -8,14 +8,14 @@
 //!
 //! (J. C. Simo 1988, doi 10.1016/0045-7825(88)90076-X; Simo and Hughes 1998, box 9.1). The spherical part of b̄ after
 //! the return follows from `det b̄ = 1`, so that flow keeps the volume and the energy is elastic. The tangent is the
-//! derivative of this step, which is not symmetric.
+//! derivative of this step, which is not symmetric. With kinematic hardening a step is that of [`kinematic`].
 
-use super::{Deformed, Isochoric, Tangent};
+use super::{Deformed, Isochoric, Tangent, kinematic};
 use crate::math::matrix3::{
     IDENTITY, Matrix3, contraction, full, inverse, packed, product, transposed,
 };
 
-/// Yield stress over the equivalent plastic strain.
+/// Yield stress over the equivalent plastic strain, and the modulus of the back stress.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plastic {
     /// σ₀ [Pa].
@@ -26,6 +26,8 @@ pub struct Plastic {
     pub saturation: f64,
     /// δ [1].
     pub rate: f64,
+    /// H_k [Pa].
+    pub kinematic: f64,
 }
 
 /// A step of a point.
@@ -55,18 +57,22 @@ impl Plastic {
     /// Place of α.
     pub const STRAIN: usize = 6;
 
-    fn yield_stress(&self, alpha: f64) -> [f64; 2] {
-        let Self { yield_stress, hardening, saturation, rate } = *self;
+    /// Returns true if a run may produce a history of a point: α is none below zero, and C_p⁻¹ positive definite.
+    pub fn is_sound(history: &[f64]) -> bool {
+        let m = unpacked(history);
+        let minor = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+        history[Self::STRAIN] >= 0.0 && m[0][0] > 0.0 && minor > 0.0 && inverse(&m).1 > 0.0
+    }
+
+    /// σ_y and its slope at an α.
+    pub(super) fn yield_stress(&self, alpha: f64) -> [f64; 2] {
+        let Self { yield_stress, hardening, saturation, rate, .. } = *self;
         let rest = (saturation - yield_stress) * (-rate * alpha).exp();
         [saturation - rest + hardening * alpha, rate * rest + hardening]
     }
 
     fn step(&self, shear: f64, at: &Deformed, before: &[f64]) -> Step {
-        let j = at.dilatation.powf(-2.0 * THIRD);
-        let mut plastic = full(std::array::from_fn(|n| before[n]));
-        (0..3).for_each(|a| plastic[a][a] += 1.0);
-        let trial = product(&product(&at.gradient, &plastic), &transposed(&at.gradient));
-        let trial: Matrix3 = trial.map(|row| row.map(|value| j * value));
+        let trial = elastic(at, &unpacked(before));
         let trace = trial[0][0] + trial[1][1] + trial[2][2];
         let stress = deviator(&trial.map(|row| row.map(|value| shear * value)));
         let norm = contraction(&stress, &stress).sqrt();
@@ -90,6 +96,9 @@ impl Plastic {
     }
 
     pub fn respond(&self, shear: f64, at: &Deformed, history: &mut [f64]) -> Isochoric {
+        if self.kinematic > 0.0 {
+            return kinematic::respond(self, shear, at, history);
+        }
         let step = self.step(shear, at, history);
         let kept = kirchhoff(&step);
         let mut trace = step.trial[0][0] + step.trial[1][1] + step.trial[2][2];
@@ -102,10 +111,7 @@ impl Plastic {
             let back = transposed(&at.inverse_transposed);
             let j = at.dilatation.powf(2.0 * THIRD);
             let plastic = product(&product(&back, &b), &at.inverse_transposed);
-            let plastic = packed(&plastic.map(|row| row.map(|value| j * value)));
-            for (n, value) in plastic.into_iter().enumerate() {
-                history[n] = if n < 3 { value - 1.0 } else { value };
-            }
+            pack(&plastic.map(|row| row.map(|value| j * value)), history);
             history[Self::STRAIN] += (2.0 * THIRD).sqrt() * step.flow;
         }
         let stiffness = 4.0 * THIRD * step.modulus.max(shear);
@@ -117,36 +123,13 @@ impl Plastic {
     }
 
     pub fn tangent(&self, shear: f64, at: &Deformed, before: &[f64]) -> Tangent {
-        let step = self.step(shear, at, before);
-        let j = at.dilatation.powf(-2.0 * THIRD);
-        let mut plastic = full(std::array::from_fn(|n| before[n]));
-        (0..3).for_each(|a| plastic[a][a] += 1.0);
-        // J^(−2/3) C_p⁻¹ Fᵀ.
-        let half = product(&plastic, &transposed(&at.gradient));
-        let kept = kirchhoff(&step);
-        let mut tangent = [[0.0; 9]; 9];
-        for column in 0..9 {
-            let (k, l) = (column / 3, column % 3);
-            // δb̄ for δF = e_k ⊗ e_l.
-            let mut change = [[0.0; 3]; 3];
-            for b in 0..3 {
-                change[k][b] += j * half[l][b];
-                change[b][k] += j * half[l][b];
-            }
-            let swelling = 2.0 * THIRD * at.inverse_transposed[k][l];
-            for n in 0..9 {
-                change[n / 3][n % 3] -= swelling * step.trial[n / 3][n % 3];
-            }
-            let moved = self.change(shear, &step, &change);
-            // P = s F^(−T), and δF^(−T) = −F^(−T) δFᵀ F^(−T).
-            let first = product(&moved, &at.inverse_transposed);
-            for (row, line) in tangent.iter_mut().enumerate() {
-                let (i, a) = (row / 3, row % 3);
-                let along: f64 = (0..3).map(|m| kept[i][m] * at.inverse_transposed[m][l]).sum();
-                line[column] = first[i][a] - along * at.inverse_transposed[k][a];
-            }
+        if self.kinematic > 0.0 {
+            return kinematic::tangent(self, shear, at, before);
         }
-        tangent
+        let step = self.step(shear, at, before);
+        let changes = Changes::new(at, &unpacked(before), &step.trial);
+        let moved = |k: usize, l: usize| self.change(shear, &step, &changes.of(k, l));
+        of_kirchhoff(at, &kirchhoff(&step), moved)
     }
 
     /// Change of s for a change of b̄.
@@ -167,6 +150,77 @@ impl Plastic {
         };
         std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)))
     }
+}
+
+/// C_p⁻¹ of a history.
+pub(super) fn unpacked(history: &[f64]) -> Matrix3 {
+    let mut plastic = full(std::array::from_fn(|n| history[n]));
+    (0..3).for_each(|a| plastic[a][a] += 1.0);
+    plastic
+}
+
+/// Writes C_p⁻¹ to a history.
+pub(super) fn pack(plastic: &Matrix3, history: &mut [f64]) {
+    for (n, value) in packed(plastic).into_iter().enumerate() {
+        history[n] = if n < 3 { value - 1.0 } else { value };
+    }
+}
+
+/// b̄ of a C_p⁻¹.
+pub(super) fn elastic(at: &Deformed, plastic: &Matrix3) -> Matrix3 {
+    let j = at.dilatation.powf(-2.0 * THIRD);
+    let b = product(&product(&at.gradient, plastic), &transposed(&at.gradient));
+    b.map(|row| row.map(|value| j * value))
+}
+
+/// Changes of b̄ with F at a constant C_p⁻¹.
+pub(super) struct Changes<'a> {
+    at: &'a Deformed,
+    /// b̄.
+    elastic: &'a Matrix3,
+    j: f64,
+    /// C_p⁻¹ Fᵀ.
+    half: Matrix3,
+}
+
+impl<'a> Changes<'a> {
+    pub(super) fn new(at: &'a Deformed, plastic: &Matrix3, elastic: &'a Matrix3) -> Self {
+        let half = product(plastic, &transposed(&at.gradient));
+        Self { at, elastic, j: at.dilatation.powf(-2.0 * THIRD), half }
+    }
+
+    /// δb̄ for δF = e_k ⊗ e_l.
+    pub(super) fn of(&self, k: usize, l: usize) -> Matrix3 {
+        let mut change = [[0.0; 3]; 3];
+        for b in 0..3 {
+            change[k][b] += self.j * self.half[l][b];
+            change[b][k] += self.j * self.half[l][b];
+        }
+        let swelling = 2.0 * THIRD * self.at.inverse_transposed[k][l];
+        for n in 0..9 {
+            change[n / 3][n % 3] -= swelling * self.elastic[n / 3][n % 3];
+        }
+        change
+    }
+}
+
+/// ∂P/∂F, with the changes of s for `δF = e_k ⊗ e_l`: `P = s F^(−T)`, and `δF^(−T) = −F^(−T) δFᵀ F^(−T)`.
+pub(super) fn of_kirchhoff(
+    at: &Deformed,
+    kept: &Matrix3,
+    moved: impl Fn(usize, usize) -> Matrix3,
+) -> Tangent {
+    let mut tangent = [[0.0; 9]; 9];
+    for column in 0..9 {
+        let (k, l) = (column / 3, column % 3);
+        let first = product(&moved(k, l), &at.inverse_transposed);
+        for (row, line) in tangent.iter_mut().enumerate() {
+            let (i, a) = (row / 3, row % 3);
+            let along: f64 = (0..3).map(|m| kept[i][m] * at.inverse_transposed[m][l]).sum();
+            line[column] = first[i][a] - along * at.inverse_transposed[k][a];
+        }
+    }
+    tangent
 }
 
 /// Multiple of the identity that makes the determinant of a deviator 1, by Newton's method from above.
@@ -192,7 +246,7 @@ fn kirchhoff(step: &Step) -> Matrix3 {
     std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)))
 }
 
-fn deviator(m: &Matrix3) -> Matrix3 {
+pub(super) fn deviator(m: &Matrix3) -> Matrix3 {
     let mean = THIRD * (m[0][0] + m[1][1] + m[2][2]);
     std::array::from_fn(|a| std::array::from_fn(|b| m[a][b] - mean * IDENTITY[a][b]))
 }

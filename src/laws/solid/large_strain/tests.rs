@@ -1,12 +1,13 @@
 use super::*;
 use crate::math::matrix3::contraction;
 
-fn laws() -> [LargeStrainLaw; 3] {
+fn laws() -> [LargeStrainLaw; 4] {
     let branches = vec![
         MaxwellBranch { fraction: 0.5, time: 0.3 },
         MaxwellBranch { fraction: 0.2, time: 5.0 },
     ];
-    let plastic = Plastic { yield_stress: 0.4, hardening: 0.3, saturation: 0.6, rate: 17.0 };
+    let plastic =
+        Plastic { yield_stress: 0.4, hardening: 0.3, saturation: 0.6, rate: 17.0, kinematic: 0.0 };
     [
         LargeStrainLaw::elastic(7.0, 3.0),
         LargeStrainLaw {
@@ -15,6 +16,11 @@ fn laws() -> [LargeStrainLaw; 3] {
             deviator: Deviator::Relaxing(Relaxing { branches }),
         },
         LargeStrainLaw { bulk: 7.0, shear: 3.0, deviator: Deviator::Plastic(plastic) },
+        LargeStrainLaw {
+            bulk: 7.0,
+            shear: 3.0,
+            deviator: Deviator::Plastic(Plastic { kinematic: 0.5, ..plastic }),
+        },
     ]
 }
 

@@ -141,11 +141,18 @@ mod tests {
     #[test]
     fn condensed_tangents_match_differences() {
         let branches = vec![MaxwellBranch { fraction: 0.5, time: 0.3 }];
-        let plastic = Plastic { yield_stress: 0.4, hardening: 0.3, saturation: 0.6, rate: 17.0 };
+        let plastic = Plastic {
+            yield_stress: 0.4,
+            hardening: 0.3,
+            saturation: 0.6,
+            rate: 17.0,
+            kinematic: 0.0,
+        };
         let deviators = [
             Deviator::Relaxing(Relaxing::default()),
             Deviator::Relaxing(Relaxing { branches }),
             Deviator::Plastic(plastic),
+            Deviator::Plastic(Plastic { kinematic: 0.5, ..plastic }),
         ];
         for deviator in deviators {
             let law = LargeStrainLaw { bulk: BULK, shear: SHEAR, deviator };
@@ -174,7 +181,13 @@ mod tests {
     /// drawn along both axes.
     #[test]
     fn sheets_that_flow_bear_their_yield_stress() {
-        let plastic = Plastic { yield_stress: 0.05, hardening: 0.0, saturation: 0.05, rate: 0.0 };
+        let plastic = Plastic {
+            yield_stress: 0.05,
+            hardening: 0.0,
+            saturation: 0.05,
+            rate: 0.0,
+            kinematic: 0.0,
+        };
         let law = LargeStrainLaw { bulk: BULK, shear: SHEAR, deviator: Deviator::Plastic(plastic) };
         let mut uniaxial = vec![0.0; law.history()];
         let mut biaxial = uniaxial.clone();
