@@ -116,11 +116,11 @@ fn points(solid: &LargeStrain, mesh: &Mesh) -> (usize, f64) {
             // Averaged gradients have the functions of all cells within the radius.
             let averaged = kernels.smoothing.map_or(0.0, |radius| radius / solid.spacing());
             let reach = (2.0 * (kernels.support + averaged)).powi(axes as i32);
-            let points = match integration {
-                Integration::Scni => mesh.nodes.len(),
-                Integration::Nsni => 2 * axes * mesh.nodes.len(),
-                Integration::Gauss(count) => count.pow(axes as u32) * mesh.cells.len(),
+            let cells = match integration {
+                Integration::Scni | Integration::Nsni => mesh.nodes.len(),
+                Integration::Gauss(_) => mesh.cells.len(),
             };
+            let points = integration.points_of_cell(mesh.form) * cells;
             // Means over the cell of a node have the functions of all of its corners.
             let wider = if matches!(integration, Integration::Gauss(_)) { 1.0 } else { 1.6 };
             (points, wider * reach)
@@ -253,9 +253,10 @@ fn note_on_temperature(solid: &LargeStrain) -> Option<&'static str> {
     acts.then_some("the body keeps its initial temperature: it neither expands nor relaxes faster where it is warm")
 }
 
-/// Note on kernels whose points each have a dilatation of their own.
-const NOTE_ON_LOCKING: &str = "the material hardly changes its volume, which makes reproducing kernels far too stiff on coarse meshes, by half at \
-                               a Poisson's ratio of 0.49 and four nodes across: finite elements do not lock";
+/// Note on kernels of a material that hardly changes its volume.
+const NOTE_ON_LOCKING: &str = "the material hardly changes its volume, so the points of a kernel's cell share its dilatation; on coarse meshes \
+                               it is too stiff all the same: Cook's membrane of 16 cells a side by 4 %, with `rkpm = { integration = \
+                               \"gauss\" }` by 0.8 %, with finite elements by 2.4 %";
 
 /// Longest time between exchanges with the body below [s]: the value of the scene, or the time in which the body falls
 /// by an element.

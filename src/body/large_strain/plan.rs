@@ -102,7 +102,13 @@ pub fn deformable(solid: &LargeStrain, threads: usize) -> Result<Deformable, Fai
     let LayerOfBody { law, density } = layers.into_iter().next().expect("a body has a material");
     let space = match solid.mechanics {
         Mechanics::Fem => finite_elements(&mesh),
-        Mechanics::Rkpm | Mechanics::Efg => reproducing(&mesh, kernels(solid, &mesh))?,
+        Mechanics::Rkpm | Mechanics::Efg => {
+            let settings = kernels(solid, &mesh);
+            let space = reproducing(&mesh, settings)?;
+            let of_cell = settings.integration.points_of_cell(space.form);
+            // What hardly changes its volume would lock.
+            if law.is_nearly_incompressible() { space.with_points_together(of_cell) } else { space }
+        }
         Mechanics::Sph => {
             let support = solid.sph.unwrap_or_default().support;
             match solid.part().and_then(Part::body) {
