@@ -316,8 +316,8 @@ impl<'a> Balance<'a> {
         Ok(elimination.factor(&lower, self.team.threads())?.rounded())
     }
 
-    /// Preconditioned conjugate gradients from zero, until the residual is at most `goal`. Returns the residual, too, if
-    /// it is larger after the most iterations.
+    /// Preconditioned conjugate gradients from zero, until the residual is at most `goal`. Returns the residual, too,
+    /// if it is larger after the most iterations.
     fn iterate(
         &mut self,
         force: &[f64],

@@ -2,8 +2,8 @@
 //!
 //! Elements that break, open or close between two linear systems change a few rows by orders of magnitude, each of
 //! which costs conjugate gradients an iteration or more. Solving with the present stiffness inside the patch, then with
-//! the earlier factor everywhere, and once more inside the patch (a symmetric multiplicative Schwarz method; J. Xu 1992,
-//! doi 10.1137/1034116) leaves them the smooth rest.
+//! the earlier factor everywhere, and once more inside the patch (a symmetric multiplicative Schwarz method; J. Xu
+//! 1992, doi 10.1137/1034116) leaves them the smooth rest.
 
 use super::balance::Unknowns;
 use crate::math::cholesky::{Elimination, SolverError, SparseCholesky};

@@ -8,9 +8,9 @@
 //! - flow: `Ḟ_p F_p⁻¹ = γ̇ ξ/‖ξ‖`, without spin, `α̇ = √⅔ γ̇`, and `‖ξ‖ γ̇ ≥ 0` is dissipated.
 //!
 //! This is the model of W. Dettmer and S. Reese (2004, doi 10.1016/j.cma.2003.09.005) and I. N. Vladimirov et al.
-//! (2008, doi 10.1002/nme.2234) without recovery. Turning the intermediate configuration changes nothing, so the history is C_p,
-//! and any F_p of that C_p serves, here a triangular one. χ and C̄_e need not have common axes (F. J. Montáns and K.-J.
-//! Bathe 2005, doi 10.1002/nme.1270): a return along the axes of the trial would turn χ.
+//! (2008, doi 10.1002/nme.2234) without recovery. Turning the intermediate configuration changes nothing, so the
+//! history is C_p, and any F_p of that C_p serves, here a triangular one. χ and C̄_e need not have common axes (F. J.
+//! Montáns and K.-J. Bathe 2005, doi 10.1002/nme.1270): a return along the axes of the trial would turn χ.
 //!
 //! A step is `F_p ← e^N F_p`, `N = Δγ ξ/‖ξ‖` with ξ of its end (G. Weber and L. Anand 1990, doi
 //! 10.1016/0045-7825(90)90131-5): it keeps the volume, and is exact where the axes of ξ stay. N follows from Newton's
