@@ -237,8 +237,11 @@ fn a_beam_bends_and_unloads_as_an_independent_program_finds() {
         };
         let found = [at(0.0, 340.0), at(340.0, 500.0), at(500.0, 0.0)];
         println!("beam {method} {is_exact}: {found:?} {wanted:?}");
-        for n in 0..3 {
-            assert!((found[n] / wanted[n] - 1.0).abs() < tolerances[n], "{found:?} {wanted:?}");
+        for ((found, wanted), tolerance) in found.iter().zip(wanted).zip(tolerances) {
+            assert!(
+                (found / wanted - 1.0).abs() < tolerance,
+                "{method} {is_exact}: {found} {wanted}"
+            );
         }
     }
 }
