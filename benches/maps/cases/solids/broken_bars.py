@@ -156,6 +156,5 @@ def even_bar() -> Map:
         work=evenly,
         run=run_unit,
         judge=lambda answer, *_: of_energy(answer, "at1", 3.0),
-        must_speak=False,
         colours=(1e-3, 3.0),
     )
