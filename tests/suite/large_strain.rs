@@ -294,7 +294,7 @@ impl Bar {
     }
 }
 
-/// A block that is drawn and pressed by up to a third, in steps large and small, by other functions drawn only.
+/// A block that is drawn and pressed by up to a third, in steps large and small.
 #[test]
 fn metals_with_back_stress_go_through_cycles_as_their_closed_form() {
     let faces = "faces = { top = { roller = true, displacement = [0.0, 0.0, 0.0] }, bottom = { roller = true } }";
@@ -313,8 +313,7 @@ fn metals_with_back_stress_go_through_cycles_as_their_closed_form() {
         let mut trial = Trial::new(&text);
         let (mut from, mut dissipated) = (1.0, 0.0);
         let turns = [(1.3, 1.0), (0.75, -1.0), (1.3, 1.0), (0.75, -1.0), (1.1, 1.0)];
-        let is_cyclic = mechanics == "fem";
-        for (to, sign) in turns.into_iter().take(if is_cyclic { 5 } else { 1 }) {
+        for (to, sign) in turns {
             for n in 1..=parts {
                 let stretch = from + (to - from) * f64::from(n) / f64::from(parts);
                 trial.set("gel.top.displacement_z", 12e-3 * (stretch - 1.0));
@@ -329,7 +328,7 @@ fn metals_with_back_stress_go_through_cycles_as_their_closed_form() {
             }
             from = to;
         }
-        assert!(bar.accumulated > if is_cyclic { 1.5 } else { 0.2 });
+        assert!(bar.accumulated > 1.5);
         // What came in and is no longer stored is the yield stress times the plastic strain.
         let volume = 10e-3 * 8e-3 * 12e-3;
         let a = bar.accumulated;

@@ -129,10 +129,12 @@ impl<'a> Point<'a> {
         deviator(&std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b))))
     }
 
+    /// Beyond rounding: a point that begins a step on its yield surface is elastic where it unloads.
     fn yields(&self) -> bool {
         let driving = self.driving(&self.elastic, &self.plastic);
         let [radius, _] = self.metal.yield_stress(self.accumulated);
-        contraction(&driving, &driving).sqrt() > ROOT * radius
+        let moduli = self.shear * trace(&self.elastic) + self.back * trace(&self.plastic);
+        contraction(&driving, &driving).sqrt() > ROOT * radius + 2.0 * CONVERGED * moduli
     }
 
     /// N by Newton's method with a line search, from a radial return.
