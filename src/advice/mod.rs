@@ -18,6 +18,7 @@ mod relations;
 mod resolution;
 mod retraced;
 mod strands;
+mod stress_of_kernels;
 mod substances;
 mod symmetry;
 mod values;
@@ -73,6 +74,7 @@ fn found(scene: &Scene, (source, names_lines): (&Source, bool), schema: &Schema)
     freezing::review(&mut reviewer);
     strands::review(&mut reviewer);
     bending::review(&mut reviewer);
+    stress_of_kernels::review(&mut reviewer);
     warm_bodies::review(&mut reviewer);
     reviewer.found.sort_by_key(|(line, _)| *line);
     reviewer.found.into_iter().map(|(_, warning)| warning).collect()

@@ -80,6 +80,11 @@ rules! {
     "{elements} across the {extent} m of a slender body: its bending is wrong by {error}";
     "did you mean a `mesh.spacing` of {fine} m or less?"
 
+    Check pressure_is_spurious(body)
+    "`{body}` hardly changes its volume, and its pressure swings from point to point: normal stresses of the probe may be \
+     wrong by many times their value, though displacements are right";
+    "`mechanics = \"fem\"`, or `integration = \"gauss\"` of `rkpm`, reads them to some per cent"
+
     Check warm_layer_unresolved(depth, spacing, fine)
     "by the stop time heat penetrates √(at) = {depth} m, and nodes are {spacing} m apart: heat that passes at first is \
      tens of per cent too large"; "set a `mesh.spacing` of {fine} m or less"

@@ -581,6 +581,25 @@ fn meshes_too_coarse_to_bend_are_warned_of() {
     assert_eq!(told("box = [8e-3, 8e-3, 5e-3]", 5e-3, ""), None);
 }
 
+/// The pressure of kernels and particles swings from point to point where the volume hardly changes.
+#[test]
+fn stresses_of_kernels_of_incompressible_bodies_are_warned_of() {
+    let told = |poisson: &str, keys: &str, gives: &str| {
+        let keys = format!("inertia = true\n{BLOCK}\n{keys}\n{}", probe("p", [0.0; 3], gives));
+        let text = rubber(&keys).replace("poisson = 0.4 ", &format!("poisson = {poisson} "));
+        let (_, found) = parse_with_warnings(&text, "scene.toml").unwrap();
+        found.iter().any(|warning| warning.finding().id == "pressure_is_spurious")
+    };
+    let stress = "\"stress\"";
+    for keys in ["rkpm", "efg", "sph"].map(|name| format!("mechanics = \"{name}\"")) {
+        assert!(told("0.4999", &keys, stress), "{keys}");
+        assert!(!told("0.4", &keys, stress), "{keys}");
+        assert!(!told("0.4999", &keys, "\"displacement\""), "{keys}");
+    }
+    let gauss = "mechanics = \"rkpm\"\nrkpm = { integration = \"gauss\" }";
+    assert!(!told("0.4999", "", stress) && !told("0.4999", gauss, stress));
+}
+
 /// Pressures that jump by as much as the body is stiff add no energy: such steps are halved.
 #[test]
 fn violent_steps_gain_no_energy() {
