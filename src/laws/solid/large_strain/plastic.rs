@@ -192,10 +192,10 @@ impl<'a> Changes<'a> {
     /// δb̄ for δF = e_k ⊗ e_l.
     pub(super) fn of(&self, k: usize, l: usize) -> Matrix3 {
         let mut change = [[0.0; 3]; 3];
-        for b in 0..3 {
+        (0..3).for_each(|b| {
             change[k][b] += self.j * self.half[l][b];
             change[b][k] += self.j * self.half[l][b];
-        }
+        });
         let swelling = 2.0 * THIRD * self.at.inverse_transposed[k][l];
         for n in 0..9 {
             change[n / 3][n % 3] -= swelling * self.elastic[n / 3][n % 3];
