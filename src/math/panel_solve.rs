@@ -7,6 +7,7 @@ use std::ops::Range;
 
 use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 
+use super::supernodes::{owners, parents};
 use crate::runtime::parallel::Team;
 
 /// Columns that are processed together, and interleaved partial sums of a dot product.
@@ -63,42 +64,25 @@ impl<'a> Panels<'a> {
 
 impl Partition {
     pub fn of(symbolic: &SymbolicSupernodalCholesky<usize>) -> Self {
-        let count = symbolic.n_supernodes();
         let [begin, end] = [symbolic.supernode_begin(), symbolic.supernode_end()];
-        let sizes = symbolic.col_ptr_for_val();
-        let parents = parents(symbolic);
-        // Of the subtree of each panel: its entries, its panels, and the first of these.
-        let mut entries: Vec<usize> = (0..count).map(|s| sizes[s + 1] - sizes[s]).collect();
-        let mut members = vec![1; count];
-        let mut first: Vec<usize> = (0..count).collect();
-        for s in 0..count {
-            if let Some(parent) = parents[s] {
-                entries[parent] += entries[s];
-                members[parent] += members[s];
-                first[parent] = first[parent].min(first[s]);
-            }
-        }
-        let most = SHARE * sizes[count] as f64;
-        let is_subtree = |s: usize| members[s] == s + 1 - first[s] && entries[s] as f64 <= most;
+        let firsts = first_of_subtrees(symbolic);
         let (mut subtrees, mut top) = (Vec::new(), Vec::new());
-        let mut next = count;
+        let mut next = symbolic.n_supernodes();
         while let Some(s) = next.checked_sub(1) {
-            if is_subtree(s) {
-                let panels = first[s]..s + 1;
-                let unknowns = begin[panels.start]..end[s];
-                next = panels.start;
-                subtrees.push(Subtree { panels, unknowns });
-            } else {
-                top.push(s);
-                next = s;
+            next = firsts[s].unwrap_or(s);
+            match firsts[s] {
+                Some(first) => {
+                    let unknowns = begin[first]..end[s];
+                    subtrees.push(Subtree { panels: first..s + 1, unknowns });
+                }
+                None => top.push(s),
             }
         }
         subtrees.reverse();
         top.reverse();
         let mut place = vec![u32::MAX; symbolic.nrows()];
-        let above = top.iter().flat_map(|&s| begin[s]..end[s]);
         let mut count = 0;
-        for unknown in above {
+        for unknown in top.iter().flat_map(|&s| begin[s]..end[s]) {
             place[unknown] = count as u32;
             count += 1;
         }
@@ -177,12 +161,23 @@ impl Partition {
     }
 }
 
-/// Panel that takes the first update of each panel.
-fn parents(symbolic: &SymbolicSupernodalCholesky<usize>) -> Vec<Option<usize>> {
-    let end = symbolic.supernode_end();
-    let owner = |row: usize| end.partition_point(|&end| end <= row);
-    let first = |s: usize| symbolic.supernode(s).pattern().first().copied();
-    (0..symbolic.n_supernodes()).map(|s| first(s).map(owner)).collect()
+/// First panel of the subtree of each, if its panels follow on each other and are few enough for one thread.
+fn first_of_subtrees(symbolic: &SymbolicSupernodalCholesky<usize>) -> Vec<Option<usize>> {
+    let count = symbolic.n_supernodes();
+    let sizes = symbolic.col_ptr_for_val();
+    let mut entries: Vec<usize> = sizes.windows(2).map(|ends| ends[1] - ends[0]).collect();
+    let mut members = vec![1; count];
+    let mut first: Vec<usize> = (0..count).collect();
+    for (s, parent) in parents(symbolic, &owners(symbolic)).into_iter().enumerate() {
+        if let Some(parent) = parent {
+            entries[parent] += entries[s];
+            members[parent] += members[s];
+            first[parent] = first[parent].min(first[s]);
+        }
+    }
+    let most = SHARE * sizes[count] as f64;
+    let is_subtree = |&s: &usize| members[s] == s + 1 - first[s] && entries[s] as f64 <= most;
+    (0..count).map(|s| Some(s).filter(is_subtree).map(|s| first[s])).collect()
 }
 
 impl Panel<'_> {

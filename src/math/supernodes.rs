@@ -73,6 +73,24 @@ pub fn factor(
     Ok(())
 }
 
+/// Supernode of each column.
+pub(super) fn owners(symbolic: &SymbolicSupernodalCholesky<usize>) -> Vec<usize> {
+    let mut owner = vec![0; symbolic.nrows()];
+    for s in 0..symbolic.n_supernodes() {
+        owner[symbolic.supernode_begin()[s]..symbolic.supernode_end()[s]].fill(s);
+    }
+    owner
+}
+
+/// Parent of each supernode in the elimination tree: that of the first row below its diagonal block.
+pub(super) fn parents(
+    symbolic: &SymbolicSupernodalCholesky<usize>,
+    owner: &[usize],
+) -> Vec<Option<usize>> {
+    let first = |s: usize| symbolic.supernode(s).pattern().first().copied();
+    (0..symbolic.n_supernodes()).map(|s| first(s).map(|row| owner[row])).collect()
+}
+
 /// The supernodes and their updates.
 struct Tree<'a> {
     symbolic: &'a SymbolicSupernodalCholesky<usize>,
@@ -147,15 +165,11 @@ impl Split {
 impl<'a> Tree<'a> {
     fn of(symbolic: &'a SymbolicSupernodalCholesky<usize>, matrix: &'a Columns) -> Self {
         let count = symbolic.n_supernodes();
-        let mut owner = vec![0; symbolic.nrows()];
-        for s in 0..count {
-            owner[symbolic.supernode_begin()[s]..symbolic.supernode_end()[s]].fill(s);
-        }
+        let owner = owners(symbolic);
+        let parent = parents(symbolic, &owner);
         let mut updates: Vec<Vec<Update>> = (0..count).map(|_| Vec::new()).collect();
-        let mut parent = vec![None; count];
-        for (from, parent) in parent.iter_mut().enumerate() {
+        for from in 0..count {
             let pattern = symbolic.supernode(from).pattern();
-            *parent = pattern.first().map(|&row| owner[row]);
             let mut first = 0;
             for shared in pattern.chunk_by(|&a, &b| owner[a] == owner[b]) {
                 let shared = (first..first + shared.len(), owner[shared[0]]);

@@ -137,10 +137,10 @@ rules! {
      done; forces and their work are right";
     "do not rely on `stored` and `dissipated` at these strains, take the work of forces and loads instead"
 
-    End damage_is_even(most, mean)
+    End damage_is_even(most, mean, scatter_or_load)
     "damage away from cracks is nearly even, {most} at most and {mean} in the mean: where no place is weaker or more \
      stressed than others, a whole region takes energy before one crack is singled out";
-    "`scatter = 0.05` of `fracture` makes elements differ as grains do"
+    "{scatter_or_load}"
 
     End fluid_comes_off(part)
     "{part} % of the fluid have come off in small lumps (`stray_mass`): films thinner than some two particles break \

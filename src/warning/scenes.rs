@@ -81,7 +81,7 @@ rules! {
     "did you mean a `mesh.spacing` of {fine} m or less?"
 
     Check pressure_is_spurious(body)
-    "`{body}` hardly changes its volume, and its pressure swings from point to point: normal stresses of the probe may be \
+    "`{body}` hardly changes its volume, and its pressure swings from point to point: normal stresses that are read may be \
      wrong by many times their value, though displacements are right";
     "`mechanics = \"fem\"`, or `integration = \"gauss\"` of `rkpm`, reads them to some per cent"
 

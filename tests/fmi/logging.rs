@@ -6,8 +6,8 @@ use std::ptr::{null, null_mut};
 use std::sync::atomic::{AtomicI32, AtomicPtr, Ordering};
 
 use crate::master::{
-    Arguments, Callbacks, DISCARD, ERROR, Folder, Handle, OK, SCENE, Unit, WARNING, call, free,
-    library,
+    Arguments, Callbacks, DISCARD, ERROR, Folder, Handle, OK, SCENE, STRIP, Unit, WARNING, call,
+    free, library,
 };
 
 fn configure(unit: &Unit, on: bool, names: &[&str]) -> c_int {
@@ -373,39 +373,15 @@ fn outputs_beyond_numbers_are_errors() {
     assert!(unit.get("plate.max_temperature") > 1e100);
 }
 
-/// A bar of one strength throughout between rollers, which cools until all of it is damaged.
-const EVEN_BAR: &str = r#"
-name = "Bar"
-stop_time = 2.0
-step = 1.0
-[body.bar]
-kind = "solid"
-shape = { box = [1e-3, 1e-3, 0.4e-3] }
-section = "plane_stress"
-initial_temperature = 600.0
-faces.left = { roller = true }
-faces.right = { roller = true }
-faces.bottom = { temperature = 600.0, roller = true }
-faces.top = { temperature = 600.0 }
-[body.bar.material]
-model = "thermoelastic"
-density = 3980.0
-specific_heat = 880.0
-conductivity = 31.0
-young = 340e9
-poisson = 0.22
-expansion = 8e-6
-fracture = { model = "at1", strength = 300e6, energy = 45.0 }
-"#;
-
+/// A strip of one strength throughout is damaged evenly before it breaks.
 #[test]
-fn what_only_the_end_of_a_run_shows_is_told_then() {
-    let unit = Unit::of_scene(EVEN_BAR);
+fn termination_tells_what_only_the_end_of_a_run_shows() {
+    let unit = Unit::of_scene(&STRIP.replace(", scatter = 0.04", ""));
     assert_eq!((unit.setup(0.0, None), unit.enter(), unit.exit()), (OK, OK, OK));
     for (time, part) in [(0.0, 0.95), (1.0, 1.04)] {
         let cooled = 600.0 - part * 300e6 / (340e9 * 8e-6);
-        assert_eq!(unit.set("bar.top.temperature", cooled), OK);
-        assert_eq!(unit.set("bar.bottom.temperature", cooled), OK);
+        assert_eq!(unit.set("plate.top.temperature", cooled), OK);
+        assert_eq!(unit.set("plate.bottom.temperature", cooled), OK);
         assert_eq!(unit.step(time, 1.0), OK);
     }
     let about = |found: &[String]| found.iter().filter(|text| text.contains("scatter")).count();

@@ -19,7 +19,9 @@ mod thick_flows;
 
 mod adversarial;
 mod architecture;
+mod back_stress;
 mod baths;
+mod coarse_large_strain;
 mod concrete;
 mod contact;
 mod cracks;

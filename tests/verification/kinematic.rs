@@ -223,7 +223,7 @@ fn beam([along, across]: [usize; 2], method: &str, is_exact: bool) -> Case {
 /// Deflections at 340 N, at 500 N and without load thereafter; quadratic elements find these with 64 × 16 and a root of
 /// beam theory, and with 16 × 4 and a clamped one.
 #[test]
-fn a_beam_bends_and_unloads_as_an_independent_program_finds() {
+fn beams_bend_and_unload_as_in_an_independent_program() {
     for (cells, method, is_exact, wanted, tolerances) in [
         ([64, 16], "fem", true, [2.7670e-3, 4.6071e-3, 5.380e-4], [1e-3, 5e-3, 0.05]),
         ([32, 8], "rkpm", true, [2.7670e-3, 4.5877e-3, 5.186e-4], [1e-3, 0.015, 0.11]),
@@ -249,7 +249,7 @@ fn a_beam_bends_and_unloads_as_an_independent_program_finds() {
 /// The load at which a point begins to yield is that of beam theory there, which tends to 300 N/√(1 − ν + ν²) = 337.5 N
 /// at the root's corners.
 #[test]
-fn a_beam_begins_to_yield_as_beam_theory_says() {
+fn beams_begin_to_yield_at_the_load_of_beam_theory() {
     let section = section();
     let onset = |cells: [usize; 2]| {
         let mut case = beam(cells, "fem", true);

@@ -182,7 +182,9 @@ pub fn notes(solid: &LargeStrain) -> Vec<String> {
     let layers = plan::layers(solid);
     let hardly_changes = layers.iter().any(|own| own.law.is_nearly_incompressible());
     notes.extend(layers.iter().filter_map(|own| note_on_concrete(&own.law)));
-    if matches!(solid.mechanics, Mechanics::Rkpm | Mechanics::Efg) && hardly_changes {
+    let is_kernel = matches!(solid.mechanics, Mechanics::Rkpm | Mechanics::Efg);
+    // A sheet may change its thickness.
+    if is_kernel && hardly_changes && !solid.is_sheet() {
         notes.push(NOTE_ON_LOCKING.to_owned());
     }
     notes
@@ -255,8 +257,8 @@ fn note_on_temperature(solid: &LargeStrain) -> Option<&'static str> {
 
 /// Note on kernels of a material that hardly changes its volume.
 const NOTE_ON_LOCKING: &str = "the material hardly changes its volume, so the points of a kernel's cell share its dilatation; on coarse meshes \
-                               it is too stiff all the same: Cook's membrane of 16 cells a side by 4 %, with `rkpm = { integration = \
-                               \"gauss\" }` by 0.8 %, with finite elements by 2.4 %";
+                               it is too stiff all the same: at a Poisson's ratio of 0.4999 Cook's membrane of 16 cells a side by 4 %, with \
+                               `rkpm = { integration = \"gauss\" }` by 0.8 %, with finite elements by 2.4 %";
 
 /// Longest time between exchanges with the body below [s]: the value of the scene, or the time in which the body falls
 /// by an element.

@@ -33,6 +33,8 @@ pub(super) struct DamageAway {
     pub mean: f64,
     /// Its part of the energy of all damage.
     pub part: f64,
+    /// True if elements differ.
+    pub scatters: bool,
 }
 
 /// The mechanics of a solid that cracks, in a section of its mesh.
@@ -409,7 +411,8 @@ impl SolidBody {
         // The gradient takes as much energy as the damage of a crack itself.
         let of_cracks = 2.0 * (damage.iter().sum::<f64>() - sum);
         let mean = sum / nodes.len().max(1) as f64;
-        DamageAway { most, mean, part: if most > 0.0 { sum / (sum + of_cracks) } else { 0.0 } }
+        let part = if most > 0.0 { sum / (sum + of_cracks) } else { 0.0 };
+        DamageAway { most, mean, part, scatters: law.scatter > 0.0 }
     }
 
     /// Width of the widest crack over the size of its elements [1]; zero without cracks.

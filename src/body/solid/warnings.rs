@@ -41,6 +41,9 @@ const TORN: f64 = 2.0;
 const DAMAGED: f64 = 0.05;
 const COSTLY: f64 = 0.1;
 const EVEN: f64 = 0.8;
+const NO_SCATTER: &str = "`scatter = 0.05` of `fracture` makes elements differ as grains do";
+const MORE_THAN_IT_BEARS: &str = "with `scatter` as there is, look for stress beyond the strength everywhere, as \
+                                  heat makes in plane strain; AT2 is damaged from the first load on";
 
 /// Returns `None` unless a crack has opened so wide that a part is loose.
 pub fn of_torn_parts(body: &SolidBody, state: &[f64]) -> Option<Finding> {
@@ -75,11 +78,12 @@ pub fn of_large_strain(body: &SolidBody, reading: &Reading, value: f64) -> Optio
 
 /// Returns `None` unless all of the body but its cracks is damaged alike, and that damage counts beside theirs.
 pub fn of_even_damage(body: &SolidBody, state: &[f64]) -> Option<Finding> {
-    let DamageAway { most, mean, part } = body.damage_away(state);
+    let DamageAway { most, mean, part, scatters } = body.damage_away(state);
     let counts = if body.max_damage(state) > most { part > COSTLY } else { most > DAMAGED };
     let is_torn = body.opening_of_cracks(state) > TORN;
+    let remedy = if scatters { MORE_THAN_IT_BEARS } else { NO_SCATTER };
     (counts && mean > EVEN * most && !is_torn)
-        .then(|| warning::damage_is_even(format!("{most:.2}"), format!("{mean:.2}")))
+        .then(|| warning::damage_is_even(format!("{most:.2}"), format!("{mean:.2}"), remedy))
 }
 
 /// Returns the flaws along which the mesh is too coarse, and those that have grown too deep for their formula.

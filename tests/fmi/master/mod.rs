@@ -23,6 +23,32 @@ pub use version::{Three, Two, Version};
 
 pub const SCENE: &str = include_str!("../scene.toml");
 
+/// A strip between rollers that breaks when it is cooled by 115 K, in less than 10 ms.
+pub const STRIP: &str = r#"
+name = "Strip"
+stop_time = 10.0
+step = 1.0
+[body.plate]
+kind = "solid"
+shape = { box = [0.6e-3, 1e-3, 0.3e-3] }
+section = "plane_stress"
+initial_temperature = 600.0
+[body.plate.material]
+model = "thermoelastic"
+density = 3980.0
+specific_heat = 880.0
+conductivity = 31.0
+young = 340e9
+poisson = 0.22
+expansion = 8e-6
+fracture = { model = "at1", strength = 300e6, energy = 45.0, scatter = 0.04 }
+[body.plate.faces]
+left = { roller = true }
+right = { roller = true }
+bottom = { temperature = 600.0, roller = true }
+top = { temperature = 600.0 }
+"#;
+
 pub const OK: c_int = 0;
 pub const WARNING: c_int = 1;
 pub const DISCARD: c_int = 2;

@@ -20,7 +20,9 @@ use nalgebra::{Matrix6, Vector6};
 
 use super::plastic::{Changes, Plastic, deviator, elastic, of_kirchhoff, pack, unpacked};
 use super::{Deformed, Isochoric, Tangent};
-use crate::math::matrix3::{Matrix3, contraction, eigen, inverse, product, transposed};
+use crate::math::matrix3::{
+    Matrix3, contraction, eigen, full, inverse, packed, product, transposed,
+};
 
 /// A point at the end of a step without flow, in the intermediate configuration.
 struct Point<'a> {
@@ -133,8 +135,12 @@ impl<'a> Point<'a> {
     fn yields(&self) -> bool {
         let driving = self.driving(&self.elastic, &self.plastic);
         let [radius, _] = self.metal.yield_stress(self.accumulated);
-        let moduli = self.shear * trace(&self.elastic) + self.back * trace(&self.plastic);
-        contraction(&driving, &driving).sqrt() > ROOT * radius + 2.0 * CONVERGED * moduli
+        contraction(&driving, &driving).sqrt() > ROOT * radius + 2.0 * CONVERGED * self.moduli()
+    }
+
+    /// Scale of ξ and of its changes [Pa].
+    fn moduli(&self) -> f64 {
+        self.shear * trace(&self.elastic) + self.back * trace(&self.plastic)
     }
 
     /// N by Newton's method with a line search, from a radial return.
@@ -142,7 +148,7 @@ impl<'a> Point<'a> {
         let driving = self.driving(&self.elastic, &self.plastic);
         let size = contraction(&driving, &driving).sqrt();
         let [radius, rise] = self.metal.yield_stress(self.accumulated);
-        let moduli = self.shear * trace(&self.elastic) + self.back * trace(&self.plastic);
+        let moduli = self.moduli();
         let first = (size - ROOT * radius) / (2.0 * THIRD * (moduli + rise));
         let mut logarithm = driving.map(|row| row.map(|value| first / size * value));
         let mut now = self.at(&logarithm);
@@ -320,23 +326,17 @@ fn norm(v: [f64; 3]) -> f64 {
     v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// Places of xx, yy, zz, xy, yz and xz.
-const PLACES: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [1, 2], [0, 2]];
-
 /// Symmetric matrix of a component, shears twice.
 fn unit(component: usize) -> Matrix3 {
-    let [i, j] = PLACES[component];
-    let mut m = [[0.0; 3]; 3];
-    (m[i][j], m[j][i]) = (1.0, 1.0);
-    m
+    full(std::array::from_fn(|n| f64::from(u8::from(n == component))))
 }
 
 fn vector(m: &Matrix3) -> Vector6<f64> {
-    Vector6::from_fn(|n, _| m[PLACES[n][0]][PLACES[n][1]])
+    Vector6::from(packed(m))
 }
 
 fn matrix(v: &Vector6<f64>) -> Matrix3 {
-    crate::math::matrix3::full([v[0], v[1], v[2], v[3], v[4], v[5]])
+    full((*v).into())
 }
 
 #[cfg(test)]

@@ -2,8 +2,8 @@
 //!
 //! The energy of the dilatation `J = det F` per reference volume is `U(J) = ½ κ (½ (J² − 1) − ln J)`, source: J. C.
 //! Simo and T. J. R. Hughes, *Computational Inelasticity*, Springer 1998, eq. 9.2.3. Deviators have no part in the
-//! volume: [`relaxing`] is neo-Hooke with Maxwell branches, [`plastic`] multiplicative J₂ plasticity, to
-//! which [`kinematic`] adds a back stress. [`concrete`] has the whole stress, and U is 0. [`thermal`] adds expansion, and
+//! volume: [`relaxing`] is neo-Hooke with Maxwell branches, [`plastic`] multiplicative J₂ plasticity, to which
+//! [`kinematic`] adds a back stress. [`concrete`] has the whole stress, and U is 0. [`thermal`] adds expansion, and
 //! [`thin`] sections without stress across them.
 
 pub mod concrete;
