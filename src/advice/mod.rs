@@ -9,6 +9,7 @@ mod drying;
 mod films;
 mod flaws;
 mod freezing;
+mod hardening;
 mod moved;
 mod particles;
 mod phases;
@@ -65,6 +66,7 @@ fn found(scene: &Scene, (source, names_lines): (&Source, bool), schema: &Schema)
     viscosity::review(&mut reviewer);
     substances::review(&mut reviewer, schema);
     relations::review(&mut reviewer);
+    hardening::review(&mut reviewer);
     arrangement::review(&mut reviewer);
     particles::review(&mut reviewer);
     films::review(&mut reviewer);

@@ -34,6 +34,11 @@ rules! {
     "with the density of {density} kg/m³ sound would travel at √(E/ρ) = {sound} m/s, faster than in diamond";
     "check the units of both constants"
 
+    Check hardens_beyond_young(key, modulus, young)
+    "`{key}` of {modulus} Pa is more than Young's modulus, {young} Pa, which no metal has: of bodies that hardly flow for \
+     it, energies are lost in rounding";
+    "check its unit, Pa per strain of 1"
+
     Check thin_liquid_too_viscous(kind, meant, given)
     "no liquid that {kind} is this viscous"; "did you mean {meant} ({given} mPa s)?"
 

@@ -1,5 +1,6 @@
 //! Metals of large strain with a back stress: cycles beside their closed form, and states.
 
+use impinge::advice::parse_with_warnings;
 use impinge::model::Model;
 use impinge::scene;
 
@@ -134,4 +135,21 @@ fn back_stress_is_part_of_the_state() {
     let keys = scene.body["gel"].constants("gel").into_iter().map(|offered| offered.key);
     let keys: Vec<String> = keys.filter(|key| key.contains("hardening")).collect();
     assert_eq!(keys, ["kinematic_hardening"]);
+}
+
+#[test]
+fn hardening_that_no_metal_has_is_warned_of() {
+    let told = |modulus: &str, key: &str| {
+        let metal = format!(
+            "model = \"elastoplastic\", yield_stress = 100.0, {key} = {modulus}, density = 1000.0"
+        );
+        let held = "faces = { bottom = { clamped = true } }";
+        let text = block(held, "").replace("model = \"neo_hookean\", density = 1000.0", &metal);
+        let (_, found) = parse_with_warnings(&text, "scene.toml").unwrap();
+        found.iter().any(|warning| warning.finding().id == "hardens_beyond_young")
+    };
+    for key in ["isotropic_hardening", "kinematic_hardening"] {
+        assert!(told("5601.0", key) && told("1e22", key), "{key}");
+        assert!(!told("0.0", key) && !told("5599.0", key), "{key}");
+    }
 }
