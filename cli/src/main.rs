@@ -10,6 +10,7 @@ mod inputs;
 mod man;
 mod messages;
 mod new;
+mod passing;
 mod patience;
 mod ranges;
 mod report;

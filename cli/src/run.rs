@@ -11,12 +11,14 @@ use impinge::model::{
 use impinge::output::{CsvTable, Discs, FieldSeries, FilesForecast, FolderLock, OutputError};
 use impinge::runtime::available_memory;
 use impinge::scene::{self, Scene};
+use impinge::warning::Warning;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::CliError;
 use super::error::input_name;
 use super::idle;
 use super::inputs::{Between, InputTable};
+use super::passing::Passing;
 use super::patience;
 use super::ranges::Ranges;
 use super::report::{self, Fact, Stopwatch, Story};
@@ -181,6 +183,7 @@ impl Run {
             warned_of_phases: BTreeSet::new(),
             balances: Vec::new(),
             ranges: Ranges::of(&scene),
+            passing: Passing::of(&model),
             model: &model,
         };
         let note = || idle::note(&scene, &run.state.inputs);
@@ -390,6 +393,7 @@ impl Record {
         if is_last || done.is_multiple_of(self.rows_every) {
             self.table.write(run.model, &run.state, &mut run.cache)?;
             run.ranges.update(self.table.last_row().map(|(_, value)| value));
+            run.passing.see_values(run.model, self.table.last_row(), run.state.time);
             run.update_balances()?;
         }
         match &mut self.fields {
@@ -414,6 +418,7 @@ struct Running<'a> {
     /// Balances of the last row.
     balances: Vec<Balance>,
     ranges: Ranges,
+    passing: Passing,
 }
 
 impl Running<'_> {
@@ -438,6 +443,7 @@ impl Running<'_> {
         self.state = start;
         self.cache = Cache::default();
         self.balances.clear();
+        self.passing = Passing::of(self.model);
         Ok(())
     }
 
@@ -459,6 +465,7 @@ impl Running<'_> {
             }
             self.advance((from, to), length)?;
             self.state.set_time(to);
+            self.passing.see_state(self.model, &self.state);
             self.warn_of_phases();
             if to < end && part.is_multiple_of(looks_every) {
                 // Heat that is added and removed within a step counts, too.
@@ -524,13 +531,15 @@ impl Running<'_> {
             summary::totals_table(self.model, &self.state, &mut self.cache).map_err(named)?;
         let peaks =
             summary::peaks_table(self.model, &self.state, &mut self.cache).map_err(named)?;
-        let of_values =
-            self.model.warnings_on_values(&self.state, &mut self.cache).map_err(named)?;
-        let overflows = self.model.warnings(&self.state);
+        let too_hot = self.ranges.warnings(self.model);
+        let is_said = |warning: &Warning| {
+            too_hot.iter().any(|hottest| hottest.subject() == warning.subject())
+        };
+        let mut passing = self.passing.at_end(self.state.time);
+        passing.retain(|warning| !is_said(warning));
         let strays = self.model.closing_warnings(&self.state);
         let balances_off = self.balances.iter().filter_map(Balance::warning);
-        let too_hot = self.ranges.warnings(self.model);
-        let warnings = balances_off.chain(overflows).chain(strays).chain(of_values).chain(too_hot);
+        let warnings = balances_off.chain(passing).chain(strays).chain(too_hot);
         super::warn(&warnings.collect::<Vec<_>>());
         let balances = summary::balance_table(&self.balances);
         let tables = [self.ranges.table(), peaks, balances, totals];

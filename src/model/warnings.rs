@@ -1,10 +1,10 @@
 //! Warnings of a model: of its meshes and reductions, of steps, states and values, and of runs that end.
 
-use super::{Cache, Model, ModelError, State, tolerance};
+use super::{Model, State, tolerance};
 use crate::body::{Occasion, Reading};
 use crate::limits::number;
 use crate::scene::FidelityLevel;
-use crate::variables::{Output, Registry, Slot};
+use crate::variables::{Output, Registry, Slot, Variable};
 use crate::warning::{self, Warning};
 
 /// Fraction of the resolved time of a mesh, and of the scene's step, below which a step is too short.
@@ -90,22 +90,13 @@ impl Model {
         Some(finding.at(name).of_subject(format!("{name} beyond {substance}")))
     }
 
-    /// Warns of all values of whole bodies and of probes in a state.
-    pub fn warnings_on_values(
-        &self,
-        state: &State,
-        cache: &mut Cache,
-    ) -> Result<Vec<Warning>, ModelError> {
-        let mut found = Vec::new();
-        let mut reader = self.reader(state, cache)?;
-        for variable in Registry::of(&self.scene).variables {
-            let Slot::Output(output) = &variable.slot else { continue };
-            if matches!(output.reading, Reading::Total(_) | Reading::Point { alone: true, .. }) {
-                let value = reader.value(output)?;
-                found.extend(self.warning_on_value(output, value));
-            }
-        }
-        Ok(found)
+    /// Returns the outputs whose values may give rise to warnings, by name: totals of bodies, and probes.
+    pub fn watched_outputs(&self) -> impl Iterator<Item = (String, Output)> {
+        let watched = |variable: Variable| match variable.slot {
+            Slot::Output(output) => is_watched(&output.reading).then_some((variable.name, output)),
+            _ => None,
+        };
+        Registry::of(&self.scene).variables.into_iter().filter_map(watched)
     }
 
     /// Warns of fluids in a state beyond the temperatures at which their constants hold, except on subjects that were
@@ -132,4 +123,8 @@ impl Model {
             .iter()
             .any(|body| body.watch().is_some_and(|watch| watch.passages().count() > 0))
     }
+}
+
+fn is_watched(reading: &Reading) -> bool {
+    matches!(reading, Reading::Total(_) | Reading::Point { alone: true, .. })
 }

@@ -188,6 +188,9 @@ fn free_fall() -> f64 {
     9.81
 }
 
+/// Least height of the outlet over its diameter.
+const LEAST_HEIGHT: f64 = 0.01;
+
 impl Filament {
     /// Section of the outlet [m²].
     pub fn outlet(&self) -> f64 {
@@ -197,6 +200,14 @@ impl Filament {
     /// Length of a segment where the strand is as thick as the nozzle [m].
     pub fn segment_length(&self) -> f64 {
         self.spacing.unwrap_or(0.5 * self.nozzle.diameter)
+    }
+
+    /// Least height of the outlet above the plate while fluid comes [m].
+    pub fn least_height(&self) -> f64 {
+        match self.method {
+            FilamentMethod::Line => LEAST_HEIGHT * self.nozzle.diameter,
+            FilamentMethod::Particles => self.particle_distance(),
+        }
     }
 
     /// Distance of particles [m].

@@ -29,7 +29,13 @@ impl Body {
         }
     }
 
-    /// The same, to be changed.
+    /// Heat capacity of a solid of small strain [J/K].
+    pub fn heat_capacity(&self) -> Option<f64> {
+        let Body::Solid(solid) = self else { return None };
+        Some(solid.heat_capacity())
+    }
+
+    /// The initial temperature, to be changed.
     pub fn initial_temperature_mut(&mut self) -> &mut f64 {
         match self {
             Body::Solid(solid) => &mut solid.initial_temperature,

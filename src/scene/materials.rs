@@ -1,6 +1,7 @@
 //! Named materials, and the layers of solids.
 
 use std::borrow::Cow;
+use std::f64::consts::PI;
 use std::fmt;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -10,7 +11,7 @@ use serde::{Serialize, Serializer};
 
 use super::locate::Path;
 use super::shorthand::NamedSubstance;
-use super::types::{Body, Layer, Probe, Scene, Side, Solid};
+use super::types::{Body, Layer, Probe, Scene, Shape, Side, Solid};
 use crate::laws::{Constants, Material, Thermoelastic, Weibull};
 
 /// Tolerance, relative to a body's thickness, for points on an interface and for the sum of layers.
@@ -196,6 +197,16 @@ impl Solid {
             Stratum { constants: layer.material.material().at(start), z, contact_resistance }
         };
         layers.iter().zip(heights(layers, bottom)).map(place).collect()
+    }
+
+    /// Heat capacity of the whole body at its initial temperature [J/K].
+    pub fn heat_capacity(&self) -> f64 {
+        let area = match self.shape {
+            Shape::Box([x, y, _]) => x * y,
+            Shape::Disc(disc) => PI * disc.radius * disc.radius,
+        };
+        let of_layer = |layer: &Stratum| layer.constants.heat_capacity() * layer.thickness();
+        area * self.strata().iter().map(of_layer).sum::<f64>()
     }
 
     /// Returns true if part of the body melts.

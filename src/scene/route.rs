@@ -96,6 +96,16 @@ impl Route {
         self.legs.iter().filter(|leg| leg.flow != Some([0.0; 2]))
     }
 
+    /// The lowest place until a time on legs of a kind, as height [m] and time [s].
+    pub fn lowest_until(&self, stop: f64, counts: impl Fn(&Leg) -> bool) -> Option<[f64; 2]> {
+        let legs = self.legs.iter().filter(|leg| leg.start < stop && counts(leg));
+        let ends = legs.flat_map(|leg| {
+            let ends = [0.0, leg.duration.min(stop - leg.start)];
+            ends.map(|s| [leg.at(s)[2], leg.start + s])
+        });
+        ends.min_by(|a, b| a[0].total_cmp(&b[0]))
+    }
+
     /// Ranges of x and y where fluid may come [m]; without any, the first is the larger.
     pub fn ranges(&self) -> [[f64; 2]; 2] {
         let ends = || self.laid().flat_map(|leg| [leg.place[0], leg.at(leg.duration)]);

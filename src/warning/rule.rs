@@ -79,6 +79,12 @@ impl Warning {
         Self { subject: subject.into(), ..self }
     }
 
+    /// Makes the rule and the place the subject: numbers of the message change from step to step.
+    pub fn whatever_its_numbers(self) -> Self {
+        let subject = format!("{}: {}", self.place, self.finding.id);
+        self.of_subject(subject)
+    }
+
     /// Key by which hosts recognise repeated warnings: the text, or a key that no number of it changes.
     pub fn subject(&self) -> &str {
         &self.subject

@@ -147,6 +147,10 @@ rules! {
      up";
     "a smaller `spacing` delays it"
 
+    End no_drop_asked_for()
+    "the run ends without a drop: `release = \"input\"` waits for drops to be asked for, and none was";
+    "set the input `release` to the number of drops, as `impinge run --set BODY.release=1` does"
+
     End drops_wait(waiting, asked)
     "{waiting} of {asked} drops asked for are not released, as fluid occupies their place (`waiting`)";
     "a larger `height` of the drops starts them above what rests on the wall"

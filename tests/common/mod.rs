@@ -70,6 +70,16 @@ impl Trial {
         self.model.output(&self.state, &mut self.cache, &output).unwrap()
     }
 
+    /// Ids of the warnings that values of bodies and probes give rise to.
+    pub fn warnings_on_values(&mut self) -> Vec<&'static str> {
+        let watched: Vec<_> = self.model.watched_outputs().collect();
+        let warning = |(name, output): &(String, Output)| {
+            let value = self.get(name);
+            Some(self.model.warning_on_value(output, value)?.finding().id)
+        };
+        watched.iter().filter_map(warning).collect()
+    }
+
     /// Time derivatives of outputs.
     pub fn rates(&mut self, names: &[String]) -> Vec<f64> {
         let tangent = self.model.time_tangent(&self.state, &mut self.cache).unwrap();

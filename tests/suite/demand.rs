@@ -58,6 +58,9 @@ fn counts(trial: &mut Trial) -> [f64; 2] {
 #[test]
 fn drops_that_still_wait_at_the_end_are_warned_of() {
     let mut trial = Trial::new(&(drop(ON_DEMAND) + &wall(TILES)));
+    steps(&mut trial, 1);
+    let found = trial.model.closing_warnings(&trial.state);
+    assert_eq!(found[0].finding().id, "no_drop_asked_for");
     ask(&mut trial, &[("release", 1.0)]);
     steps(&mut trial, 1);
     assert_eq!(trial.model.closing_warnings(&trial.state), []);

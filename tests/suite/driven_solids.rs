@@ -1,7 +1,6 @@
 //! Solids of large strain under pressures and tractions, at their probes, and in motion by implicit steps.
 
 use impinge::closed_form::{Rubber, Sides};
-use impinge::model::Cache;
 
 use crate::common::{Trial, off, sweep};
 
@@ -167,8 +166,7 @@ fn dissipation_below_zero_is_warned_of() {
             trial.set("pad.top.displacement_z", drawn);
             trial.step(2e-3);
         }
-        let found = trial.model.warnings_on_values(&trial.state, &mut Cache::default()).unwrap();
-        let ids: Vec<_> = found.iter().map(|warning| warning.finding().id).collect();
+        let ids = trial.warnings_on_values();
         let expected: &[&str] = if warned { &["dissipation_below_zero"] } else { &[] };
         assert_eq!(ids, expected, "{stretch}");
     }
@@ -570,5 +568,49 @@ fn violent_steps_gain_no_energy() {
         let of = |key: &str| trial.get(&format!("pad.{key}"));
         let [work, dissipated] = ["load_work", "dissipated"].map(of);
         assert!(dissipated.abs() < 0.03 * work.abs().max(1e-6), "{dissipated} J of {work} J");
+    }
+}
+
+/// Linear elasticity has no smallest load: energy without a cause is no more than what rounding leaves of it.
+#[test]
+fn implicit_steps_bear_the_smallest_loads() {
+    let faces = "faces = { bottom = { clamped = true }, top = { traction = [0.0, 0.0, 0.0] } }";
+    let text = rubber(&format!("inertia = true\nmotion = \"implicit\"\n{BLOCK}\n{faces}"));
+    let end = probe("end", [0.0; 3], "\"displacement\"");
+    let moved = |traction: f64| {
+        let mut trial = Trial::new(&format!("{text}{end}").replace("young = 1e6", "young = 2e11"));
+        (0..5).for_each(|_| {
+            trial.set("pad.top.traction_x", traction);
+            trial.step(1e-3);
+        });
+        trial.get("end.displacement_x") / traction
+    };
+    let wanted = moved(1e6);
+    for traction in [1e-3, 1.0, 100.0, 1e4] {
+        let found = moved(traction);
+        assert!(off(found, wanted) < 1e-4, "{traction}: {found} {wanted}");
+    }
+}
+
+/// Heat passes the shape that a step begins with, where a face that has jumped has drawn it, too.
+#[test]
+fn a_flux_passes_the_area_of_the_deformed_face() {
+    for (stretch, laws) in [(2.0, "0.4999"), (0.5, "0.4999"), (1.5, "0.3")] {
+        let drawn = 10e-3 * (stretch - 1.0);
+        let faces = format!(
+            "faces = {{ bottom = {{ roller = true, temperature = 293.15 }}, \
+             top = {{ roller = true, displacement = [0.0, 0.0, {drawn:?}], flux = 100.0 }} }}"
+        );
+        let shape = "shape = { box = [10e-3, 10e-3, 10e-3] }\nsymmetry = \"quarter\"";
+        let text = rubber(&format!("{shape}\nmesh = {{ spacing = 2.5e-3 }}\n{faces}"))
+            .replace("poisson = 0.4 ", &format!("poisson = {laws} "));
+        let law = Rubber::of_young(1e6, laws.parse().unwrap());
+        let lateral = law.lateral(stretch, Sides::Free);
+        for parts in [1, 4] {
+            let mut trial = Trial::new(&text);
+            (0..parts).for_each(|_| trial.step(4.0 / f64::from(parts)));
+            let wanted = 4.0 * 100.0 * (10e-3 * lateral).powi(2);
+            assert!(off(trial.get("pad.heat_in"), wanted) < 1e-9, "{stretch} in {parts}");
+        }
     }
 }

@@ -108,6 +108,31 @@ fn steps_beyond_the_nozzle_are_refused() {
     trial.set_derivative("ink.nozzle_x", 1, 50.0);
     let refusal = trial.try_step(1e-4).unwrap_err().to_string();
     assert!(refusal.contains("speed of sound"), "{refusal}");
+    // Before memory for all places on its way is asked for.
+    let mut trial = Trial::new(&text);
+    trial.set("ink.nozzle_x", 1e6);
+    let refusal = trial.try_step(0.02).unwrap_err().to_string();
+    assert!(refusal.contains("speed of sound"), "{refusal}");
+}
+
+/// Paths into the plate are refused when the scene is read.
+#[test]
+fn paths_into_the_plate_are_refused() {
+    let own = "y = [0.0, 0.0]";
+    let into = |height: &str| strand("").replace(own, &format!("{own}, z = [1e-3, {height}]"));
+    assert!(scene::parse(&into("0.3e-3"), "scene").is_ok());
+    for height in ["0.0", "0.1e-3"] {
+        let refusal = scene::parse(&into(height), "scene").unwrap_err().to_string();
+        assert!(refusal.contains("above the plate at 0.1 s"), "{refusal}");
+    }
+    // A table without flow lets it come where the scene has one; a line needs less room.
+    let line = |height: &str, flow: &str| {
+        let text =
+            into(height).replace("method = \"particles\"\n", "").replace("flow = 15.7e-9", flow);
+        scene::parse(&text, "scene").is_ok()
+    };
+    assert!(line("0.1e-3", "flow = 15.7e-9") && !line("0.0", "flow = 15.7e-9"));
+    assert!(line("0.0", "flow = 0.0"));
 }
 
 /// Paste behind the nozzle comes to rest, and its weight and momentum reach the plate all the same.

@@ -60,6 +60,7 @@ mod overlap;
 mod particles;
 mod parts;
 mod peaks;
+mod plastic_steps;
 mod plausibility;
 mod phases;
 mod power;

@@ -12,6 +12,7 @@ mod inputs;
 mod limits;
 mod named_materials;
 mod new;
+mod passing;
 mod report;
 mod run_files;
 mod settings;

@@ -76,8 +76,9 @@ impl DropletBody {
         let off =
             (part > STRAY_SHARE).then(|| warning::fluid_comes_off(format!("{:.0}", 100.0 * part)));
         let asked = totals.released + totals.waiting;
+        let none = (self.demand.is_some() && asked == 0.0).then(warning::no_drop_asked_for);
         let waits = (totals.waiting > 0.0).then(|| warning::drops_wait(totals.waiting, asked));
-        off.into_iter().chain(waits).collect()
+        off.into_iter().chain(waits).chain(none).collect()
     }
 }
 

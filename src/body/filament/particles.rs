@@ -249,7 +249,7 @@ impl Advice for ParticleFilament {
         let beyond = self.traction.is_some() && (heat_outside != 0.0 || impulse_outside[2] != 0.0);
         plan::nozzle_warnings([fed.jump, self.slicing.segment], fed.late == 1.0)
             .chain(beyond.then(warning::strand_beyond_edge))
-            .map(|finding| finding.at(&self.name))
+            .map(|finding| finding.at(&self.name).whatever_its_numbers())
             .collect()
     }
 

@@ -18,6 +18,7 @@ pub fn plan_of(
         fluid: filament.fluid.clone(),
         reference: filament.nozzle.temperature,
         diameter: filament.nozzle.diameter,
+        least_height: filament.least_height(),
         spacing: filament.segment_length(),
         most: filament.most,
         gravity: filament.gravity,

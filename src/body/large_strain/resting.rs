@@ -390,13 +390,13 @@ impl Structured for RestingBody {
         acts: &Acts,
         allowance: &Allowance,
     ) -> Result<Option<Given>, BodyError> {
-        // Inputs that have jumped act at once, before stress relaxes.
+        // Inputs that have jumped act at once, before stress relaxes and heat flows.
         let inputs = acts.path.at(0, 0.0);
         let mut from = self.faces.prescribed(&inputs);
         let mut warmth = self.held_warmth(state, &inputs);
         from.rise.clone_from(&warmth.rise);
         let jumps = state.steps == 0.0 || self.held(state) != from;
-        if jumps && self.remembers() {
+        if jumps && (self.remembers() || self.warming.is_some()) {
             let settled = self.settle(state, &from, 0.0, self.halvings, allowance);
             settled.map_err(|failure| named(&self.name, failure))?;
         }
@@ -461,7 +461,10 @@ impl RestingBody {
         let displacements = body.displacements(&self.structure(state).rest.displacement);
         let [passed, distance] = self.faces.passed(&body.space.nodes, &displacements)?;
         let is_through = passed > BULGED * distance;
-        is_through.then(|| warning::sides_pass_faces(format!("{passed:.1e}")).at(&self.name))
+        is_through.then(|| {
+            let finding = warning::sides_pass_faces(format!("{passed:.1e}"));
+            finding.at(&self.name).whatever_its_numbers()
+        })
     }
 }
 

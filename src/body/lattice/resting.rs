@@ -143,7 +143,8 @@ impl Advice for RestingLatticeBody {
         let LatticeState { dissipated, released, .. } = self.structure(state);
         let is_wrong = matches!(occasion, Occasion::Step) && released < -TAKEN * dissipated;
         let part = percent(-released / dissipated);
-        is_wrong.then(|| warning::breaks_take_energy(part).at(&self.name)).into_iter().collect()
+        let warning = || warning::breaks_take_energy(part).at(&self.name).whatever_its_numbers();
+        is_wrong.then(warning).into_iter().collect()
     }
 }
 

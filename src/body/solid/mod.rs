@@ -51,7 +51,7 @@ use crate::method::fem::{ElasticProblem, HeatFailure, Mesh, NodalSum, Plan, Soli
 use crate::runtime::allowance::Allowance;
 use crate::scene::{FaceName, PeakOf, Scene, Shape, Solid};
 use crate::state::Layout;
-use crate::warning::Warning;
+use crate::warning::{Finding, Warning};
 use crack::Crack;
 use cracking::Cracking;
 use memo::SolidMemo;
@@ -423,19 +423,20 @@ impl Advice for SolidBody {
     }
 
     fn warnings(&self, state: &[f64], occasion: Occasion) -> Vec<Warning> {
-        let found: Vec<_> = match occasion {
+        let warning = |finding: Finding| finding.at(&self.name).whatever_its_numbers();
+        match occasion {
             Occasion::Step => {
                 let particles = warnings::of_particles(self, state);
                 let torn = warnings::of_torn_parts(self, state);
-                particles.into_iter().chain(torn).chain(warnings::of_flaws(self, state)).collect()
+                let own = particles.into_iter().chain(torn).map(warning);
+                own.chain(warnings::of_flaws(self, state)).collect()
             }
             Occasion::Response { .. } => Vec::new(),
             Occasion::End => {
                 let even = warnings::of_even_damage(self, state);
-                warnings::of_fronts(self, state).into_iter().chain(even).collect()
+                warnings::of_fronts(self, state).into_iter().chain(even).map(warning).collect()
             }
-        };
-        found.into_iter().map(|finding| finding.at(&self.name)).collect()
+        }
     }
 }
 

@@ -87,16 +87,19 @@ pub fn of_even_damage(body: &SolidBody, state: &[f64]) -> Option<Finding> {
 }
 
 /// Returns the flaws along which the mesh is too coarse, and those that have grown too deep for their formula.
-pub fn of_flaws(body: &SolidBody, state: &[f64]) -> Vec<Finding> {
+pub fn of_flaws(body: &SolidBody, state: &[f64]) -> Vec<Warning> {
     let coarse = body.cracks.iter().filter_map(|(_, crack)| crack.too_few_elements());
-    let finding = |Coarse { name, elements, finer }| {
-        warning::flaw_unresolved(name, format!("{elements:.1}"), format!("{finer:.0e}"))
+    let unresolved = |Coarse { name, elements, finer }| {
+        let finding =
+            warning::flaw_unresolved(name, format!("{elements:.1}"), format!("{finer:.0e}"));
+        finding.at(&body.name)
     };
-    let grown = body
-        .grown_parts(state)
-        .filter(|(_, part)| *part > Flaw::SHALLOW)
-        .map(|(name, part)| warning::flaw_has_grown(name, percent(part), percent(Flaw::SHALLOW)));
-    coarse.map(finding).chain(grown).collect()
+    let grown = body.grown_parts(state).filter(|(_, part)| *part > Flaw::SHALLOW);
+    let has_grown = |(name, part): (&str, f64)| {
+        let finding = warning::flaw_has_grown(name, percent(part), percent(Flaw::SHALLOW));
+        finding.at(&body.name).of_subject(format!("{name} has grown"))
+    };
+    coarse.map(unresolved).chain(grown.map(has_grown)).collect()
 }
 
 /// Returns `None` if nothing melts or the front keeps the tolerance.

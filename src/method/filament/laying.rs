@@ -17,8 +17,6 @@ const PIECES: f64 = 4.0;
 /// Speed of the nozzle over that of the fluid in it below which fluid piles up in a heap, which is complete when it is
 /// as long as wide, or when it has the volume of a segment and the nozzle moves on.
 const SLOW: f64 = 0.25;
-/// Least height of the outlet over its diameter.
-const LEAST_HEIGHT: f64 = 0.01;
 /// Least gap above an older segment, over the diameter of the nozzle, with which a strand lies on that.
 const CLEARANCE: f64 = 0.1;
 /// Part of a segment's volume below which fluid belongs to the segment before: the rounding of a path's end.
@@ -186,7 +184,7 @@ impl Line {
     }
 
     fn check_piece(&self, strand: &Strand, height: f64, temperature: f64) -> Result<(), Failure> {
-        let least = LEAST_HEIGHT * self.plan.diameter;
+        let least = self.plan.least_height;
         if height < least {
             return Err(Failure::NozzleInPlate { height, least, when: "while fluid comes" });
         }

@@ -14,6 +14,8 @@ pub struct LinePlan {
     pub reference: f64,
     /// Inner diameter of the nozzle D [m].
     pub diameter: f64,
+    /// Least height of the outlet while fluid comes [m].
+    pub least_height: f64,
     /// Length of a segment where the strand is as thick as the nozzle [m].
     pub spacing: f64,
     /// Largest volume that may come [m³].

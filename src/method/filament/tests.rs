@@ -23,6 +23,7 @@ fn plan(fluid: &str, diameter: f64) -> LinePlan {
         fluid,
         reference: 340.0,
         diameter,
+        least_height: 0.01 * diameter,
         spacing: 0.5 * diameter,
         most: 400.0 * diameter.powi(3),
         gravity: 9.81,

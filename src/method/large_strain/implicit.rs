@@ -5,8 +5,9 @@
 //! exact derivative, which is not symmetric. Prescribed displacements are linear over a step; the velocity of their
 //! nodes is the mean one.
 
+use super::newton::{self, Equations, Residual, difference};
 use super::path::{Path, gradients};
-use super::statics::{difference, is_rounding, rounding, sum};
+use super::statics::{rounding, rounding_of_energy};
 use super::tangent::{Factor, Stiffness, Terms};
 use super::{Course, Courses, Deformable, FaceLoad, Failure, LoadedFaces, Motion};
 use crate::math::matrix3::Matrix3;
@@ -21,8 +22,9 @@ pub struct ImplicitDynamics {
     pub gravity: [f64; 3],
     stiffness: Stiffness,
     held: Vec<[bool; 3]>,
-    /// Bound on the rounding of internal forces [N].
+    /// Bounds on the rounding of internal forces [N] and of the energy stored [J].
     rounding: f64,
+    rounding_of_energy: f64,
 }
 
 /// Conditions over a step.
@@ -51,11 +53,6 @@ const TOLERANCE: f64 = 1e-11;
 /// Energy of the body that may have no cause in a step, over the change of what it stores and over that itself.
 const GAINED: f64 = 0.005;
 const STORED: f64 = 1e-6;
-const ITERATIONS: usize = 25;
-/// Halvings of a Newton step before it is given up.
-const HALVINGS: usize = 8;
-/// Growth of the residual at which a Newton step is halved.
-const GROWTH: f64 = 2.0;
 /// Rounding of a displacement over its size.
 const ROUNDING: f64 = 1e-15;
 
@@ -83,6 +80,34 @@ struct Trial<'a> {
     rounding: f64,
 }
 
+/// The equations of a step.
+struct Balance<'a> {
+    dynamics: &'a ImplicitDynamics,
+    step: &'a Step<'a>,
+}
+
+impl<'a> Equations for Balance<'a> {
+    type Trial = Trial<'a>;
+
+    fn at(&self, u: &[[f64; 3]]) -> Result<Trial<'a>, Failure> {
+        self.dynamics.at(self.step, u)
+    }
+
+    fn change(&self, u: &[[f64; 3]], now: &Trial, _: bool) -> Result<Vec<[f64; 3]>, Failure> {
+        let factor = self.dynamics.factor(self.step, u, now)?;
+        Ok(self.dynamics.stiffness.solve(&factor, &now.residual))
+    }
+
+    fn residual(&self, trial: &Trial) -> Residual {
+        let &Trial { norm, scale, rounding, .. } = trial;
+        Residual { norm, scale, wanted: TOLERANCE * scale + rounding }
+    }
+
+    fn unbalanced(&self, residual: f64) -> Failure {
+        Failure::NotConverged { residual }
+    }
+}
+
 impl ImplicitDynamics {
     /// `held` marks prescribed displacements, in addition to those that the body fixes.
     pub fn new(
@@ -96,7 +121,16 @@ impl ImplicitDynamics {
         let stiffness = Stiffness::new(&body, &held, &loaded.couplings(&body));
         let stiffness = stiffness.map_err(|_| Failure::Singular)?;
         let rounding = rounding(&body);
-        Ok(Self { body, loaded, gravity: [0.0, 0.0, -gravity], stiffness, held, rounding })
+        let rounding_of_energy = rounding_of_energy(&body);
+        Ok(Self {
+            body,
+            loaded,
+            gravity: [0.0, 0.0, -gravity],
+            stiffness,
+            held,
+            rounding,
+            rounding_of_energy,
+        })
     }
 
     /// The state at time zero, in which all free nodes have one velocity [m/s].
@@ -123,19 +157,11 @@ impl ImplicitDynamics {
         let start = gradients(&self.body, &motion.displacement, team)?;
         let over = &self.body.in_all(Course::of(dt));
         let step = Step { from: motion, start: &start, over, to, dt, team, allowance };
-        let (mut u, mut now) = self.first(&step)?;
+        let (u, now) = self.first(&step)?;
         let mut residuals = vec![now.norm / now.scale];
-        while now.norm > TOLERANCE * now.scale + now.rounding {
-            if residuals.len() > ITERATIONS {
-                return Err(Failure::NotConverged { residual: now.norm / now.scale });
-            }
-            let before = now.norm;
-            (u, now) = self.improve(&step, &u, &now)?;
-            residuals.push(now.norm / now.scale);
-            if is_rounding([before, now.norm], now.scale) {
-                break;
-            }
-        }
+        let solved = newton::solve(&Balance { dynamics: self, step: &step }, u, now)?;
+        let (u, now) = (solved.u, solved.trial);
+        residuals.extend(solved.residuals);
         let (internal, loads) = (now.internal, now.loads);
         let mut history = motion.history.clone();
         let energy = |u: &[[f64; 3]], history: &mut [f64], time: f64| -> Result<f64, Failure> {
@@ -150,7 +176,8 @@ impl ImplicitDynamics {
         // Laws with a history may dissipate.
         let gained = after - before - work;
         let gained = if self.body.history() == 0 { gained.abs() } else { gained };
-        if gained > GAINED * ((after - before).abs() + work.abs()) + STORED * (before + after) {
+        let caused = GAINED * ((after - before).abs() + work.abs()) + STORED * (before + after);
+        if gained > caused + self.rounding_of_energy {
             return Err(Failure::Unbalanced { energy: gained });
         }
         let reactions = self.finish(motion, u, dt, &internal, &loads);
@@ -178,26 +205,6 @@ impl ImplicitDynamics {
             Err(Failure::Inverted { .. }) => trial(0.0),
             other => other,
         }
-    }
-
-    /// A Newton step, halved while the residual grows or the material is turned inside out.
-    fn improve<'s>(
-        &'s self,
-        step: &Step<'s>,
-        u: &[[f64; 3]],
-        now: &Trial<'s>,
-    ) -> Result<(Vec<[f64; 3]>, Trial<'s>), Failure> {
-        let factor = self.factor(step, u, now)?;
-        let mut change = self.stiffness.solve(&factor, &now.residual);
-        for _ in 0..HALVINGS {
-            let next = sum(u, &change);
-            match self.at(step, &next) {
-                Ok(trial) if trial.norm < GROWTH * now.norm => return Ok((next, trial)),
-                Err(Failure::Halted(halt)) => return Err(halt.into()),
-                _ => change.iter_mut().flatten().for_each(|x| *x *= 0.5),
-            }
-        }
-        Err(Failure::NotConverged { residual: now.norm / now.scale })
     }
 
     fn factor(&self, step: &Step, u: &[[f64; 3]], now: &Trial) -> Result<Factor, Failure> {

@@ -16,6 +16,7 @@ mod heat;
 mod implicit;
 mod load;
 mod motion;
+mod newton;
 mod path;
 mod state;
 mod statics;

@@ -2,7 +2,7 @@
 //!
 //! Momentum is conserved to rounding, and energy to the square of the time step.
 
-use super::statics::sum;
+use super::newton::sum;
 use super::{
     Contacts, Course, Courses, Deformable, FaceLoad, Failure, Friction, Ledger, LoadedFaces,
     Motion, Plane, Shear, Spot, Stresses, Touch,

@@ -1,5 +1,6 @@
-//! Equilibrium without inertia, by Newton's method with a line search.
+//! Equilibrium without inertia.
 
+use super::newton::{self, Equations, Residual, sum};
 use super::path::Path;
 use super::tangent::{Factor, Linearised, Stiffness, Terms};
 use super::{Courses, Deformable, FaceLoad, Failure, LoadedFaces, Stresses};
@@ -58,15 +59,6 @@ pub const STEPS: &str = "iterations towards the equilibrium of a solid of large 
 pub const WORK: usize = 1000;
 /// Largest residual over the norm of all forces at nodes.
 const TOLERANCE: f64 = 1e-10;
-const ITERATIONS: usize = 25;
-/// Halvings of a Newton step before it is given up.
-const HALVINGS: usize = 8;
-/// Growth of the residual at which a Newton step is halved: large rotations raise it on their way.
-const GROWTH: f64 = 2.0;
-/// Part of a prescribed displacement whose forces are taken as linear.
-const SMALL: f64 = 1e-6;
-/// Part of the forces up to which a residual that falls no more is rounding: slender bodies bend by little strain.
-const STALLED: f64 = 1e-7;
 /// Rounding of a strain over 1.
 const ROUNDING: f64 = 4e-15;
 
@@ -89,6 +81,50 @@ struct Step<'a> {
     over: &'a Courses,
     team: &'a Team,
     allowance: &'a Allowance,
+}
+
+/// Whether points yield in the tangent of an iteration. In the first of a step they do not: of points on their yield
+/// surfaces rounding decides whether they do, a body with both kinds is uneven, and one that unloads does not yield.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Flow {
+    Not,
+    AsItIs,
+}
+
+/// The equations of a step.
+struct Balance<'a> {
+    equilibrium: &'a Equilibrium,
+    step: &'a Step<'a>,
+    /// No point yields in the tangent of the first iteration.
+    starts_elastic: bool,
+}
+
+impl<'a> Equations for Balance<'a> {
+    type Trial = Trial<'a>;
+
+    fn at(&self, u: &[[f64; 3]]) -> Result<Trial<'a>, Failure> {
+        self.equilibrium.at(self.step, u)
+    }
+
+    fn change(
+        &self,
+        u: &[[f64; 3]],
+        now: &Trial,
+        is_first: bool,
+    ) -> Result<Vec<[f64; 3]>, Failure> {
+        let flow = if is_first && self.starts_elastic { Flow::Not } else { Flow::AsItIs };
+        let factor = self.equilibrium.factor(self.step, u, (now, flow))?;
+        Ok(self.equilibrium.stiffness.solve(&factor, &now.residual))
+    }
+
+    fn residual(&self, trial: &Trial) -> Residual {
+        let &Trial { norm, scale, .. } = trial;
+        Residual { norm, scale, wanted: TOLERANCE * scale + self.equilibrium.rounding }
+    }
+
+    fn unbalanced(&self, residual: f64) -> Failure {
+        Failure::NoEquilibrium { residual }
+    }
 }
 
 impl Equilibrium {
@@ -122,22 +158,15 @@ impl Equilibrium {
         let mut now = self.at(&step, &u)?;
         let mut residuals = Vec::new();
         if let Some(jump) = self.jump(&u, to) {
-            let change = self.follow(&step, &now, &u, &jump)?;
-            u = sum(&u, &change);
+            u = sum(&u, &self.follow(&step, &now, &u, &jump)?);
             now = self.at(&step, &u)?;
             residuals.push(now.norm / now.scale);
         }
-        while now.norm > TOLERANCE * now.scale + self.rounding {
-            if residuals.len() == ITERATIONS {
-                return Err(Failure::NoEquilibrium { residual: now.norm / now.scale });
-            }
-            let before = now.norm;
-            (u, now) = self.improve(&step, &u, &now)?;
-            residuals.push(now.norm / now.scale);
-            if is_rounding([before, now.norm], now.scale) {
-                break;
-            }
-        }
+        let starts_elastic = residuals.is_empty();
+        let balance = Balance { equilibrium: self, step: &step, starts_elastic };
+        let solved = newton::solve(&balance, u, now)?;
+        let (u, now) = (solved.u, solved.trial);
+        residuals.extend(solved.residuals);
         let found = Found {
             residuals,
             work: self.work(&step, &now.linearised),
@@ -165,31 +194,19 @@ impl Equilibrium {
         path.work(step.team)
     }
 
-    /// A Newton step, halved while the residual grows or the material is turned inside out.
-    fn improve<'s>(
+    fn factor(
         &self,
-        step: &Step<'s>,
+        step: &Step,
         u: &[[f64; 3]],
-        now: &Trial,
-    ) -> Result<(Vec<[f64; 3]>, Trial<'s>), Failure> {
-        let factor = self.factor(step, u, now)?;
-        let mut change = self.stiffness.solve(&factor, &now.residual);
-        for _ in 0..HALVINGS {
-            let next = sum(u, &change);
-            match self.at(step, &next) {
-                Ok(trial) if trial.norm < GROWTH * now.norm => return Ok((next, trial)),
-                Err(Failure::Halted(halt)) => return Err(halt.into()),
-                _ => change.iter_mut().flatten().for_each(|x| *x *= 0.5),
-            }
-        }
-        Err(Failure::NoEquilibrium { residual: now.norm / now.scale })
-    }
-
-    fn factor(&self, step: &Step, u: &[[f64; 3]], trial: &Trial) -> Result<Factor, Failure> {
+        (now, flow): (&Trial, Flow),
+    ) -> Result<Factor, Failure> {
         let loads = &step.to.loads;
         let is_pressed = loads.iter().any(|load| load.pressure != 0.0);
         let terms = Terms {
-            of_group: &|group| trial.linearised.group(&self.body, group),
+            of_group: &|group| match flow {
+                Flow::Not => now.linearised.group_without_flow(&self.body, group),
+                Flow::AsItIs => now.linearised.group(&self.body, group),
+            },
             inertia: 0.0,
             loads: &self.loaded.stiffness(&self.body, u, loads, 1.0),
             is_symmetric: self.body.has_symmetric_tangent() && !is_pressed,
@@ -216,12 +233,8 @@ impl Equilibrium {
         u: &[[f64; 3]],
         jump: &[[f64; 3]],
     ) -> Result<Vec<[f64; 3]>, Failure> {
-        let small: Vec<[f64; 3]> = jump.iter().map(|x| x.map(|x| SMALL * x)).collect();
-        let moved = self.at(step, &sum(u, &small))?;
-        let force =
-            |(a, b): (&[f64; 3], &[f64; 3])| [0, 1, 2].map(|n| a[n] + (b[n] - a[n]) / SMALL);
-        let load: Vec<[f64; 3]> = now.residual.iter().zip(&moved.residual).map(force).collect();
-        Ok(sum(&self.stiffness.solve(&self.factor(step, u, now)?, &load), jump))
+        let load = sum(&now.residual, &now.linearised.forces(&self.body, jump, step.team));
+        Ok(sum(&self.stiffness.solve(&self.factor(step, u, (now, Flow::Not))?, &load), jump))
     }
 
     fn at<'s>(&self, step: &Step<'s>, u: &[[f64; 3]]) -> Result<Trial<'s>, Failure> {
@@ -254,14 +267,14 @@ impl Equilibrium {
     }
 }
 
-/// Returns true if an iteration that took a residual to another did not halve it, and it is small beside the forces.
-pub(super) fn is_rounding([before, after]: [f64; 2], scale: f64) -> bool {
-    after > 0.5 * before && after <= STALLED * scale
-}
-
 /// Bound on the rounding of the internal forces, as a norm over the nodes [N].
 pub(super) fn rounding(body: &Deformable) -> f64 {
     ROUNDING * body.wave_modulus() * stretch(body)
+}
+
+/// Bound on the rounding of the energy stored [J], which is that of a difference of invariants.
+pub(super) fn rounding_of_energy(body: &Deformable) -> f64 {
+    ROUNDING * body.wave_modulus() * body.space.volume.weights.iter().sum::<f64>()
 }
 
 /// Norm over the nodes of the forces of a unit stress, without cancellation [m²].
@@ -275,12 +288,4 @@ fn stretch(body: &Deformable) -> f64 {
         }
     }
     sums.iter().map(|sum| sum * sum).sum::<f64>().sqrt()
-}
-
-pub(super) fn sum(a: &[[f64; 3]], b: &[[f64; 3]]) -> Vec<[f64; 3]> {
-    a.iter().zip(b).map(|(a, b)| [0, 1, 2].map(|n| a[n] + b[n])).collect()
-}
-
-pub(super) fn difference(a: &[[f64; 3]], b: &[[f64; 3]]) -> Vec<[f64; 3]> {
-    a.iter().zip(b).map(|(a, b)| [0, 1, 2].map(|n| a[n] - b[n])).collect()
 }

@@ -10,8 +10,8 @@ use faer::{Mat, Side};
 
 use super::load::LoadStiffness;
 use super::{Course, Courses, Deformable};
-use crate::laws::solid::large_strain::{Deformed, Tangent};
-use crate::math::matrix3::Matrix3;
+use crate::laws::solid::large_strain::{Deformed, LargeStrainLaw, Tangent};
+use crate::math::matrix3::{Matrix3, contraction};
 use crate::runtime::parallel::Team;
 use crate::space::Form;
 
@@ -213,9 +213,33 @@ fn columns(unknowns: &[[Option<usize>; 3]], nodes: &[u32]) -> Vec<Column> {
 }
 
 impl Linearised<'_> {
+    /// Changes of the internal forces on the nodes [N] for a change of displacements without flow.
+    pub fn forces(&self, body: &Deformable, change: &[[f64; 3]], team: &Team) -> Vec<[f64; 3]> {
+        let groups = &body.space.groups;
+        let of_group = |group: usize| {
+            let strain = |point: usize| {
+                let mut strain = body.gradient(&body.space.volume, point, change);
+                (0..3).for_each(|a| strain[a][a] -= 1.0);
+                strain
+            };
+            let weights = &body.space.volume.weights[groups[group].clone()];
+            let strains: Vec<Matrix3> = groups[group].clone().map(strain).collect();
+            self.group_without_flow(body, group).loads(weights, &strains)
+        };
+        body.forces_of(&team.map(groups.len(), of_group).concat(), team)
+    }
+
     /// Derivatives of the stresses of a group's points.
     pub fn group(&self, body: &Deformable, group: usize) -> GroupTangent {
-        let law = body.law_of(group);
+        self.of_law(body, group, body.law_of(group))
+    }
+
+    /// The same if none of them yields.
+    pub fn group_without_flow(&self, body: &Deformable, group: usize) -> GroupTangent {
+        self.of_law(body, group, &body.law_of(group).without_flow())
+    }
+
+    fn of_law(&self, body: &Deformable, group: usize, law: &LargeStrainLaw) -> GroupTangent {
         let Course { time, stretch, .. } = self.over.at(body, group);
         let history = &self.before[body.history_of(group)];
         let [pressure, stiffness] = law.pressure(self.dilatations[group]);
@@ -241,6 +265,33 @@ impl Linearised<'_> {
             swellings: if body.is_sheet { Vec::new() } else { vec![swelling()] },
             scale: stretch,
         }
+    }
+}
+
+impl GroupTangent {
+    /// Volume times the change of P of each point [N m], of volumes and changes of F.
+    fn loads(&self, weights: &[f64], strains: &[Matrix3]) -> Vec<Matrix3> {
+        let whole: f64 = weights.iter().sum();
+        let pressures: Vec<f64> = self
+            .swellings
+            .iter()
+            .map(|Swelling { stiffness, changes, .. }| {
+                let all = weights.iter().zip(changes).zip(strains);
+                stiffness / whole * all.map(|((w, b), f)| w * contraction(b, f)).sum::<f64>()
+            })
+            .collect();
+        let of_point = |(place, strain): (usize, &Matrix3)| -> Matrix3 {
+            let mut load = [[0.0; 3]; 3];
+            for (m, value) in load.as_flattened_mut().iter_mut().enumerate() {
+                let row = self.points[place][m].iter().zip(strain.as_flattened());
+                let own: f64 = row.map(|(t, f)| t * f).sum();
+                let swellings = self.swellings.iter().zip(&pressures);
+                let shared = swellings.map(|(s, p)| p * s.forces[place][m / 3][m % 3]);
+                *value = self.scale * weights[place] * (own + shared.sum::<f64>());
+            }
+            load
+        };
+        strains.iter().enumerate().map(of_point).collect()
     }
 }
 

@@ -373,7 +373,7 @@ fn flow_of(twin: &Twin) -> Option<Watched> {
     let variables = Registry::structured(twin.scene()).variables.into_iter();
     let found = variables.filter(|_| twin.has_history).find(|variable| variable.name == name)?;
     let Slot::Output(output) = found.slot else { return None };
-    Some(Watched { name, quantity: Quantity::Ratio, rest: 0.0, output })
+    Some(Watched { name, quantity: Quantity::Ratio, rest: 0.0, capacity: None, output })
 }
 
 fn nodes_of(bodies: &[BodyForecast]) -> f64 {

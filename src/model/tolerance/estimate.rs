@@ -29,9 +29,9 @@ pub fn differences(on: &Responses, other: &Responses, watched: &[Watched]) -> Ve
 }
 
 /// Scales of the errors of outputs in an experiment. A scale is the largest range, rest included, of the same quantity
-/// at the same probe or over the same field, or a fraction of the largest range of the quantity anywhere. A small
-/// component among others of its tensor, or a cell among others of its field, is therefore not compared with its own
-/// range.
+/// at the same probe or over the same field, or a fraction of the largest range of the quantity anywhere, of temperatures
+/// that of the body's mean included. A small component among others of its tensor, a cell among others of its field, or
+/// the core of a body that cools at its surface, is therefore not compared with its own range.
 pub fn scales(rows: &[Vec<f64>], watched: &[Watched]) -> Vec<f64> {
     let range = |place: usize| {
         let [low, high] = rows.iter().fold([watched[place].rest; 2], |[low, high], row| {
@@ -45,6 +45,11 @@ pub fn scales(rows: &[Vec<f64>], watched: &[Watched]) -> Vec<f64> {
         let widen = |widest: &mut f64| *widest = widest.max(range);
         widen(of_group.entry((one.group(), one.quantity)).or_insert(0.0));
         widen(of_quantity.entry(one.quantity).or_insert(0.0));
+        if let Some(capacity) = one.capacity {
+            let mean = range / capacity;
+            let warmed = of_quantity.entry(Quantity::Temperature).or_insert(0.0);
+            *warmed = warmed.max(mean);
+        }
     }
     let scale = |one: &Watched| {
         let largest = of_quantity[&one.quantity];

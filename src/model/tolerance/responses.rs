@@ -20,6 +20,8 @@ pub struct Watched {
     pub quantity: Quantity,
     /// Value before anything acts.
     pub rest: f64,
+    /// Heat capacity of the body where the output is the heat stored in it [J/K].
+    pub capacity: Option<f64>,
     pub output: Output,
 }
 
@@ -38,12 +40,20 @@ pub fn watched(scene: &Scene, is_mechanical: bool) -> Vec<Watched> {
         false => matches!(quantity, Quantity::Temperature | Quantity::Energy),
     };
     let initial = scene.body.values().next().map_or(0.0, |body| body.initial_temperature());
+    let stored = scene
+        .body
+        .iter()
+        .next()
+        .and_then(|(name, body)| Some((format!("{name}.heat_stored"), body.heat_capacity()?)));
     let outputs = registry.variables.into_iter().filter_map(|variable| {
         let Slot::Output(output) = variable.slot else { return None };
         let quantity = variable.quantity.filter(|&quantity| wanted(quantity))?;
         let is_peak = matches!(output.reading, Reading::Peak { .. });
         let rest = if quantity == Quantity::Temperature { initial } else { 0.0 };
-        (!is_peak).then_some(Watched { name: variable.name, quantity, rest, output })
+        let name = variable.name;
+        let own = stored.as_ref().filter(|(stored, _)| *stored == name);
+        let capacity = own.map(|(_, capacity)| *capacity);
+        (!is_peak).then_some(Watched { name, quantity, rest, capacity, output })
     });
     let all: Vec<Watched> = outputs.collect();
     let of_grids = all.iter().filter(|watched| is_of_grid(watched)).count();

@@ -5,6 +5,7 @@ use crate::laws::Viscosity;
 use crate::scene::filament::{Filament, FilamentMethod, PathFile, PathTable};
 use crate::scene::gcode::BadLine;
 use crate::scene::locate::Path;
+use crate::scene::route::Leg;
 
 /// Largest number of segments.
 const MOST_SEGMENTS: f64 = 1e6;
@@ -42,6 +43,7 @@ pub fn check(checker: &mut Checker) {
                 FilamentMethod::Particles => particles(checker, &path, filament),
             }
             volume(checker, &path, filament);
+            lowest(checker, &path, filament);
         }
     }
     targets(checker);
@@ -178,6 +180,26 @@ fn volume(checker: &mut Checker, path: &Path, filament: &Filament) {
     let message = format!("{} m³ come until the stop time {by}", number(volume));
     let allowed = format!(">= {}, or {less}", number(volume));
     checker.require(fits(volume, filament.most), &path.key("most"), message, allowed);
+}
+
+/// Refuses a path on which the nozzle meets the plate while fluid comes.
+fn lowest(checker: &mut Checker, path: &Path, filament: &Filament) {
+    let route = checker.scene.route(filament);
+    let stop = checker.scene.stop_time;
+    let comes = |leg: &Leg| match leg.flow {
+        Some(_) => leg.largest_flow() > 0.0,
+        None => filament.nozzle.flow > 0.0,
+    };
+    // Particles are in the nozzle at all times.
+    let counts = |leg: &Leg| filament.method == FilamentMethod::Particles || comes(leg);
+    let Some([height, time]) = route.and_then(|route| route.lowest_until(stop, counts)) else {
+        return;
+    };
+    let least = filament.least_height();
+    let (shown, time) = (number(height), number(time));
+    let message = format!("the outlet is {shown} m above the plate at {time} s, with fluid in it");
+    let allowed = format!("{} m and more", number(least));
+    checker.require(height >= least, &path.key("path"), message, allowed);
 }
 
 fn targets(checker: &mut Checker) {

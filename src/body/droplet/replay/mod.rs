@@ -296,7 +296,8 @@ impl Advice for ReplayBody {
 }
 
 impl ReplayBody {
-    /// Warns of drops that landed on others, and of fluid that detached while the drop was recorded.
+    /// Warns of drops that landed on others or were never asked for, and of fluid that detached while the drop was
+    /// recorded.
     fn findings_at_end(&self, state: &[f64]) -> Vec<Finding> {
         let ReplayTotals { overlapping, released, .. } = self.totals(state);
         let on_others =
@@ -305,7 +306,9 @@ impl ReplayBody {
         let strays = part > STRAY_SHARE && released > 0.0;
         let share = format!("{:.0}", 100.0 * part);
         let on_strays = strays.then(|| warning::fluid_came_off_in_record(share));
-        on_others.into_iter().chain(on_strays).collect()
+        let none = self.demand.is_some() && released == 0.0;
+        let none = none.then(warning::no_drop_asked_for);
+        on_others.into_iter().chain(on_strays).chain(none).collect()
     }
 }
 

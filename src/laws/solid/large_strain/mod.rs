@@ -80,6 +80,16 @@ impl LargeStrainLaw {
         matches!(self.deviator, Deviator::Plastic(_) | Deviator::Concrete(_))
     }
 
+    /// Returns the law of a material that bears any stress without yielding, for the tangent of a point that is about
+    /// to yield or to unload; that of concrete as it is.
+    pub fn without_flow(&self) -> Self {
+        let mut law = self.clone();
+        if let Deviator::Plastic(plastic) = &mut law.deviator {
+            (plastic.yield_stress, plastic.saturation) = (f64::MAX, f64::MAX);
+        }
+        law
+    }
+
     /// Returns true if a run may produce a history of a point.
     pub fn is_sound(&self, history: &[f64]) -> bool {
         match &self.deviator {

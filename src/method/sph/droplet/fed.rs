@@ -124,12 +124,14 @@ impl DropletSph {
             now.jump = now.jump.max(way);
         }
         now.flowing = if comes { 1.0 } else { 0.0 };
-        for [from, to] in self.parts(before.volume, motion) {
-            let [begin, end] = [from, to].map(|s| motion.outlet(s));
-            let volume = motion.volume(to) - motion.volume(from);
-            let speed = volume / (self.column().section * (to - from));
-            let mut velocity = [0, 1, 2].map(|a| (end[a] - begin[a]) / (to - from));
-            velocity[2] -= speed;
+        let passages = self.passages(before.volume, motion);
+        for ends in passages.windows(2).filter(|ends| ends[1] > ends[0]) {
+            // Too fast in the mean is too fast somewhere; too many parts to count may lie between.
+            self.check_speed(self.velocity(motion, [ends[0], ends[1]]), start + ends[0])?;
+        }
+        for [from, to] in self.parts(&passages, motion) {
+            let end = motion.outlet(to);
+            let velocity = self.velocity(motion, [from, to]);
             self.check_speed(velocity, run.ledger.time)?;
             self.drive_column(run, velocity, motion.temperature_at(0.5 * (from + to)));
             let rest = self.put_to_sleep(run, to - from);
@@ -143,8 +145,17 @@ impl DropletSph {
         Ok(())
     }
 
-    /// Parts of a motion, cut where a layer passes the outlet, in which the nozzle moves evenly.
-    fn parts(&self, before: f64, motion: &Motion) -> Vec<[f64; 2]> {
+    /// Mean velocity of the column between two times of a motion [m/s].
+    fn velocity(&self, motion: &Motion, [from, to]: [f64; 2]) -> [f64; 3] {
+        let [begin, end] = [from, to].map(|s| motion.outlet(s));
+        let volume = motion.volume(to) - motion.volume(from);
+        let mut velocity = [0, 1, 2].map(|a| (end[a] - begin[a]) / (to - from));
+        velocity[2] -= volume / (self.column().section * (to - from));
+        velocity
+    }
+
+    /// Times of a motion at which a layer passes the outlet, with its beginning and its end [s].
+    fn passages(&self, before: f64, motion: &Motion) -> Vec<f64> {
         let all = motion.volume(motion.duration);
         let mut cuts = vec![0.0];
         let mut layer = self.column().passed(before);
@@ -154,6 +165,11 @@ impl DropletSph {
             layer += 1;
         }
         cuts.push(motion.duration);
+        cuts
+    }
+
+    /// Parts between such times in which the nozzle moves evenly.
+    fn parts(&self, passages: &[f64], motion: &Motion) -> Vec<[f64; 2]> {
         let longest = EVEN * self.plan.feed.map_or(0.0, |feed| feed.diameter);
         let even = |ends: &[f64]| {
             let [from, to] = [ends[0], ends[1]];
@@ -163,8 +179,8 @@ impl DropletSph {
             let at = move |n: usize| from + (to - from) * n as f64 / count as f64;
             (0..count).map(move |n| [at(n), if n + 1 == count { to } else { at(n + 1) }])
         };
-        let cuts = cuts.windows(2).filter(|ends| ends[1] > ends[0]);
-        cuts.flat_map(even).collect()
+        let passages = passages.windows(2).filter(|ends| ends[1] > ends[0]);
+        passages.flat_map(even).collect()
     }
 
     fn check_speed(&self, velocity: [f64; 3], time: f64) -> Result<(), Failure> {
