@@ -144,6 +144,8 @@ pub struct PathFile {
     #[serde(default)]
     #[schemars(transform = outlet_place().otherwise("`[0.0, 0.0]`"))]
     pub origin: [f64; 2],
+    #[serde(skip)]
+    pub(super) memo: gcode::Memo,
 }
 
 /// A line that a strand is meant to follow, for outputs.

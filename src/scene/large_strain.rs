@@ -40,7 +40,8 @@ pub struct LargeStrain {
     /// Measure of deformation.
     pub strain: FiniteStrain,
     /// `{ ball = { radius = R } }`, `{ disc = { radius = R, thickness = T } }`, `{ box = [LX, LY, LZ] }`,
-    /// `{ quadrilateral = { corners = [[X, Z], …] } }` or `{ part = { file = "NAME" } }`.
+    /// `{ quadrilateral = { corners = [[X, Z], …] } }`, `{ strand = { path = [[X, Y, Z], …], radius = R } }` or
+    /// `{ part = { file = "NAME" } }`.
     pub shape: SolidShape,
     /// Material of the body: a table, or the name of a `[material.NAME]`.
     #[schemars(extend(

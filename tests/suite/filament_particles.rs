@@ -110,7 +110,7 @@ fn steps_beyond_the_nozzle_are_refused() {
     assert!(refusal.contains("speed of sound"), "{refusal}");
     // Before memory for all places on its way is asked for.
     let mut trial = Trial::new(&text);
-    trial.set("ink.nozzle_x", 1e6);
+    trial.set_derivative("ink.nozzle_x", 1, 5e7);
     let refusal = trial.try_step(0.02).unwrap_err().to_string();
     assert!(refusal.contains("speed of sound"), "{refusal}");
 }

@@ -37,7 +37,7 @@ fn warnings_of_states_in_the_middle_of_a_run_tell_their_times() {
     assert!(said.contains("warning: pad: ") && said.contains("[sides_pass_faces]"), "{said}");
     let said = told(PAD, press, "2");
     let own = said.lines().find(|line| line.contains("[sides_pass_faces]")).unwrap();
-    assert!(own.contains("warning: pad, ") && own.contains(" s to 1.5 s: "), "{own}");
+    assert!(own.contains("warning: pad, ") && own.contains(" to 1.5 s: "), "{own}");
     assert_eq!(said.matches("[sides_pass_faces]").count(), 1, "{said}");
     assert!(!told(PAD, "0,0\n1,0\n", "1").contains("[sides_pass_faces]"));
 }

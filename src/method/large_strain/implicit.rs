@@ -103,6 +103,10 @@ impl<'a> Equations for Balance<'a> {
         Residual { norm, scale, wanted: TOLERANCE * scale + rounding }
     }
 
+    fn softens(&self) -> bool {
+        self.dynamics.body.has_concrete()
+    }
+
     fn unbalanced(&self, residual: f64) -> Failure {
         Failure::NotConverged { residual }
     }

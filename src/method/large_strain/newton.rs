@@ -3,7 +3,8 @@
 //! Whole steps come first. Where a slender body turns, they raise the residual a thousandfold, by the stretch that is of
 //! second order in the angle, and take it down again in the next; a search for steps that do not raise it would creep.
 //! From a state that is too far away they never settle. Then the way begins anew, with steps that are halved while they
-//! raise the residual.
+//! raise the residual. A body that softens has several equilibria, and halved steps from the first on stay near the last
+//! one.
 
 use super::Failure;
 
@@ -23,6 +24,9 @@ pub trait Equations {
     ) -> Result<Vec<[f64; 3]>, Failure>;
 
     fn residual(&self, trial: &Self::Trial) -> Residual;
+
+    /// Returns true if a body has several equilibria.
+    fn softens(&self) -> bool;
 
     /// The failure of a residual that does not fall, over the scale of the forces.
     fn unbalanced(&self, residual: f64) -> Failure;
@@ -68,6 +72,9 @@ pub fn solve<E: Equations>(
     u: Vec<[f64; 3]>,
     now: E::Trial,
 ) -> Result<Solved<E::Trial>, Failure> {
+    if equations.softens() {
+        return iterate(equations, (u, now), Steps::Halved);
+    }
     match iterate(equations, (u.clone(), now), Steps::Whole) {
         Err(failure @ Failure::Halted(_)) => Err(failure),
         Err(_) => {

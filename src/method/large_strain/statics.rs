@@ -122,6 +122,10 @@ impl<'a> Equations for Balance<'a> {
         Residual { norm, scale, wanted: TOLERANCE * scale + self.equilibrium.rounding }
     }
 
+    fn softens(&self) -> bool {
+        self.equilibrium.body.has_concrete()
+    }
+
     fn unbalanced(&self, residual: f64) -> Failure {
         Failure::NoEquilibrium { residual }
     }

@@ -4,30 +4,32 @@ use std::ops::Range;
 use std::sync::OnceLock;
 
 use faer::prelude::Solve;
+use faer::sparse::SparseColMat;
 use faer::sparse::linalg::solvers::{Llt, Lu, SymbolicLlt, SymbolicLu};
-use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
 use faer::{Mat, Side};
 
+use super::element::element;
 use super::load::LoadStiffness;
+use super::pattern::Pattern;
 use super::{Course, Courses, Deformable};
 use crate::laws::solid::large_strain::{Deformed, LargeStrainLaw, Tangent};
 use crate::math::matrix3::{Matrix3, contraction};
 use crate::runtime::parallel::Team;
-use crate::space::Form;
 
 /// Stiffness of a body under fixed conditions: its pattern is known before time starts.
 pub struct Stiffness {
     /// Number of the unknown of each node and axis; `None` where displacements are prescribed.
     unknowns: Vec<[Option<usize>; 3]>,
     count: usize,
-    pattern: SymbolicSparseColMat<usize>,
-    order: Argsort<usize>,
+    /// Of the blocks and of the further ones of loads.
+    pattern: Pattern,
     llt: SymbolicLlt<usize>,
     lu: OnceLock<SymbolicLu<usize>>,
     blocks: Vec<Block>,
-    /// Number of the further blocks of loads.
-    loads: usize,
 }
+
+/// Number of entries of blocks that are in memory at a time.
+const TOGETHER: usize = 4_000_000;
 
 /// Terms of the matrix of a linear system.
 pub struct Terms<'a> {
@@ -59,18 +61,18 @@ pub struct Swelling {
 }
 
 /// Points that are assembled together, and the nodes of their rows.
-struct Block {
-    points: Range<usize>,
-    nodes: Vec<u32>,
+pub(super) struct Block {
+    pub points: Range<usize>,
+    pub nodes: Vec<u32>,
     /// Unknowns of the nodes, which are the columns of the block's matrix.
-    columns: Vec<Column>,
+    pub columns: Vec<Column>,
 }
 
 /// An unknown of a block.
 #[derive(Debug, Clone, Copy)]
-struct Column {
+pub(super) struct Column {
     /// Its place among the axes of the block's nodes, node by node.
-    place: usize,
+    pub place: usize,
     unknown: usize,
 }
 
@@ -108,18 +110,13 @@ impl Stiffness {
         };
         let blocks: Vec<Block> = body.space.groups.iter().map(block).collect();
         let of_loads: Vec<_> = couplings.iter().map(|nodes| columns(&unknowns, nodes)).collect();
-        let mut pairs = Vec::new();
-        for columns in blocks.iter().map(|block| &block.columns).chain(&of_loads) {
-            let pair =
-                |row: &Column, column: &Column| Pair { row: row.unknown, col: column.unknown };
-            pairs.extend(columns.iter().flat_map(|row| columns.iter().map(move |c| pair(row, c))));
-        }
-        (0..count).for_each(|n| pairs.push(Pair { row: n, col: n }));
-        let (pattern, order) = SymbolicSparseColMat::try_new_from_indices(count, count, &pairs)
-            .map_err(|_| Singular)?;
-        let llt = SymbolicLlt::try_new(pattern.as_ref(), Side::Lower).map_err(|_| Singular)?;
-        let (lu, loads) = (OnceLock::new(), couplings.len());
-        Ok(Self { unknowns, count, pattern, order, llt, lu, blocks, loads })
+        let all = blocks.iter().map(|block| &block.columns).chain(&of_loads);
+        let own: Vec<Vec<usize>> =
+            all.map(|columns| columns.iter().map(|column| column.unknown).collect()).collect();
+        let pattern = Pattern::new(count, &own).ok_or(Singular)?;
+        let llt = SymbolicLlt::try_new(pattern.entries.as_ref(), Side::Lower);
+        let llt = llt.map_err(|_| Singular)?;
+        Ok(Self { unknowns, count, pattern, llt, lu: OnceLock::new(), blocks })
     }
 
     /// Assembles and factors a matrix.
@@ -132,26 +129,36 @@ impl Stiffness {
         terms: &Terms,
         team: &Team,
     ) -> Result<Factor, Singular> {
-        assert_eq!(terms.loads.len(), self.loads, "loads of another pattern");
-        let mut values = Vec::with_capacity(self.entries() + self.count);
-        let of_block = |n: usize| element(body, &(terms.of_group)(n), &self.blocks[n]);
-        for matrix in team.map(self.blocks.len(), of_block) {
-            values.extend(matrix);
-        }
-        for load in terms.loads {
-            let columns = columns(&self.unknowns, &load.nodes);
-            let width = 3 * load.nodes.len();
-            for row in &columns {
-                let of_row = &load.matrix[row.place * width..(row.place + 1) * width];
-                values.extend(columns.iter().map(|column| of_row[column.place]));
+        let loads = self.pattern.blocks() - self.blocks.len();
+        assert_eq!(terms.loads.len(), loads, "loads of another pattern");
+        let mut values = self.pattern.zeros();
+        // Some blocks at a time, as all of them together are much larger than the matrix.
+        let widest = self.blocks.iter().map(|block| block.columns.len()).max().unwrap_or(0);
+        let together = (TOGETHER / widest.max(1).pow(2)).max(1);
+        for first in (0..self.blocks.len()).step_by(together) {
+            let count = together.min(self.blocks.len() - first);
+            let of_block =
+                |n: usize| element(body, &(terms.of_group)(first + n), &self.blocks[first + n]);
+            for (n, matrix) in team.map(count, of_block).iter().enumerate() {
+                self.pattern.add(&mut values, first + n, matrix);
             }
         }
-        for (unknowns, mass) in self.unknowns.iter().zip(&body.mass) {
-            let own = unknowns.iter().flatten().map(|_| terms.inertia * mass);
-            values.extend(own);
+        for (n, load) in terms.loads.iter().enumerate() {
+            let columns = columns(&self.unknowns, &load.nodes);
+            let width = 3 * load.nodes.len();
+            let row = |row: &Column| {
+                let of_row = &load.matrix[row.place * width..(row.place + 1) * width];
+                columns.iter().map(|column| of_row[column.place]).collect::<Vec<_>>()
+            };
+            let matrix: Vec<f64> = columns.iter().flat_map(row).collect();
+            self.pattern.add(&mut values, self.blocks.len() + n, &matrix);
         }
-        let matrix = SparseColMat::new_from_argsort(self.pattern.clone(), &self.order, &values)
-            .map_err(|_| Singular)?;
+        for (unknowns, mass) in self.unknowns.iter().zip(&body.mass) {
+            for &unknown in unknowns.iter().flatten() {
+                self.pattern.add_to_diagonal(&mut values, unknown, terms.inertia * mass);
+            }
+        }
+        let matrix = self.pattern.with(values);
         if !terms.is_symmetric {
             return self.factor_indefinite(&matrix);
         }
@@ -164,17 +171,12 @@ impl Stiffness {
     fn factor_indefinite(&self, matrix: &SparseColMat<usize, f64>) -> Result<Factor, Singular> {
         let symbolic = match self.lu.get() {
             Some(symbolic) => symbolic.clone(),
-            None => SymbolicLu::try_new(self.pattern.as_ref()).map_err(|_| Singular)?,
+            None => SymbolicLu::try_new(self.pattern.entries.as_ref()).map_err(|_| Singular)?,
         };
         // Another thread may have been first with the same.
         let _ = self.lu.set(symbolic.clone());
         let lu = Lu::try_new_with_symbolic(symbolic, matrix.as_ref()).map_err(|_| Singular)?;
         Ok(Factor::Indefinite(Box::new(lu)))
-    }
-
-    /// Number of entries of all blocks of points.
-    fn entries(&self) -> usize {
-        self.blocks.iter().map(|block| block.columns.len().pow(2)).sum()
     }
 
     /// Solves for the change of displacements under forces on the nodes.
@@ -292,92 +294,5 @@ impl GroupTangent {
             load
         };
         strains.iter().enumerate().map(of_point).collect()
-    }
-}
-
-/// Stiffness matrix of a block, row by row.
-fn element(body: &Deformable, group: &GroupTangent, block: &Block) -> Vec<f64> {
-    let width = block.columns.len();
-    let mut matrix = vec![0.0; width * width];
-    let weights = &body.space.volume.weights[block.points.clone()];
-    let whole: f64 = weights.iter().sum();
-    let mut swellings = vec![vec![[0.0; 2]; width]; group.swellings.len()];
-    let mut of_places = Vec::new();
-    for (place, point) in block.points.clone().enumerate() {
-        let weight = weights[place];
-        strains(body, point, &block.nodes, &mut of_places);
-        let strains: Vec<Strain> =
-            block.columns.iter().map(|column| of_places[column.place]).collect();
-        for (sums, Swelling { forces, changes, .. }) in swellings.iter_mut().zip(&group.swellings) {
-            for (sums, strain) in sums.iter_mut().zip(&strains) {
-                for (sum, of) in sums.iter_mut().zip([&forces[place], &changes[place]]) {
-                    let entries = strain.entries().iter();
-                    *sum += weight * entries.map(|&(n, g)| of[n / 3][n % 3] * g).sum::<f64>();
-                }
-            }
-        }
-        add(&mut matrix, &strains, &group.points[place], weight);
-    }
-    for (sums, Swelling { stiffness, .. }) in swellings.iter().zip(&group.swellings) {
-        for a in 0..width {
-            for b in 0..width {
-                matrix[a * width + b] += stiffness / whole * sums[a][0] * sums[b][1];
-            }
-        }
-    }
-    matrix.iter_mut().for_each(|value| *value *= group.scale);
-    matrix
-}
-
-/// Entries of the change of F, as place and value, under a unit displacement of a node along an axis.
-#[derive(Debug, Clone, Copy, Default)]
-struct Strain {
-    entries: [(usize, f64); 4],
-    count: usize,
-}
-
-impl Strain {
-    fn push(&mut self, place: usize, value: f64) {
-        self.entries[self.count] = (place, value);
-        self.count += 1;
-    }
-
-    fn entries(&self) -> &[(usize, f64)] {
-        &self.entries[..self.count]
-    }
-}
-
-/// Finds the strains at a point of all nodes of a block and axes.
-fn strains(body: &Deformable, point: usize, nodes: &[u32], strains: &mut Vec<Strain>) {
-    strains.clear();
-    strains.resize(3 * nodes.len(), Strain::default());
-    let volume = &body.space.volume;
-    for value in volume.row(point) {
-        let place = nodes.binary_search(&value.node).expect("a block has the nodes of its rows");
-        for a in 0..3 {
-            let strain = &mut strains[3 * place + a];
-            for (b, &gradient) in value.gradient.iter().enumerate() {
-                if gradient != 0.0 {
-                    strain.push(3 * a + b, gradient);
-                }
-            }
-        }
-        if body.space.form == Form::Axisymmetric {
-            strains[3 * place].push(4, value.value / volume.at[point][0]);
-        }
-    }
-}
-
-fn add(matrix: &mut [f64], strains: &[Strain], tangent: &Tangent, weight: f64) {
-    let width = strains.len();
-    for (b, column) in strains.iter().enumerate().filter(|(_, column)| column.count > 0) {
-        let mut stress = [0.0; 9];
-        for &(n, g) in column.entries() {
-            (0..9).for_each(|m| stress[m] += weight * tangent[m][n] * g);
-        }
-        for (a, row) in strains.iter().enumerate() {
-            let entries = row.entries().iter();
-            matrix[a * width + b] += entries.map(|&(m, g)| stress[m] * g).sum::<f64>();
-        }
     }
 }

@@ -36,7 +36,10 @@ pub enum Failure {
          sound; a higher `sound_speed` of the fluid allows more)"
     )]
     NozzleTooFast { speed: f64, most: f64, time: f64 },
-    #[error("viscosity at t = {time:.6e} s: {reason}")]
+    #[error(
+        "viscosity at t = {time:.6e} s: {reason} (allowed: viscosities that differ less from place to place, or \
+         `pressure = \"explicit\"`, whose steps are shorter)"
+    )]
     Viscosity { reason: NotConverged, time: f64 },
     #[error("the recorded drop is invalid: {reason}")]
     Unrecorded { reason: String },

@@ -43,7 +43,9 @@ pub fn check(checker: &mut Checker) {
                 FilamentMethod::Particles => particles(checker, &path, filament),
             }
             volume(checker, &path, filament);
-            lowest(checker, &path, filament);
+            if checker.is_fine(&path) {
+                lowest(checker, &path, filament);
+            }
         }
     }
     targets(checker);

@@ -142,7 +142,7 @@ impl Machine<'_> {
     }
 
     fn obey(&mut self, (letter, code): (char, f64), values: &Words) -> Result<(), Refusal> {
-        let code = format!("{letter}{}", number(code));
+        let code = format!("{letter}{code}");
         match code.as_str() {
             "G0" | "G1" => self.go(values)?,
             "G2" | "G3" => self.arc(values, code == "G2")?,

@@ -7,7 +7,10 @@
 //! A retraction takes time; fluid comes again when all that was drawn back has been fed.
 
 mod machine;
+mod memo;
 mod motion;
+
+pub use memo::Memo;
 
 use super::filament::PathFile;
 use super::files::with_line_feeds;
@@ -35,6 +38,15 @@ pub struct BadLine {
 
 /// Returns the route that a text describes; `height` is that of the outlet before Z is set [m].
 pub fn route(text: &str, settings: &PathFile, height: f64) -> Result<Route, BadLine> {
+    let PathFile { acceleration, corner_speed, filament_diameter, origin: [x, y], .. } = *settings;
+    let acceleration = acceleration.unwrap_or(f64::NAN);
+    let numbers = [acceleration, corner_speed, filament_diameter, x, y, height];
+    settings.memo.route((text, &numbers), || make(text, settings, height))
+}
+
+fn make(text: &str, settings: &PathFile, height: f64) -> Result<Route, BadLine> {
+    // Some editors begin a file with a mark of its byte order.
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let steps = machine::steps(&with_line_feeds(text), settings, height)?;
     Ok(motion::route(&steps, settings))
 }
@@ -59,6 +71,7 @@ mod tests {
     fn carriage_returns_alone_end_lines() {
         let text = LINE.replace('\n', "\r");
         assert_eq!(of(&text, ""), of(LINE, ""));
+        assert_eq!(of(&format!("\u{feff}{LINE}"), ""), of(LINE, ""));
         let bad = route(&text.replace("M82", "X"), &settings(""), 1e-3).unwrap_err();
         assert_eq!(bad.line, 3);
     }

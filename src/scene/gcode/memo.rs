@@ -1,0 +1,40 @@
+//! The route of a file, kept for the next who asks for it: a scene is asked a dozen times before it runs.
+
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use crate::scene::Route;
+
+/// The last route and a hash of what it was made of. Copies share it.
+#[derive(Debug, Clone, Default)]
+pub struct Memo(Arc<Mutex<Option<(u64, Arc<Route>)>>>);
+
+/// What is remembered makes no difference.
+impl PartialEq for Memo {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl Memo {
+    /// Returns the route of a text and of the numbers that count beside it; makes it if these are new.
+    pub fn route<E>(
+        &self,
+        (text, numbers): (&str, &[f64]),
+        make: impl FnOnce() -> Result<Route, E>,
+    ) -> Result<Route, E> {
+        let mut hasher = DefaultHasher::new();
+        text.hash(&mut hasher);
+        numbers.iter().for_each(|number| number.to_bits().hash(&mut hasher));
+        let key = hasher.finish();
+        let kept = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((own, route)) = kept().as_ref()
+            && *own == key
+        {
+            return Ok(Route::clone(route));
+        }
+        let route = make()?;
+        *kept() = Some((key, Arc::new(route.clone())));
+        Ok(route)
+    }
+}
