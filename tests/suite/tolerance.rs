@@ -452,3 +452,25 @@ start.heat_flux = 1e10
     }
     assert!(error_of_highest("gaussian = { radius = 1e-3 }") < 0.02);
 }
+
+/// The core of a plate whose face cools suddenly changes by a ten thousandth of what its face does: the error of its
+/// temperature counts beside the change of the body's mean.
+#[test]
+fn temperatures_of_a_core_count_beside_the_mean() {
+    let faces = "[body.plate.faces]\ntop = { convection = { coefficient = 6e4, ambient = 280.0 } }\n\
+                 sides = { roller = true }\nbottom = { roller = true }\n";
+    let mesh = "mesh = { spacing = 1e-3, depth_spacing = 6e-5, growth = 1.0 }\n";
+    let text = plate("box = [1e-3, 1e-3, 4e-3]", MATERIALS[2], &format!("{mesh}{faces}"));
+    let text = text.replace("stop_time = 1.0\nstep = 0.05", "stop_time = 0.06\nstep = 2e-3");
+    let scene = scene(&text.replace("initial_temperature = 300.0", "initial_temperature = 600.0"));
+    let (_, estimates) = estimates(&scene);
+    let found = estimates[0].outputs.iter().find(|output| output.name == "plate.max_temperature");
+    let error = found.unwrap().total();
+    let mut trial = Trial::of(scene);
+    (0..30).for_each(|_| trial.step(2e-3));
+    let (core, mean) =
+        (600.0 - trial.get("plate.max_temperature"), -trial.get("plate.heat_stored"));
+    let mean = mean / (3950.0 * 900.0 * 4e-9);
+    assert!(core < 1e-3 * mean && core > 1e-9, "{core} {mean}");
+    assert!(error < 1e-2, "{error}");
+}

@@ -1,10 +1,14 @@
 //! Notes on solids of large strain, and warnings about their values.
 
+use std::f64::consts::PI;
+
+use super::snapshot::copies;
 use super::{forecast, totals};
 use crate::body::Reading;
 use crate::laws::solid::large_strain::Deviator;
 use crate::method::large_strain::Deformable;
-use crate::scene::LargeStrain;
+use crate::scene::{LargeStrain, SolidShape};
+use crate::space::Form;
 use crate::warning::{self, Warning};
 
 /// Dissipation below zero that is no rounding and no error of steps, over the shear modulus times the volume.
@@ -26,11 +30,9 @@ impl Advised {
         });
         let shear = relaxing.map(|layer| layer.law.shear).reduce(f64::max);
         let volume: f64 = body.space.volume.weights.iter().sum();
-        Self {
-            name: name.to_owned(),
-            notes: forecast::notes(solid),
-            unsound: shear.map(|shear| -UNSOUND * shear * volume),
-        }
+        let mut notes = forecast::notes(solid);
+        notes.extend(note_on_volume(solid, copies(solid.mirrors()) * volume));
+        Self { name: name.to_owned(), notes, unsound: shear.map(|shear| -UNSOUND * shear * volume) }
     }
 
     pub fn notes(&self) -> Vec<String> {
@@ -47,4 +49,22 @@ impl Advised {
                 .at(format!("{}.dissipated", self.name))
         })
     }
+}
+
+/// Part of a ball that may be missing without a note.
+const MISSING: f64 = 5e-3;
+
+/// Notes that flat elements fill less than a ball.
+fn note_on_volume(solid: &LargeStrain, filled: f64) -> Option<String> {
+    let SolidShape::Ball(ball) = &solid.shape else { return None };
+    let radius = ball.radius;
+    let whole = match solid.form() {
+        Form::Plane => PI * radius * radius,
+        Form::Axisymmetric | Form::Solid => 4.0 / 3.0 * PI * radius.powi(3),
+    };
+    let missing = 1.0 - filled / whole;
+    let percents = format!("{:.1}", 100.0 * missing);
+    (missing > MISSING).then(|| {
+        format!("flat elements leave out {percents} % of the ball: so much less are mass, momentum and energy")
+    })
 }
