@@ -11,6 +11,7 @@ pub mod eigenvectors;
 pub mod eight;
 pub mod exponential;
 pub mod gauss;
+pub mod geometric_dissection;
 pub mod lagrange;
 pub mod lanes;
 pub mod matrix3;

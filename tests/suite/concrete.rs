@@ -113,8 +113,14 @@ fn bars_bear_their_strength_in_steps_of_any_length() {
     assert!((one / hundred - 1.0).abs() < 2e-3 && (ten / hundred - 1.0).abs() < 2e-3, "{before:?}");
     let peaks = [20, 100].map(|steps| largest(&forces(&bar, ("right", 'x'), 34e-6, steps)));
     assert!(peaks.iter().all(|peak| (peak / 160e3 - 1.0).abs() < 0.02), "{peaks:?}");
-    // A step to far beyond the peak ends on the far side of it.
-    let broken = forces(&bar, ("right", 'x'), 60e-6, 1);
+    // A step to far beyond the peak ends on the far side of it. An even bar may soften evenly, on an equilibrium that is
+    // not stable; half a per cent of taper decides where it breaks.
+    let corners = "[[0.0, 0.0], [160e-3, 0.0], [160e-3, 40e-3], [0.0, 39.8e-3]]";
+    let shape = shape.replace(
+        "box = [160e-3, 1.0, 40e-3]",
+        &format!("quadrilateral = {{ corners = {corners} }}"),
+    );
+    let broken = forces(&held(&shape, faces), ("right", 'x'), 60e-6, 1);
     assert!(broken[0] < 0.25 * 160e3, "{broken:?}");
 }
 

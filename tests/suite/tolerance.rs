@@ -459,7 +459,7 @@ start.heat_flux = 1e10
 fn temperatures_of_a_core_count_beside_the_mean() {
     let faces = "[body.plate.faces]\ntop = { convection = { coefficient = 6e4, ambient = 280.0 } }\n\
                  sides = { roller = true }\nbottom = { roller = true }\n";
-    let mesh = "mesh = { spacing = 1e-3, depth_spacing = 6e-5, growth = 1.0 }\n";
+    let mesh = "mesh = { spacing = 5e-4, depth_spacing = 6e-5, growth = 1.0 }\n";
     let text = plate("box = [1e-3, 1e-3, 4e-3]", MATERIALS[2], &format!("{mesh}{faces}"));
     let text = text.replace("stop_time = 1.0\nstep = 0.05", "stop_time = 0.06\nstep = 2e-3");
     let scene = scene(&text.replace("initial_temperature = 300.0", "initial_temperature = 600.0"));

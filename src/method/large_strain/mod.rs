@@ -16,6 +16,7 @@ mod fragments;
 mod heat;
 mod implicit;
 mod load;
+mod lower;
 mod motion;
 mod newton;
 mod path;

@@ -59,6 +59,8 @@ pub const STEPS: &str = "iterations towards the equilibrium of a solid of large 
 pub const WORK: usize = 1000;
 /// Largest residual over the norm of all forces at nodes.
 const TOLERANCE: f64 = 1e-10;
+/// Part of a prescribed displacement whose forces are taken as linear in concrete.
+const SMALL: f64 = 1e-6;
 /// Rounding of a strain over 1.
 const ROUNDING: f64 = 4e-15;
 
@@ -237,8 +239,29 @@ impl Equilibrium {
         u: &[[f64; 3]],
         jump: &[[f64; 3]],
     ) -> Result<Vec<[f64; 3]>, Failure> {
-        let load = sum(&now.residual, &now.linearised.forces(&self.body, jump, step.team));
+        let forces = match self.body.has_concrete() {
+            true => self.slopes(step, now, u, jump)?,
+            false => now.linearised.forces(&self.body, jump, step.team),
+        };
+        let load = sum(&now.residual, &forces);
         Ok(sum(&self.stiffness.solve(&self.factor(step, u, (now, Flow::Not))?, &load), jump))
+    }
+
+    /// Changes of forces for a jump, from those of a small part of it. Held nodes alone move, so that concrete softens
+    /// beside them first; an even tangent would keep a bar that breaks on an equilibrium that is even and not stable.
+    fn slopes(
+        &self,
+        step: &Step,
+        now: &Trial,
+        u: &[[f64; 3]],
+        jump: &[[f64; 3]],
+    ) -> Result<Vec<[f64; 3]>, Failure> {
+        let small: Vec<[f64; 3]> = jump.iter().map(|x| x.map(|x| SMALL * x)).collect();
+        let moved = self.at(step, &sum(u, &small))?;
+        let slope = |(before, after): (&[f64; 3], &[f64; 3])| {
+            [0, 1, 2].map(|n| (after[n] - before[n]) / SMALL)
+        };
+        Ok(now.residual.iter().zip(&moved.residual).map(slope).collect())
     }
 
     fn at<'s>(&self, step: &Step<'s>, u: &[[f64; 3]]) -> Result<Trial<'s>, Failure> {

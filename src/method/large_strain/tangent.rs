@@ -3,16 +3,18 @@
 use std::ops::Range;
 use std::sync::OnceLock;
 
+use faer::MatMut;
 use faer::prelude::Solve;
 use faer::sparse::SparseColMat;
-use faer::sparse::linalg::solvers::{Llt, Lu, SymbolicLlt, SymbolicLu};
-use faer::{Mat, Side};
+use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 
 use super::element::element;
 use super::load::LoadStiffness;
+use super::lower::{Lower, elimination_order};
 use super::pattern::Pattern;
 use super::{Course, Courses, Deformable};
 use crate::laws::solid::large_strain::{Deformed, LargeStrainLaw, Tangent};
+use crate::math::cholesky::SparseCholesky;
 use crate::math::matrix3::{Matrix3, contraction};
 use crate::runtime::parallel::Team;
 
@@ -23,7 +25,7 @@ pub struct Stiffness {
     count: usize,
     /// Of the blocks and of the further ones of loads.
     pattern: Pattern,
-    llt: SymbolicLlt<usize>,
+    lower: Lower,
     lu: OnceLock<SymbolicLu<usize>>,
     blocks: Vec<Block>,
 }
@@ -78,7 +80,7 @@ pub(super) struct Column {
 
 /// A factored stiffness.
 pub enum Factor {
-    Positive(Llt<usize, f64>),
+    Positive(SparseCholesky),
     Indefinite(Box<Lu<usize, f64>>),
 }
 
@@ -114,9 +116,9 @@ impl Stiffness {
         let own: Vec<Vec<usize>> =
             all.map(|columns| columns.iter().map(|column| column.unknown).collect()).collect();
         let pattern = Pattern::new(count, &own).ok_or(Singular)?;
-        let llt = SymbolicLlt::try_new(pattern.entries.as_ref(), Side::Lower);
-        let llt = llt.map_err(|_| Singular)?;
-        Ok(Self { unknowns, count, pattern, llt, lu: OnceLock::new(), blocks })
+        let order = elimination_order(&body.space.nodes, &unknowns, &pattern.entries);
+        let lower = Lower::of(&pattern.entries, &order).map_err(|_| Singular)?;
+        Ok(Self { unknowns, count, pattern, lower, lu: OnceLock::new(), blocks })
     }
 
     /// Assembles and factors a matrix.
@@ -162,7 +164,7 @@ impl Stiffness {
         if !terms.is_symmetric {
             return self.factor_indefinite(&matrix);
         }
-        match Llt::try_new_with_symbolic(self.llt.clone(), matrix.as_ref(), Side::Lower) {
+        match self.lower.factor(&matrix, team.threads()) {
             Ok(factor) => Ok(Factor::Positive(factor)),
             Err(_) => self.factor_indefinite(&matrix),
         }
@@ -181,19 +183,21 @@ impl Stiffness {
 
     /// Solves for the change of displacements under forces on the nodes.
     pub fn solve(&self, factor: &Factor, forces: &[[f64; 3]]) -> Vec<[f64; 3]> {
-        let mut load = Mat::<f64>::zeros(self.count, 1);
+        let mut values = vec![0.0; self.count];
         for (unknowns, force) in self.unknowns.iter().zip(forces) {
-            for a in 0..3 {
-                if let Some(n) = unknowns[a] {
-                    load[(n, 0)] = force[a];
+            for (unknown, force) in unknowns.iter().zip(force) {
+                if let Some(n) = unknown {
+                    values[*n] = *force;
                 }
             }
         }
-        let solution = match factor {
-            Factor::Positive(llt) => llt.solve(&load),
-            Factor::Indefinite(lu) => lu.solve(&load),
-        };
-        let place = |unknown: Option<usize>| unknown.map_or(0.0, |n| solution[(n, 0)]);
+        match factor {
+            Factor::Positive(cholesky) => cholesky.solve_in_place(&mut values),
+            Factor::Indefinite(lu) => {
+                lu.solve_in_place(MatMut::from_column_major_slice_mut(&mut values, self.count, 1));
+            }
+        }
+        let place = |unknown: Option<usize>| unknown.map_or(0.0, |n| values[n]);
         self.unknowns.iter().map(|unknowns| unknowns.map(place)).collect()
     }
 }
