@@ -58,7 +58,8 @@ impl Passing {
         (passed.warning, passed.last) = (warning, time);
     }
 
-    /// All warnings at a time [s] that ends a run; those without reason any more say when there was one.
+    /// All warnings at a time [s] that ends a run; those without reason any more say when there was one. Every drop is
+    /// a thin film for a while: that counts at the end alone.
     pub fn at_end(&self, end: f64) -> Vec<Warning> {
         let at = |(subject, Passed { warning, first, last }): (&String, &Passed)| {
             if *last >= end {
@@ -69,6 +70,9 @@ impl Passing {
             let place = format!("{}, {span}", warning.place());
             warning.finding().clone().at(place).of_subject(subject)
         };
-        self.found.iter().map(at).collect()
+        let counts = |(_, Passed { warning, last, .. }): &(&String, &Passed)| {
+            *last >= end || warning.finding().id != "film_height_unresolved"
+        };
+        self.found.iter().filter(counts).map(at).collect()
     }
 }

@@ -43,10 +43,6 @@ impl Packed {
     }
 }
 
-/// The scene's file, and its name in messages.
-const FILE: &str = "scene.toml";
-const SCENE: &str = "resources/scene.toml";
-
 static CACHES: SetUpOnce = SetUpOnce::new();
 
 /// Reads the scene in a unit's resource folder and checks the GUID (in FMI 3.0, the instantiation token). Nothing
@@ -60,12 +56,11 @@ pub fn read(resources: &Path, guid: &str) -> Result<Packed, String> {
 }
 
 fn read_here(resources: &Path, guid: &str) -> Result<Packed, String> {
-    let path = resources.join(FILE);
+    let path = resources.join("scene.toml");
     let file = path.display().to_string();
     let text = scene::text_of(&path, &file)
         .map_err(|error| format!("cannot read the unit's scene: {error}"))?;
-    // Where a master unpacked it concerns nobody who reads a message about a line of it.
-    let scene = advice::parse_with_warnings(&text, SCENE).map_err(|error| error.to_string())?;
+    let scene = advice::parse_with_warnings(&text, &file).map_err(|error| error.to_string())?;
     let mut packed = Packed::of(scene, &text);
     if guid != packed.guid {
         let own = &packed.guid;

@@ -103,6 +103,10 @@ impl<'a> Equations for Balance<'a> {
         Residual { norm, scale, wanted: TOLERANCE * scale + rounding }
     }
 
+    fn forces<'t>(&self, trial: &'t Self::Trial) -> &'t [[f64; 3]] {
+        &trial.residual
+    }
+
     fn softens(&self) -> bool {
         self.dynamics.body.has_concrete()
     }

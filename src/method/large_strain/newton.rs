@@ -2,9 +2,10 @@
 //!
 //! Whole steps come first. Where a slender body turns, they raise the residual a thousandfold, by the stretch that is of
 //! second order in the angle, and take it down again in the next; a search for steps that do not raise it would creep.
-//! From a state that is too far away they never settle. Then the way begins anew, with steps that are halved while they
-//! raise the residual. A body that softens has several equilibria, and halved steps from the first on stay near the last
-//! one.
+//! From a state that is too far away they never settle, as where metal yields by many times its yield strain. Then the
+//! way begins anew, with steps that end where the work of the residual along them vanishes, about: at the least energy,
+//! which metals without softening have in a step. The last attempt halves steps while they raise the residual. A body
+//! that softens has several equilibria, and halved steps from the first on stay near the last one.
 
 use super::Failure;
 
@@ -24,6 +25,9 @@ pub trait Equations {
     ) -> Result<Vec<[f64; 3]>, Failure>;
 
     fn residual(&self, trial: &Self::Trial) -> Residual;
+
+    /// Forces on free nodes that are not balanced [N].
+    fn forces<'t>(&self, trial: &'t Self::Trial) -> &'t [[f64; 3]];
 
     /// Returns true if a body has several equilibria.
     fn softens(&self) -> bool;
@@ -53,16 +57,25 @@ pub struct Solved<T> {
 const ITERATIONS: usize = 25;
 /// Iterations after which the residuals of whole steps fall, or the way begins anew.
 const RISING: usize = 5;
-/// Halvings of a Newton step before it is given up.
-const HALVINGS: usize = 8;
+/// Lengths of a Newton step that are tried before it is given up.
+const LENGTHS: usize = 8;
+const HALF: f64 = 0.5;
+/// Least part, and part less than the whole, to which a search shortens a step.
+const LEAST: f64 = 0.1;
 /// Growth of the residual at which a Newton step is halved: large rotations raise it on their way.
 const GROWTH: f64 = 2.0;
+/// Work of the residual along a step, over that at its beginning, at which a step has passed the least energy by too
+/// much.
+const PAST: f64 = 0.8;
 /// Part of the forces up to which a residual that falls no more is rounding: slender bodies bend by little strain.
 const STALLED: f64 = 1e-7;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Steps {
     Whole,
+    /// To about the least energy.
+    Searched,
+    /// While the residual grows.
     Halved,
 }
 
@@ -75,14 +88,17 @@ pub fn solve<E: Equations>(
     if equations.softens() {
         return iterate(equations, (u, now), Steps::Halved);
     }
-    match iterate(equations, (u.clone(), now), Steps::Whole) {
-        Err(failure @ Failure::Halted(_)) => Err(failure),
-        Err(_) => {
-            let now = equations.at(&u)?;
-            iterate(equations, (u, now), Steps::Halved)
+    let mut now = Some(now);
+    for steps in [Steps::Whole, Steps::Searched] {
+        let first = now.take().map_or_else(|| equations.at(&u), Ok)?;
+        match iterate(equations, (u.clone(), first), steps) {
+            Err(failure @ Failure::Halted(_)) => return Err(failure),
+            Err(_) => {}
+            solved => return solved,
         }
-        solved => solved,
     }
+    let now = equations.at(&u)?;
+    iterate(equations, (u, now), Steps::Halved)
 }
 
 fn iterate<E: Equations>(
@@ -112,7 +128,7 @@ fn iterate<E: Equations>(
     Ok(Solved { u, trial: now, residuals })
 }
 
-/// A Newton step, halved while the material is turned inside out, or while the residual grows as well.
+/// A Newton step, shortened while the material is turned inside out, or as the search for its length asks.
 fn improve<E: Equations>(
     equations: &E,
     (u, now, is_first): (&[[f64; 3]], &E::Trial, bool),
@@ -120,20 +136,32 @@ fn improve<E: Equations>(
 ) -> Result<(Vec<[f64; 3]>, E::Trial), Failure> {
     let before = equations.residual(now);
     let mut change = equations.change(u, now, is_first)?;
-    for _ in 0..HALVINGS {
+    // Work of the residual along the whole step.
+    let way = change.clone();
+    let along = |trial: &E::Trial| {
+        let forces = equations.forces(trial).as_flattened().iter();
+        forces.zip(way.as_flattened()).map(|(force, way)| force * way).sum::<f64>()
+    };
+    let first = along(now);
+    for _ in 0..LENGTHS {
         let next = sum(u, &change);
-        match equations.at(&next) {
+        let part = match equations.at(&next) {
             Ok(trial) => {
-                let norm = equations.residual(&trial).norm;
-                let is_fine = steps == Steps::Whole || norm < GROWTH * before.norm;
+                let (norm, last) = (equations.residual(&trial).norm, along(&trial));
+                let (is_fine, part) = match steps {
+                    Steps::Whole => (true, HALF),
+                    Steps::Searched => (last > -PAST * first, first / (first - last)),
+                    Steps::Halved => (norm < GROWTH * before.norm, HALF),
+                };
                 if norm.is_finite() && is_fine {
                     return Ok((next, trial));
                 }
+                if part.is_finite() { part.clamp(LEAST, 1.0 - LEAST) } else { HALF }
             }
             Err(Failure::Halted(halt)) => return Err(halt.into()),
-            Err(_) => {}
-        }
-        change.iter_mut().flatten().for_each(|x| *x *= 0.5);
+            Err(_) => HALF,
+        };
+        change.iter_mut().flatten().for_each(|x| *x *= part);
     }
     Err(equations.unbalanced(before.norm / before.scale))
 }

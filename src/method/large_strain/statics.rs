@@ -124,6 +124,10 @@ impl<'a> Equations for Balance<'a> {
         Residual { norm, scale, wanted: TOLERANCE * scale + self.equilibrium.rounding }
     }
 
+    fn forces<'t>(&self, trial: &'t Self::Trial) -> &'t [[f64; 3]] {
+        &trial.residual
+    }
+
     fn softens(&self) -> bool {
         self.equilibrium.body.has_concrete()
     }
