@@ -67,7 +67,7 @@ impl Dissection<'_> {
             let along = nodes.iter().map(|&node| self.places[node as usize][axis]);
             along.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)])
         };
-        let extents = [0, 1, 2].map(|axis| range(axis)).map(|[low, high]| high - low);
+        let extents = [0, 1, 2].map(range).map(|[low, high]| high - low);
         let axis = (0..3).max_by(|&a, &b| extents[a].total_cmp(&extents[b]))?;
         let along = |node: &u32| self.places[*node as usize][axis];
         nodes.sort_by(|a, b| along(a).total_cmp(&along(b)).then(a.cmp(b)));

@@ -5,9 +5,16 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::scene::Route;
 
-/// The last route and a hash of what it was made of. Copies share it.
+/// The last route. Copies share it.
 #[derive(Debug, Clone, Default)]
-pub struct Memo(Arc<Mutex<Option<(u64, Arc<Route>)>>>);
+pub struct Memo(Arc<Mutex<Option<Kept>>>);
+
+/// A route and a hash of what it was made of.
+#[derive(Debug)]
+struct Kept {
+    key: u64,
+    route: Route,
+}
 
 /// What is remembered makes no difference.
 impl PartialEq for Memo {
@@ -28,13 +35,11 @@ impl Memo {
         numbers.iter().for_each(|number| number.to_bits().hash(&mut hasher));
         let key = hasher.finish();
         let kept = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((own, route)) = kept().as_ref()
-            && *own == key
-        {
-            return Ok(Route::clone(route));
+        if let Some(own) = kept().as_ref().filter(|own| own.key == key) {
+            return Ok(own.route.clone());
         }
         let route = make()?;
-        *kept() = Some((key, Arc::new(route.clone())));
+        *kept() = Some(Kept { key, route: route.clone() });
         Ok(route)
     }
 }
