@@ -15,6 +15,9 @@ pub struct Passing {
     found: BTreeMap<String, Passed>,
 }
 
+/// Rule that counts at the end alone: every drop is a thin film for a while.
+const OF_FILMS: &str = "film_height_unresolved";
+
 /// A warning of a span of a run.
 struct Passed {
     warning: Warning,
@@ -58,8 +61,7 @@ impl Passing {
         (passed.warning, passed.last) = (warning, time);
     }
 
-    /// All warnings at a time [s] that ends a run; those without reason any more say when there was one. Every drop is
-    /// a thin film for a while: that counts at the end alone.
+    /// All warnings at a time [s] that ends a run; those without reason any more say when there was one.
     pub fn at_end(&self, end: f64) -> Vec<Warning> {
         let at = |(subject, Passed { warning, first, last }): (&String, &Passed)| {
             if *last >= end {
@@ -71,7 +73,7 @@ impl Passing {
             warning.finding().clone().at(place).of_subject(subject)
         };
         let counts = |(_, Passed { warning, last, .. }): &(&String, &Passed)| {
-            *last >= end || warning.finding().id != "film_height_unresolved"
+            *last >= end || warning.finding().id != OF_FILMS
         };
         self.found.iter().filter(counts).map(at).collect()
     }

@@ -44,6 +44,7 @@ mod freezing;
 mod frozen;
 mod held_faces;
 mod impact;
+mod implicit_steps;
 mod impossible;
 mod joints;
 mod large_strain;

@@ -4,12 +4,13 @@ use std::f64::consts::PI;
 
 use impinge::advice::parse_with_warnings;
 use impinge::closed_form::{
-    Conductor, Contact, ConvectiveSlab, ResistiveContact, ShockedHalfSpace,
+    Conductor, Contact, ConvectiveSlab, ResistiveContact, Rubber, ShockedHalfSpace, Sides,
 };
 use impinge::scene;
 use impinge::warning::Warning;
 
 use crate::common::{Trial, off};
+use crate::driven_solids::rubber;
 
 /// A scene of one body with further keys.
 fn scene(material: &str, keys: &str) -> String {
@@ -489,5 +490,28 @@ fn overheated_bodies_are_warned_of() {
         let found = ids(trial.model.warnings(&trial.state));
         let expected: &[&str] = if warned { &["solid_beyond_substance"] } else { &[] };
         assert_eq!(found, expected, "{flux}");
+    }
+}
+
+/// Heat passes the shape that a step begins with, where a face that has jumped has drawn it, too.
+#[test]
+fn flux_enters_through_the_deformed_area() {
+    for (stretch, laws) in [(2.0, "0.4999"), (0.5, "0.4999"), (1.5, "0.3")] {
+        let drawn = 10e-3 * (stretch - 1.0);
+        let faces = format!(
+            "faces = {{ bottom = {{ roller = true, temperature = 293.15 }}, \
+             top = {{ roller = true, displacement = [0.0, 0.0, {drawn:?}], flux = 100.0 }} }}"
+        );
+        let shape = "shape = { box = [10e-3, 10e-3, 10e-3] }\nsymmetry = \"quarter\"";
+        let text = rubber(&format!("{shape}\nmesh = {{ spacing = 2.5e-3 }}\n{faces}"))
+            .replace("poisson = 0.4 ", &format!("poisson = {laws} "));
+        let law = Rubber::of_young(1e6, laws.parse().unwrap());
+        let lateral = law.lateral(stretch, Sides::Free);
+        for parts in [1, 4] {
+            let mut trial = Trial::new(&text);
+            (0..parts).for_each(|_| trial.step(4.0 / f64::from(parts)));
+            let wanted = 4.0 * 100.0 * (10e-3 * lateral).powi(2);
+            assert!(off(trial.get("pad.heat_in"), wanted) < 1e-9, "{stretch} in {parts}");
+        }
     }
 }

@@ -33,6 +33,7 @@ mod quench;
 mod random_scenes;
 mod reproducing;
 mod spread;
+mod springback;
 mod strand_particles;
 mod study;
 mod tension;

@@ -85,8 +85,9 @@ struct Step<'a> {
     allowance: &'a Allowance,
 }
 
-/// Whether points yield in the tangent of an iteration. In the first of a step they do not: of points on their yield
-/// surfaces rounding decides whether they do, a body with both kinds is uneven, and one that unloads does not yield.
+/// Flow in the tangent of an iteration. Rounding decides whether a point on its yield surface yields at the beginning of
+/// a step, and a body with both kinds of points deforms unevenly. So no point yields in the first iteration, which is
+/// right for a body that unloads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Flow {
     Not,

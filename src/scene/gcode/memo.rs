@@ -16,7 +16,7 @@ struct Kept {
     route: Route,
 }
 
-/// What is remembered makes no difference.
+/// Scenes are equal whatever they remember.
 impl PartialEq for Memo {
     fn eq(&self, _: &Self) -> bool {
         true

@@ -80,8 +80,8 @@ impl LargeStrainLaw {
         matches!(self.deviator, Deviator::Plastic(_) | Deviator::Concrete(_))
     }
 
-    /// Returns the law of a material that bears any stress without yielding, for the tangent of a point that is about
-    /// to yield or to unload; that of concrete as it is.
+    /// Returns the law of a metal that never yields, for the tangent of a point that is about to yield or to unload; all
+    /// other laws are unchanged.
     pub fn without_flow(&self) -> Self {
         let mut law = self.clone();
         if let Deviator::Plastic(plastic) = &mut law.deviator {

@@ -1,0 +1,70 @@
+//! What stays of a strip of metal that was bent beyond its yield stress: the table of `docs/theory/large_strain.md`.
+
+use crate::common::Trial;
+
+const LENGTH: f64 = 50e-3;
+const HEIGHT: f64 = 2e-3;
+
+/// Deflection of the end of a cantilever under a multiple of the load of first yield, and after unloading [m].
+fn bent(across: f64, load: f64, hardening: f64) -> [f64; 2] {
+    let text = format!(
+        r#"
+name = "Springback"
+stop_time = 2.0
+step = 0.25
+[body.strip]
+kind = "solid"
+strain = "finite"
+dimension = 2
+section = "plane_stress"
+shape = {{ box = [{LENGTH:?}, 1.0, {HEIGHT:?}] }}
+mesh = {{ spacing = {:?} }}
+initial_temperature = 293.15
+faces = {{ left = {{ clamped = true }}, right = {{ traction = [0.0, 0.0, 0.0] }} }}
+[body.strip.material]
+model = "elastoplastic"
+density = 2700.0
+specific_heat = 900.0
+conductivity = 200.0
+young = 70e9
+poisson = 0.33
+yield_stress = 100e6
+isotropic_hardening = {hardening:?}
+[[probe]]
+name = "end"
+in = "strip"
+at = [{:?}, 0.0, {:?}]
+gives = ["displacement"]
+"#,
+        HEIGHT / across,
+        0.5 * LENGTH,
+        -0.5 * HEIGHT
+    );
+    let mut trial = Trial::new(&text);
+    let most = load * 100e6 * HEIGHT / (6.0 * LENGTH);
+    let mut to = |part: f64| {
+        trial.set("strip.right.traction_z", part * most);
+        trial.step(0.25);
+        trial.get("end.displacement_z")
+    };
+    let under_load = [0.25, 0.5, 0.75, 1.0].map(&mut to)[3];
+    [under_load, [0.75, 0.5, 0.25, 0.0].map(&mut to)[3]]
+}
+
+#[test]
+fn what_stays_of_a_bend_converges_to_second_order() {
+    for (load, hardening, errors) in
+        [(1.3, 1e9, [-0.41, -0.15, -0.04]), (1.45, 7e9, [-0.36, -0.10, -0.03])]
+    {
+        let found = [4.0, 8.0, 16.0, 32.0].map(|across| bent(across, load, hardening));
+        let limit = [0, 1].map(|n| found[3][n] + (found[3][n] - found[2][n]) / 3.0);
+        let off = found.map(|own| [0, 1].map(|n| own[n] / limit[n] - 1.0));
+        println!("springback at {load}: under load {limit:?} m, errors {off:?}");
+        for (found, wanted) in off.iter().zip(errors) {
+            assert!((found[1] - wanted).abs() < 0.015, "{off:?}");
+        }
+        // From 8 elements on errors fall by a quarter.
+        let order = ((found[2][1] - found[1][1]) / (found[3][1] - found[2][1])).log2();
+        assert!(order > 1.7, "{order}");
+    }
+}
