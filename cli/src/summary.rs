@@ -14,7 +14,7 @@ const BALANCED: f64 = 1e-9;
 const BALANCED_BY_PARTICLES: f64 = 5e-2;
 
 /// Totals of a body with a history of deformation.
-const IS_FLOW: [&str; 18] = [
+const IS_FLOW: [&str; 19] = [
     ".max_plastic_strain",
     ".plastic_work",
     ".dissipated",
@@ -28,6 +28,7 @@ const IS_FLOW: [&str; 18] = [
     ".crack_area",
     ".first_crack_time",
     ".first_crack_x",
+    ".first_crack_y",
     ".first_crack_z",
     ".crack_growth",
     ".crack_length",

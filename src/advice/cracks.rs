@@ -6,8 +6,8 @@ use super::flaws::is_shocked;
 use crate::laws::heat::unevenness;
 use crate::limits::number;
 use crate::quantity::percent;
+use crate::scene::Solid;
 use crate::scene::locate::Path;
-use crate::scene::{Shape, Solid};
 use crate::warning;
 
 /// Largest length of damage over the smallest extent of the body's section.
@@ -43,11 +43,7 @@ pub fn review(reviewer: &mut Reviewer) {
     }
 }
 
-/// Smallest extent of the section in which cracks run [m].
+/// Smallest extent of the body, or of the section, in which cracks run [m].
 fn smallest_extent(solid: &Solid) -> f64 {
-    let across = match solid.shape {
-        Shape::Box([x, ..]) => x,
-        Shape::Disc(disc) => 2.0 * disc.radius,
-    };
-    across.min(solid.shape.thickness())
+    solid.extents_of_cracks().into_iter().fold(f64::INFINITY, f64::min)
 }

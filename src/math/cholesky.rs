@@ -163,6 +163,11 @@ impl Elimination {
         Ok(Self { symbolic: Arc::new(symbolic) })
     }
 
+    /// Number of entries of the factors.
+    pub fn entries(&self) -> usize {
+        self.symbolic.len_val()
+    }
+
     /// Factors a matrix of the same pattern.
     pub fn factor(
         &self,

@@ -52,7 +52,7 @@ pub struct Solid {
     #[schemars(extend("otherwise" = "automatic"))]
     pub mesh: Mesh,
     /// Plane section x–z that represents a box: nothing varies along y.
-    #[schemars(extend("condition" = "of boxes that crack (`fracture`)"))]
+    #[schemars(extend("condition" = "of boxes that crack (`fracture`)", "otherwise" = "cracks in space"))]
     pub section: Option<PlaneSection>,
     /// Conditions on faces.
     #[serde(default)]
@@ -70,7 +70,7 @@ pub struct Solid {
     pub bath: Option<Bath>,
     /// Cracks at time zero.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(extend("condition" = "of bodies that crack (`fracture`)", "otherwise" = "none"))]
+    #[schemars(extend("condition" = "of discs and plane sections that crack (`fracture`)", "otherwise" = "none"))]
     pub notches: Vec<Notch>,
     /// Running maxima of the body as outputs, each with its time and position.
     #[serde(default)]

@@ -4,7 +4,7 @@
 use closed_form::edge_crack::shocked;
 use closed_form::gradient_damage::beside_at1;
 use impinge::laws::fracture::{Dissipation, GradientDamage, Principal, Split};
-use impinge::method::damage::{DamageProblem, DamageState, Effort, Elements, Form, Section};
+use impinge::method::damage::{DamageState, Effort, Elements, Form, Section, SectionProblem};
 use impinge::runtime::allowance::Allowance;
 
 pub const YOUNG: f64 = 100.0;
@@ -20,7 +20,7 @@ const DEPTH: f64 = 20.0;
 
 /// Damage problem of a plane section in AT1, with a crack from one end of an axis to its tip.
 pub struct Cracked {
-    pub problem: DamageProblem,
+    pub problem: SectionProblem,
     pub state: DamageState,
     axes: [Vec<f64>; 2],
 }
@@ -58,7 +58,7 @@ impl Cracked {
         let nodes: Vec<[usize; 2]> =
             (0..counts[0] * counts[1]).map(|n| [n % counts[0], n / counts[0]]).collect();
         let held = nodes.iter().flat_map(|&node| held(node, counts)).collect();
-        let problem = DamageProblem::new(Elements::new(section, law), held, threads);
+        let problem = SectionProblem::new(Elements::new(section, law), held, threads);
         let mut state = problem.initial_state();
         for (damage, [i, j]) in state.damage.iter_mut().zip(&nodes) {
             *damage = beside_at1(distance([axes[0][*i], axes[1][*j]]).max(0.0));

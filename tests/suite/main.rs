@@ -25,6 +25,7 @@ mod coarse_large_strain;
 mod concrete;
 mod contact;
 mod cracks;
+mod cracks_in_space;
 mod creep;
 mod demand;
 mod derivatives;

@@ -15,6 +15,7 @@ mod concrete;
 mod conduction;
 mod contact;
 mod cracks;
+mod cracks_in_space;
 #[path = "../common/edge_crack.rs"]
 mod edge_crack;
 mod elasticity;

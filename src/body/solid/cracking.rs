@@ -6,10 +6,10 @@ use super::SolidBody;
 use super::memo::SolidMemo;
 use super::notched::Notched;
 use crate::body::{Acts, BodyError};
-use crate::laws::fracture::{Components, Dissipation};
+use crate::laws::fracture::Dissipation;
 use crate::method::damage::{
-    BreakingOrder, Cracks, DamageError, DamageProblem, DamageState, Elements, Energies, Form,
-    Section, Side,
+    BreakingOrder, Cracks, DamageError, DamageModel, DamageProblem, DamageState, Domain, Elements,
+    Energies, Form, Side,
 };
 use crate::method::fem::elastic::Support;
 use crate::method::fem::{Deformation, Geometry, Mesh, Plan, Remembered, SolidLoads};
@@ -22,6 +22,9 @@ const MOST_HALVES: u32 = 4;
 const PART_OF_BREAKING: f64 = 0.25;
 /// Largest temperature above the stress-free one in a state [K].
 const HOTTEST: f64 = 1e100;
+/// Axes of the mesh along which sections are meshed, and bodies in space.
+const IN_SECTION: [usize; 2] = [0, 2];
+const IN_SPACE: [usize; 3] = [0, 1, 2];
 /// Distance from a crack up to which its damage reaches with AT1, over the length of damage.
 const REACH: f64 = 2.0;
 
@@ -37,9 +40,11 @@ pub(super) struct DamageAway {
     pub scatters: bool,
 }
 
-/// The mechanics of a solid that cracks, in a section of its mesh.
+/// The mechanics of a solid that cracks, on its mesh or in a section of it.
 pub struct Cracking {
-    problem: DamageProblem,
+    problem: Box<dyn DamageModel>,
+    /// Axes of the body's mesh along which it is meshed: all, or those of a section.
+    along: &'static [usize],
     /// Numbers of nodes of the body's mesh.
     counts: [usize; 3],
     /// Number of copies of the mesh that make up the body.
@@ -48,8 +53,8 @@ pub struct Cracking {
     width: Option<f64>,
     /// Its notches, if it has any.
     notched: Option<Notched>,
-    /// Kinds of the section's sides.
-    sides: [[Side; 2]; 2],
+    /// Kinds of the sides along these axes.
+    sides: Vec<[Side; 2]>,
     /// Largest change of temperature in a part of a step [K].
     most_change: f64,
 }
@@ -69,32 +74,67 @@ impl Cracking {
     pub fn of(plan: &Plan, threads: usize) -> Option<Self> {
         let law = plan.damage?;
         let mesh = &plan.mesh;
-        let thickness = mesh.axes[1].end() - mesh.axes[1].start();
-        let form = match (mesh.geometry, law.elastic.is_plane_stress) {
-            (Geometry::Axisymmetric, _) => Form::Axisymmetric,
-            (Geometry::Box, true) => Form::PlaneStress { thickness },
-            (Geometry::Box, false) => Form::PlaneStrain { thickness },
-        };
-        let along_y = if mesh.mirrored[1] { 2.0 } else { 1.0 };
-        let axes = [mesh.axes[0].nodes.clone(), mesh.axes[2].nodes.clone()];
         let breaking = law.strength() / (law.elastic.young * law.expansion.abs());
-        let elements = Elements::new(Section { axes, form }, law);
-        let problem = DamageProblem::new(elements, held(plan), threads);
-        let width = (mesh.geometry == Geometry::Box).then_some(along_y * thickness);
+        let thickness = mesh.axes[1].end() - mesh.axes[1].start();
+        let along_y = if mesh.mirrored[1] { 2.0 } else { 1.0 };
+        let along: &[usize] = if plan.cracks_in_section { &IN_SECTION } else { &IN_SPACE };
+        let nodes = |axis: usize| mesh.axes[axis].nodes.clone();
+        let held = held(plan, along);
+        let width = (plan.cracks_in_section && mesh.geometry == Geometry::Box)
+            .then_some(along_y * thickness);
+        let (problem, notched): (Box<dyn DamageModel>, _) = if plan.cracks_in_section {
+            let form = match (mesh.geometry, law.elastic.is_plane_stress) {
+                (Geometry::Axisymmetric, _) => Form::Axisymmetric,
+                (Geometry::Box, true) => Form::PlaneStress { thickness },
+                (Geometry::Box, false) => Form::PlaneStrain { thickness },
+            };
+            let domain = Domain { axes: IN_SECTION.map(nodes), form };
+            let problem = DamageProblem::<2, 4, 4>::new(Elements::new(domain, law), held, threads);
+            let notched = Notched::of(&problem, &plan.notches, (mesh, width));
+            (Box::new(problem), notched)
+        } else {
+            let domain = Domain { axes: IN_SPACE.map(nodes), form: Form::Space };
+            let problem = DamageProblem::<3, 8, 6>::new(Elements::new(domain, law), held, threads);
+            (Box::new(problem), None)
+        };
         Some(Self {
-            notched: Notched::of(&problem, &plan.notches, (mesh, width)),
+            notched,
             problem,
+            along,
             counts: mesh.node_counts(),
             copies: mesh.copies(),
             width,
-            sides: sides(plan),
+            sides: sides(plan, along),
             most_change: PART_OF_BREAKING * breaking,
         })
     }
 
-    /// Number of nodes of the section.
+    /// Number of nodes that crack.
     fn nodes(&self) -> usize {
-        self.counts[0] * self.counts[2]
+        self.along.iter().map(|&axis| self.counts[axis]).product()
+    }
+
+    /// Number of components of a displacement and of a place.
+    fn dimension(&self) -> usize {
+        self.along.len()
+    }
+
+    /// Places in the mechanical part of a state of what follows the fields of the nodes: work, clock, place and time of
+    /// the first crack.
+    fn work_at(&self) -> usize {
+        (self.dimension() + 2) * self.nodes()
+    }
+
+    fn clock_at(&self) -> usize {
+        self.work_at() + 1
+    }
+
+    fn place_at(&self) -> Range<usize> {
+        self.clock_at() + 1..self.clock_at() + 1 + self.dimension()
+    }
+
+    fn first_at(&self) -> usize {
+        self.place_at().end
     }
 
     /// Returns the state at time zero: in equilibrium at a temperature above the stress-free one [K], without forces.
@@ -103,10 +143,12 @@ impl Cracking {
         let mut state = notched.unwrap_or_else(|| self.problem.initial_state());
         if rise != 0.0 {
             let rises = vec![rise; self.nodes()];
-            let none = vec![0.0; 2 * self.nodes()];
+            let none = vec![0.0; self.dimension() * self.nodes()];
             let before = state.clone();
             // The first step reports what keeps a body from its equilibrium.
-            if self.problem.advance(&mut state, (&rises, &none), &Allowance::default()).is_err() {
+            let (loads, mut order) = ((&rises[..], &none[..]), BreakingOrder::default());
+            let allowance = Allowance::default();
+            if self.problem.advance(&mut state, loads, &allowance, &mut order).is_err() {
                 state = before;
             }
         }
@@ -118,26 +160,30 @@ impl Cracking {
     pub fn layout(&self) -> Layout {
         let field = |name, words, per, width| Field { name, words, per, width };
         let nodes = self.nodes();
+        let displacement = match self.dimension() {
+            2 => "displacement in the section [m]",
+            _ => "displacement [m]",
+        };
+        let place = "place of the first crack, or 0 [m]";
         Layout::default()
-            .with(field("displacement", "displacement in the section [m]", Per::Node, 2), nodes)
+            .with(field("displacement", displacement, Per::Node, self.dimension()), nodes)
             .with(field("damage", "damage [1]", Per::Node, 1), nodes)
             .with(field("rise", "temperature of the equilibrium [K]", Per::Node, 1), nodes)
             .with(field("work", "work of loads and thermal strain [J]", Per::Body, 1), 1)
             .with(field("clock", "time since the start [s]", Per::Body, 1), 1)
-            .with(field("first_crack_place", "place of the first crack, or 0 [m]", Per::Body, 2), 1)
+            .with(field("first_crack_place", place, Per::Body, self.dimension()), 1)
             .with(field("first_crack", "clock at the first crack, or 0 [s]", Per::Body, 1), 1)
     }
 
-    /// Places of displacement, damage and temperature in the mechanical part of a state; work, clock, place and time of
-    /// the first crack follow.
+    /// Places of displacement, damage and temperature in the mechanical part of a state.
     fn places(&self) -> [Range<usize>; 3] {
-        let nodes = self.nodes();
-        [0..2 * nodes, 2 * nodes..3 * nodes, 3 * nodes..4 * nodes]
+        let (nodes, moved) = (self.nodes(), self.dimension() * self.nodes());
+        [0..moved, moved..moved + nodes, moved + nodes..moved + 2 * nodes]
     }
 
     fn load(&self, flat: &[f64]) -> DamageState {
         let [displacement, damage, rise] = self.places().map(|place| flat[place].to_vec());
-        DamageState { displacement, damage, rise, work: flat[4 * self.nodes()] }
+        DamageState { displacement, damage, rise, work: flat[self.work_at()] }
     }
 
     fn store(&self, state: &DamageState, flat: &mut [f64]) {
@@ -145,17 +191,17 @@ impl Cracking {
         for (place, list) in self.places().into_iter().zip(lists) {
             flat[place].copy_from_slice(list);
         }
-        flat[4 * self.nodes()] = state.work;
+        flat[self.work_at()] = state.work;
     }
 
     /// Time since the start and that of the first crack, zero before it [s].
     fn times(&self, flat: &[f64]) -> [f64; 2] {
-        [1, 4].map(|after| flat[4 * self.nodes() + after])
+        [flat[self.clock_at()], flat[self.first_at()]]
     }
 
-    /// Place of the first crack: x, or the radius, and z; zero before it [m].
-    fn place_of_first(&self, flat: &[f64]) -> [f64; 2] {
-        [2, 3].map(|after| flat[4 * self.nodes() + after])
+    /// Place of the first crack: x, or the radius, in space y, and z; zero before it [m].
+    fn place_of_first<'a>(&self, flat: &'a [f64]) -> &'a [f64] {
+        &flat[self.place_at()]
     }
 
     /// Advances the clock, and notes its time at the end of the first part of a step that leaves a crack, with the
@@ -163,33 +209,30 @@ impl Cracking {
     fn note_time(&self, flat: &mut [f64], duration: f64, order: &BreakingOrder) {
         let [clock, first] = self.times(flat);
         let clock = clock + duration;
-        let own = 4 * self.nodes();
-        flat[own + 1] = clock;
+        flat[self.clock_at()] = clock;
         if first != 0.0 {
             return;
         }
         let cracked = self.cracked(flat);
         if let Some(node) = order.first_of(&cracked) {
-            let place = self.problem.elements.section.place(node);
-            flat[own + 2..own + 4].copy_from_slice(&place);
-            flat[own + 4] = clock;
+            flat[self.place_at()].copy_from_slice(&self.problem.place(node));
+            flat[self.first_at()] = clock;
         }
     }
 
     /// Nodes of cracks that are not those of notches.
     fn cracked(&self, flat: &[f64]) -> Vec<usize> {
         let [_, damage, _] = self.places();
-        let (section, damage) = (&self.problem.elements.section, &flat[damage]);
+        let damage = &flat[damage];
         match &self.notched {
-            Some(notched) => section.grown(damage, &notched.cut),
-            None => section.grown(damage, &vec![false; damage.len()]),
+            Some(notched) => self.problem.grown(damage, &notched.cut),
+            None => self.problem.grown(damage, &vec![false; damage.len()]),
         }
     }
 
     fn cracks(&self, flat: &[f64]) -> Cracks {
         let [_, damage, _] = self.places();
-        let elements = &self.problem.elements;
-        elements.section.cracks(&flat[damage], self.sides, elements.law.length)
+        self.problem.cracks(&flat[damage], &self.sides)
     }
 
     /// Refuses damage outside of its range, and impossible temperatures and times.
@@ -206,35 +249,40 @@ impl Cracking {
         if !is_possible || first != 0.0 && self.cracked(flat).is_empty() {
             return Err(format!("a first crack at {first:e} s, {clock:e} s from the start"));
         }
-        let place @ [along, z] = self.place_of_first(flat);
-        let axes = &self.problem.elements.section.axes;
-        let is_inside = axes.iter().zip(place).all(|(axis, at)| {
-            axis.first().is_some_and(|&low| low <= at)
-                && axis.last().is_some_and(|&high| at <= high)
+        let place = self.place_of_first(flat);
+        let is_inside = self.problem.axes().iter().zip(place).all(|(axis, at)| {
+            axis.first().is_some_and(|low| low <= at) && axis.last().is_some_and(|high| at <= high)
         });
-        match if first == 0.0 { place == [0.0; 2] } else { is_inside } {
+        match if first == 0.0 { place.iter().all(|at| *at == 0.0) } else { is_inside } {
             true => Ok(()),
-            false => {
-                Err(format!("a first crack at [{along:e}, {z:e}] m, {first:e} s from the start"))
-            }
+            false => Err(format!("a first crack at {place:?} m, {first:e} s from the start")),
         }
     }
 
-    /// Values of the section's nodes at the nodes of the body's mesh.
+    /// Values of the nodes that crack at the nodes of the body's mesh.
     fn spread<T: Copy>(&self, section: &[T]) -> Vec<T> {
         let [columns, rows, _] = self.counts;
+        let rows = if self.is_section() { rows } else { 1 };
         let layers = section.chunks(columns);
         layers.flat_map(|layer| std::iter::repeat_n(layer, rows).flatten().copied()).collect()
     }
 
-    /// Nodal values of the body's mesh at the section's nodes: those of the first row along y.
-    fn first_row(&self, nodal: &[f64]) -> Vec<f64> {
+    fn is_section(&self) -> bool {
+        self.along == IN_SECTION
+    }
+
+    /// Nodal values of the body's mesh at the nodes that crack: those of the first row along y of a section.
+    fn gathered(&self, nodal: &[f64]) -> Vec<f64> {
         let [columns, rows, _] = self.counts;
+        let rows = if self.is_section() { rows } else { 1 };
         nodal.chunks(columns * rows).flat_map(|layer| &layer[..columns]).copied().collect()
     }
 
-    /// Forces on the section's nodes from those on the nodes of the body's mesh [N].
-    fn section_forces(&self, forces: &[f64]) -> Vec<f64> {
+    /// Forces on the nodes that crack from those on the nodes of the body's mesh [N].
+    fn gathered_forces(&self, forces: &[f64]) -> Vec<f64> {
+        if !self.is_section() {
+            return forces.to_vec();
+        }
         let [columns, rows, layers] = self.counts;
         let degrees = forces.len() / (columns * rows * layers);
         let mut found = vec![0.0; 2 * self.nodes()];
@@ -246,8 +294,11 @@ impl Cracking {
         found
     }
 
-    /// Displacement of the nodes of the body's mesh: along z and, in boxes, along y, where it is zero.
+    /// Displacement of the nodes of the body's mesh: that of a plane section is zero along y.
     fn displacement(&self, state: &DamageState) -> Vec<f64> {
+        if !self.is_section() {
+            return state.displacement.clone();
+        }
         let in_section: Vec<[f64; 2]> =
             state.displacement.chunks(2).map(|own| [own[0], own[1]]).collect();
         let nodal = self.spread(&in_section);
@@ -258,44 +309,51 @@ impl Cracking {
     }
 }
 
-/// Kinds of the section's sides. Cracks along a face that is held begin elsewhere.
-fn sides(plan: &Plan) -> [[Side; 2]; 2] {
+/// Kinds of the sides along some axes of the mesh. Cracks along a face that is held begin elsewhere.
+fn sides(plan: &Plan, along: &[usize]) -> Vec<[Side; 2]> {
     let mesh: &Mesh = &plan.mesh;
-    let mut sides = [[Side::Face; 2]; 2];
-    for (face, _) in plan.supports.iter().filter(|(face, _)| face.axis != 1) {
-        sides[usize::from(face.axis == 2)][usize::from(face.high)] = Side::Held;
+    let mut sides = [[Side::Face; 2]; 3];
+    for (face, _) in &plan.supports {
+        sides[face.axis][usize::from(face.high)] = Side::Held;
     }
     match mesh.geometry {
         Geometry::Axisymmetric => sides[0][0] = Side::Axis,
-        Geometry::Box if mesh.mirrored[0] => sides[0][0] = Side::Mirror,
-        Geometry::Box => {}
+        Geometry::Box => {
+            let mirrored = (0..2).filter(|&axis| mesh.mirrored[axis]);
+            mirrored.for_each(|axis| sides[axis][0] = Side::Mirror);
+        }
     }
-    sides
+    along.iter().map(|&axis| sides[axis]).collect()
 }
 
-/// Displacements of the section's nodes that supports, planes of symmetry and the axis hold.
-fn held(plan: &Plan) -> Vec<bool> {
+/// Displacements along some axes of the mesh that supports, planes of symmetry and the axis hold.
+fn held(plan: &Plan, along: &[usize]) -> Vec<bool> {
     let mesh: &Mesh = &plan.mesh;
-    let [columns, _, layers] = mesh.node_counts();
-    let mut held = vec![false; 2 * columns * layers];
-    let mut hold = |axis: usize, high: bool, components: &[usize]| {
-        for node in 0..columns * layers {
-            let (place, count) =
-                if axis == 0 { (node % columns, columns) } else { (node / columns, layers) };
-            if place == if high { count - 1 } else { 0 } {
-                components.iter().for_each(|component| held[2 * node + component] = true);
+    let counts: Vec<usize> = along.iter().map(|&axis| mesh.node_counts()[axis]).collect();
+    let width = along.len();
+    let mut held = vec![false; width * counts.iter().product::<usize>()];
+    let mut hold = |axis: usize, high: bool, components: std::ops::Range<usize>| {
+        let Some(own) = along.iter().position(|&other| other == axis) else { return };
+        let stride: usize = counts[..own].iter().product();
+        for (node, held) in held.chunks_exact_mut(width).enumerate() {
+            if node / stride % counts[own] == if high { counts[own] - 1 } else { 0 } {
+                held[components.clone()].fill(true);
             }
         }
     };
-    for (face, support) in plan.supports.iter().filter(|(face, _)| face.axis != 1) {
-        let normal = [usize::from(face.axis == 2)];
+    let normal = |axis: usize| {
+        let own = along.iter().position(|&other| other == axis).unwrap_or(0);
+        own..own + 1
+    };
+    for (face, support) in &plan.supports {
         match support {
-            Support::Clamped => hold(face.axis, face.high, &[0, 1]),
-            Support::Roller => hold(face.axis, face.high, &normal),
+            Support::Clamped => hold(face.axis, face.high, 0..width),
+            Support::Roller => hold(face.axis, face.high, normal(face.axis)),
         }
     }
-    if mesh.mirrored[0] || mesh.geometry == Geometry::Axisymmetric {
-        hold(0, false, &[0]);
+    let is_axisymmetric = mesh.geometry == Geometry::Axisymmetric;
+    for axis in (0..2).filter(|&axis| mesh.mirrored[axis] || axis == 0 && is_axisymmetric) {
+        hold(axis, false, normal(axis));
     }
     held
 }
@@ -330,12 +388,11 @@ impl SolidBody {
         let start = state.to_vec();
         heat(&mut state[..self.heat_len], acts)?;
         let mut mechanics = cracking.load(self.mechanics_of(state));
-        let (rise, forces) = self.section_loads(cracking, state, acts)?;
+        let (rise, forces) = self.loads_on_cracking(cracking, state, acts)?;
         let changes = rise.iter().zip(&mechanics.rise).map(|(new, old)| (new - old).abs());
         if halves == 0 || changes.fold(0.0, f64::max) <= cracking.most_change {
             let (mut order, loads) = (BreakingOrder::default(), (&rise[..], &forces[..]));
-            let advanced =
-                cracking.problem.advance_noting(&mut mechanics, loads, allowance, &mut order);
+            let advanced = cracking.problem.advance(&mut mechanics, loads, allowance, &mut order);
             advanced.map_err(|error| self.damage_error(error))?;
             let length = cracking.layout().len();
             let own = &mut state[self.heat_len..][..length];
@@ -347,8 +404,8 @@ impl SolidBody {
         acts.in_halves(|half| self.crack_in_part(advance, state, half, halves - 1))
     }
 
-    /// Temperatures above the stress-free one [K] and forces [N] at the section's nodes at the end of a step.
-    fn section_loads(
+    /// Temperatures above the stress-free one [K] and forces [N] at the nodes that crack at the end of a step.
+    fn loads_on_cracking(
         &self,
         cracking: &Cracking,
         state: &[f64],
@@ -363,9 +420,9 @@ impl SolidBody {
         let thermal = self.solid.above_stress_free(temperatures);
         let rise = match thermal[0].is_empty() {
             true => vec![0.0; cracking.nodes()],
-            false => cracking.first_row(&thermal[0]),
+            false => cracking.gathered(&thermal[0]),
         };
-        Ok((rise, cracking.section_forces(&self.nodal_forces(&loads)?)))
+        Ok((rise, cracking.gathered_forces(&self.nodal_forces(&loads)?)))
     }
 
     fn damage_error(&self, error: DamageError) -> BodyError {
@@ -379,12 +436,7 @@ impl SolidBody {
     /// Displacement, stress and damage of a body that cracks.
     pub(super) fn cracked(&self, cracking: &Cracking, state: &[f64]) -> Deformation {
         let state = cracking.load(self.mechanics_of(state));
-        // The normal of a plane section is y, that of a meridian section the hoop.
-        let of_section =
-            |[first, second, third, shear]: Components| [first, third, second, 0.0, 0.0, shear];
-        let stress: Vec<[f64; 6]> =
-            cracking.problem.stress(&state).into_iter().map(of_section).collect();
-        let remembered = Remembered::elastic(cracking.spread(&stress));
+        let remembered = Remembered::elastic(cracking.spread(&cracking.problem.stress(&state)));
         let damage = cracking.spread(&state.damage);
         Deformation::of_nodes(cracking.displacement(&state), remembered).with_damage(damage)
     }
@@ -401,9 +453,9 @@ impl SolidBody {
         let Some(cracking) = &self.cracking else { return DamageAway::default() };
         let [_, damage, _] = cracking.places();
         let damage = &self.mechanics_of(state)[damage];
-        let Elements { section, law, .. } = &cracking.problem.elements;
+        let law = cracking.problem.law();
         let nodes = match law.dissipation {
-            Dissipation::At1 => section.away_from_broken(damage, REACH * law.length),
+            Dissipation::At1 => cracking.problem.away_from_broken(damage, REACH * law.length),
             Dissipation::At2 => (0..damage.len()).collect(),
         };
         let most = nodes.iter().map(|&node| damage[node]).fold(0.0, f64::max);
@@ -420,7 +472,7 @@ impl SolidBody {
         let Some(cracking) = &self.cracking else { return 0.0 };
         let [displacement, damage, _] = cracking.places();
         let own = self.mechanics_of(state);
-        cracking.problem.elements.section.opening(&own[displacement], &own[damage])
+        cracking.problem.opening(&own[displacement], &own[damage])
     }
 
     /// Number and depth of the cracks of a state.
@@ -436,10 +488,12 @@ impl SolidBody {
         first
     }
 
-    /// Place of the first crack: x, or the radius, and z [m]; zero before it, and without cracks.
-    pub(super) fn place_of_first_crack(&self, state: &[f64]) -> [f64; 2] {
-        let Some(cracking) = &self.cracking else { return [0.0; 2] };
-        cracking.place_of_first(self.mechanics_of(state))
+    /// Place of the first crack along an axis: x, or the radius, in space y, and z [m]; zero before it, and without
+    /// cracks.
+    pub(super) fn place_of_first_crack(&self, state: &[f64], axis: usize) -> f64 {
+        let Some(cracking) = &self.cracking else { return 0.0 };
+        let own = cracking.along.iter().position(|&other| other == axis);
+        own.map_or(0.0, |own| cracking.place_of_first(self.mechanics_of(state))[own])
     }
 
     /// Returns true if a crack of the later state is not part of one of the earlier.
@@ -447,7 +501,7 @@ impl SolidBody {
         let Some(cracking) = &self.cracking else { return false };
         let [_, damage, _] = cracking.places();
         let [before, after] = [before, after].map(|own| &self.mechanics_of(own)[damage.clone()]);
-        cracking.problem.elements.section.has_new_crack(before, after)
+        cracking.problem.has_new_crack(before, after)
     }
 
     /// Energies of a body that cracks [J].
@@ -464,19 +518,17 @@ impl SolidBody {
     /// Work that loads and thermal strain have done [J].
     pub(super) fn work_of_cracks(&self, state: &[f64]) -> f64 {
         let Some(cracking) = &self.cracking else { return 0.0 };
-        cracking.copies * self.mechanics_of(state)[4 * cracking.nodes()]
+        cracking.copies * self.mechanics_of(state)[cracking.work_at()]
     }
 
     /// Area of notches and cracks, and that of notches [m²]; zero without cracks.
     pub(super) fn areas_of_cracks(&self, state: &[f64], memo: &mut SolidMemo) -> [f64; 2] {
         let Some(cracking) = &self.cracking else { return [0.0; 2] };
-        let by_energy =
-            self.energies(state, memo).dissipated / cracking.problem.elements.law.energy;
+        let by_energy = self.energies(state, memo).dissipated / cracking.problem.law().energy;
         let Some(notched) = &cracking.notched else { return [by_energy, 0.0] };
         let [_, damage, _] = cracking.places();
         let damage = &self.mechanics_of(state)[damage];
-        let section = &cracking.problem.elements.section;
-        [notched.area_of_cracks(section, damage, by_energy), notched.area]
+        [notched.area_of_cracks(damage, by_energy), notched.area]
     }
 
     /// Width of a plane section that cracks [m].

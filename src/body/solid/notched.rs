@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::method::damage::{DamageProblem, DamageState, Section};
+use crate::method::damage::{DamageState, Section, SectionProblem, broken};
 use crate::method::fem::{Geometry, Mesh};
 use crate::runtime::allowance::Allowance;
 use crate::scene::Notch;
@@ -19,31 +19,40 @@ pub struct Notched {
     excess: f64,
     /// Ends of notches within the section.
     ends: usize,
+    section: Section,
 }
 
 impl Notched {
     /// The notches of a section, whose damage is the least that they need; `None` without any. `width` is that of a
     /// plane section [m].
     pub fn of(
-        problem: &DamageProblem,
+        problem: &SectionProblem,
         notches: &[Notch],
         (mesh, width): (&Mesh, Option<f64>),
     ) -> Option<Self> {
         if notches.is_empty() {
             return None;
         }
-        let section = &problem.elements.section;
+        let section = &problem.elements.domain;
         let state = at_start(problem, notches);
-        let cut = Section::broken(&state.damage);
+        let cut = broken(&state.damage);
         let area = notches.iter().map(|notch| area_of(notch, mesh, width)).sum();
         let dissipated = mesh.copies() * problem.energies(&state).dissipated;
         let excess = dissipated / problem.elements.law.energy - area;
-        Some(Self { ends: section.ends(&state.damage, &cut), state, cut, area, excess })
+        Some(Self {
+            ends: section.ends(&state.damage, &cut),
+            section: section.clone(),
+            state,
+            cut,
+            area,
+            excess,
+        })
     }
 
     /// Area of notches and cracks [m²] whose energy is that of this area: less that of the damage around the ends of
     /// notches, which moves with them, and goes where they reach a side.
-    pub fn area_of_cracks(&self, section: &Section, damage: &[f64], by_energy: f64) -> f64 {
+    pub fn area_of_cracks(&self, damage: &[f64], by_energy: f64) -> f64 {
+        let section = &self.section;
         if section.grown(damage, &self.cut).is_empty() {
             return self.area;
         }
@@ -56,10 +65,10 @@ impl Notched {
 }
 
 /// The state of a section with notches in equilibrium without load.
-fn at_start(problem: &DamageProblem, notches: &[Notch]) -> DamageState {
+fn at_start(problem: &SectionProblem, notches: &[Notch]) -> DamageState {
     let mut state = problem.initial_state();
     for notch in notches {
-        for node in problem.elements.section.nodes_along([notch.from, notch.to]) {
+        for node in problem.elements.domain.nodes_along([notch.from, notch.to]) {
             state.damage[node] = 1.0;
         }
     }

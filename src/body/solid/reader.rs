@@ -203,9 +203,9 @@ impl SolidReader<'_> {
         self.body.time_of_first_crack(self.state)
     }
 
-    /// Place of the first crack: x, or the radius, and z [m].
-    pub fn place_of_first_crack(&self) -> [f64; 2] {
-        self.body.place_of_first_crack(self.state)
+    /// Place of the first crack along an axis: x, or the radius, y and z [m].
+    pub fn place_of_first_crack(&self, axis: usize) -> f64 {
+        self.body.place_of_first_crack(self.state, axis)
     }
 
     /// Depth of the deepest crack [m].

@@ -3,7 +3,7 @@
 use crate::laws::fracture::GradientDamage;
 use crate::limits::number;
 use crate::quantity::percent;
-use crate::scene::{Mesh, Scene, Solid, Symmetry, lateral_extents};
+use crate::scene::{Mesh, Scene, Solid, Symmetry};
 
 /// Duration from which savings are proposed, and for which the proposal aims [s].
 const LONG: f64 = 600.0;
@@ -42,8 +42,9 @@ pub fn savings(
 /// A mesh that is finer than damage needs.
 fn finer_than_needed(solid: &Solid, law: &GradientDamage) -> Option<String> {
     let needed = law.length / Mesh::NODES_PER_LENGTH;
-    let spacing = solid.mesh.spacing_of_cracks(law.length);
-    let part = spacing[0].min(needed) * spacing[1].min(needed) / (needed * needed);
+    let [along, through] =
+        solid.mesh.spacing_of_cracks(law.length).map(|own| own.min(needed) / needed);
+    let part = if solid.cracks_in_space() { along * along * through } else { along * through };
     (part < 1.0 / WORTH).then(|| {
         format!(
             "`mesh.spacing = {:.2e}` (ℓ/3) without a `depth_spacing` takes {} of this time, with the energy of cracks \
@@ -56,9 +57,10 @@ fn finer_than_needed(solid: &Solid, law: &GradientDamage) -> Option<String> {
 
 /// A longer length of damage.
 fn longer(solid: &Solid, law: &GradientDamage, time: f64) -> Option<String> {
-    let [x, _] = lateral_extents(&solid.shape);
-    let extent = x.min(solid.shape.thickness());
-    let factor = (time / LONG).sqrt().min(LARGEST_PART * extent / law.length);
+    let extents = solid.extents_of_cracks();
+    let extent = extents.iter().copied().fold(f64::INFINITY, f64::min);
+    let dimension = extents.len() as f64;
+    let factor = (time / LONG).powf(1.0 / dimension).min(LARGEST_PART * extent / law.length);
     if factor < WORTH {
         return None;
     }
@@ -73,16 +75,20 @@ fn longer(solid: &Solid, law: &GradientDamage, time: f64) -> Option<String> {
         "{key} takes {} of this time, as ℓ goes with 1/strength²: cracks then begin at {strength:.1e} Pa instead \
          of {:.1e} Pa, so that more of them begin, and earlier, where there is no notch; those longer than some ℓ run \
          as before, since G_c stays",
-        percent(1.0 / (factor * factor)),
+        percent(factor.powf(-dimension)),
         law.strength()
     ))
 }
 
 /// Half of a body whose loads are even.
 fn symmetry(solid: &Solid) -> Option<String> {
-    let is_whole = solid.symmetry != Symmetry::Quarter && solid.section.is_some();
-    is_whole.then(|| {
-        "`symmetry = \"quarter\"` halves the nodes of what is even about its middle, cracks included".to_owned()
+    let part = match (solid.section.is_some(), solid.cracks_in_space()) {
+        (true, _) => "halves",
+        (_, true) => "quarters",
+        _ => return None,
+    };
+    (solid.symmetry != Symmetry::Quarter).then(|| {
+        format!("`symmetry = \"quarter\"` {part} the nodes of what is even about its middle, cracks included")
     })
 }
 

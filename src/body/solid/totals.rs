@@ -26,9 +26,10 @@ enum Offered {
     Yielding,
     /// Those whose moduli relax.
     Relaxing,
-    /// Those that crack, and their plane sections.
+    /// Those that crack, and among them plane sections and bodies in space.
     Cracking,
     CrackingSections,
+    CrackingInSpace,
     /// Plane sections that crack and have notches.
     Notched,
     /// Those whose mechanics is modelled.
@@ -37,7 +38,7 @@ enum Offered {
     Breaking,
 }
 
-const TOTALS: [Total; 31] = [
+const TOTALS: [Total; 32] = [
     Total {
         descriptor: Descriptor {
             key: "max_temperature",
@@ -173,13 +174,22 @@ const TOTALS: [Total; 31] = [
         "first_crack_x",
         "x, or the radius in a disc, of the place outside of notches that broke first, 0 until then",
         Quantity::Length,
-        |reader| Ok(reader.place_of_first_crack()[0]),
+        |reader| Ok(reader.place_of_first_crack(0)),
     ),
+    Total {
+        of: Offered::CrackingInSpace,
+        ..of_cracks(
+            "first_crack_y",
+            "y of the place that broke first, 0 until then",
+            Quantity::Length,
+            |reader| Ok(reader.place_of_first_crack(1)),
+        )
+    },
     of_cracks(
         "first_crack_z",
         "z of the place outside of notches that broke first, 0 until then",
         Quantity::Length,
-        |reader| Ok(reader.place_of_first_crack()[1]),
+        |reader| Ok(reader.place_of_first_crack(2)),
     ),
     of_cracks(
         "crack_depth",
@@ -304,6 +314,7 @@ pub fn offered_totals(scene: &Scene, (name, solid): (&str, &Solid)) -> Vec<(usiz
         Offered::Mechanical => scene.asks_mechanics(name),
         Offered::Cracking => solid.cracks(),
         Offered::CrackingSections => solid.cracks() && solid.section.is_some(),
+        Offered::CrackingInSpace => solid.cracks_in_space(),
         Offered::Notched => solid.cracks() && solid.section.is_some() && !solid.notches.is_empty(),
         Offered::Breaking => solid.has_flaws(),
     };

@@ -4,11 +4,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::principal_axes::PrincipalAxes;
 use super::scatter::scattered;
-use super::split::{Principal, Split};
-
-/// Strain or stress along both axes of a section, along its normal (the hoop), and the shear between the axes.
-pub type Components = [f64; 4];
+use super::split::{Principal, Remaining, Split};
+use crate::math::matrix3::Matrix3;
 
 /// Local part w of the energy of cracks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -60,44 +59,12 @@ pub struct GradientDamage {
 
 /// Response of a point.
 #[derive(Debug, Clone, Copy)]
-pub struct PointResponse {
+pub struct PointResponse<const V: usize> {
     /// [Pa]
-    pub stress: Components,
-    /// Derivatives of the stress by the strain, in principal axes.
-    pub stiffness: PrincipalStiffness,
+    pub stress: [f64; V],
     /// Energy that cracks release, and that which they leave [J/m³].
     pub released: f64,
     pub remaining: f64,
-}
-
-/// Stiffness of a point in its principal axes.
-#[derive(Debug, Clone, Copy)]
-pub struct PrincipalStiffness {
-    /// Derivatives of principal stresses by principal strains [Pa].
-    normal: [[f64; 3]; 3],
-    /// Stiffness against a turn of the axes in the plane [Pa].
-    turning: f64,
-    /// Cosine and sine of twice the angle of the first principal axis.
-    double_angle: [f64; 2],
-}
-
-impl PrincipalStiffness {
-    /// Derivatives of the stress by the strain [Pa].
-    pub fn tangent(&self) -> [Components; 4] {
-        let Self { normal, turning, double_angle: [cosine, sine] } = *self;
-        let (high, low) = (0.5 * (1.0 + cosine), 0.5 * (1.0 - cosine));
-        let axes: [Components; 3] =
-            [[high, low, 0.0, 0.5 * sine], [low, high, 0.0, -0.5 * sine], [0.0, 0.0, 1.0, 0.0]];
-        let turn = [-sine, sine, 0.0, cosine];
-        std::array::from_fn(|a| {
-            let rows: [f64; 3] =
-                std::array::from_fn(|j| (0..3).map(|i| axes[i][a] * normal[i][j]).sum());
-            std::array::from_fn(|b| {
-                let normal: f64 = (0..3).map(|j| rows[j] * axes[j][b]).sum();
-                normal + turning * turn[a] * turn[b]
-            })
-        })
-    }
 }
 
 /// Part of the stiffness that damage takes: `g(d) = (1 − k)(1 − d)² + k`.
@@ -111,13 +78,13 @@ pub fn degradation(damage: f64) -> f64 {
 impl GradientDamage {
     /// Energy of damage and of its gradient per volume, `G_c/c_w (w/ℓ + ℓ|∇d|²)` [J/m³]; `weights` are those of
     /// the element.
-    pub fn dissipated(&self, weights: [f64; 2], damage: f64, gradient: [f64; 2]) -> f64 {
+    pub fn dissipated(&self, weights: [f64; 2], damage: f64, gradient: &[f64]) -> f64 {
         let [local, spread] = weights;
         let own = match self.dissipation {
             Dissipation::At1 => damage,
             Dissipation::At2 => damage * damage,
         };
-        local * own + spread * gradient.map(|g| g * g).iter().sum::<f64>()
+        local * own + spread * gradient.iter().map(|g| g * g).sum::<f64>()
     }
 
     /// Factors of w [J/m³] and of |∇d|² [J/m] in an element of a size h [m].
@@ -126,7 +93,7 @@ impl GradientDamage {
     /// sides: cracks would dissipate `G_c (1 + h/(c_w ℓ))` (B. Bourdin, G. A. Francfort & J.-J. Marigo 2008, doi
     /// 10.1007/s10659-007-9107-3, §8.1). With G_c and ℓ multiplied by `1 − h/(c_w ℓ)` they dissipate G_c, and the
     /// strength, which follows from G_c/ℓ, is the same.
-    pub fn weights(&self, size: f64, element: [usize; 2]) -> [f64; 2] {
+    pub fn weights<const D: usize>(&self, size: f64, element: [usize; D]) -> [f64; 2] {
         let normalisation = self.dissipation.normalisation();
         let own = self.scattered(element) * self.energy / normalisation;
         let part = 1.0 - size / (normalisation * self.length);
@@ -134,8 +101,8 @@ impl GradientDamage {
     }
 
     /// Factor of the energy in an element, from its place.
-    fn scattered(&self, [column, row]: [usize; 2]) -> f64 {
-        scattered(self.scatter, self.seed, [column as u64, row as u64])
+    fn scattered<const D: usize>(&self, element: [usize; D]) -> f64 {
+        scattered(self.scatter, self.seed, element.map(|place| place as u64))
     }
 
     /// Largest uniaxial stress of a material without gradients of damage [Pa]: the elastic limit `√(3EG_c/(8ℓ))` of
@@ -164,69 +131,55 @@ impl GradientDamage {
     }
 
     /// Energy that a crack releases at the elastic strain of a point [J/m³].
-    pub fn released(&self, strain: Components) -> f64 {
-        let principal = InPlane::of(strain).principal(strain[2]);
+    pub fn released<A: PrincipalAxes<V>, const V: usize>(&self, strain: [f64; V]) -> f64 {
+        let (_, principal) = A::of(strain);
         let intact = self.elastic.intact(principal).energy;
         intact - self.split.remaining(&self.elastic, principal).energy
     }
 
     /// Response to the elastic strain of a point.
-    pub fn respond(&self, strain: Components, damage: f64) -> PointResponse {
-        let in_plane = InPlane::of(strain);
-        let third = strain[2];
-        let principal = in_plane.principal(third);
-        let InPlane { mean, radius, double_angle } = in_plane;
-        let [cosine, sine] = double_angle;
-        let intact = self.elastic.intact(principal);
-        let left = self.split.remaining(&self.elastic, principal);
-        let factor = degradation(damage);
-        let mix = |intact: f64, left: f64| factor * (intact - left) + left;
-        let p: [f64; 3] = std::array::from_fn(|i| mix(intact.stress[i], left.stress[i]));
-        let h: [[f64; 3]; 3] = std::array::from_fn(|i| {
-            std::array::from_fn(|j| mix(intact.tangent[i][j], left.tangent[i][j]))
-        });
-        let turning = match radius > 1e-9 * (mean.abs() + third.abs()) && radius > 0.0 {
-            true => (p[0] - p[1]) / (4.0 * radius),
-            false => 0.25 * (h[0][0] + h[1][1]) - 0.5 * h[0][1],
-        };
-        let (centre, spread) = (0.5 * (p[0] + p[1]), 0.5 * (p[0] - p[1]));
-        let stress = [centre + spread * cosine, centre - spread * cosine, p[2], spread * sine];
+    pub fn respond<A: PrincipalAxes<V>, const V: usize>(
+        &self,
+        strain: [f64; V],
+        damage: f64,
+    ) -> PointResponse<V> {
+        let (axes, principal) = A::of(strain);
+        let [intact, left] = self.energies(principal);
         PointResponse {
-            stress,
-            stiffness: PrincipalStiffness { normal: h, turning, double_angle },
+            stress: axes.stress(mixed(damage, intact.stress, left.stress)),
             released: intact.energy - left.energy,
             remaining: left.energy,
         }
     }
-}
 
-/// Mohr's circle of the strain in the section.
-struct InPlane {
-    mean: f64,
-    radius: f64,
-    /// Cosine and sine of twice the angle of the first principal axis.
-    double_angle: [f64; 2],
-}
-
-impl InPlane {
-    fn of([along, across, _, shear]: Components) -> Self {
-        let (mean, half) = (0.5 * (along + across), 0.5 * (along - across));
-        let radius = (half * half + 0.25 * shear * shear).sqrt();
-        let double_angle = match radius > 0.0 {
-            true => [half / radius, 0.5 * shear / radius],
-            false => [1.0, 0.0],
-        };
-        Self { mean, radius, double_angle }
+    /// Derivatives of the stress of a point by its elastic strain [Pa].
+    pub fn tangent<A: PrincipalAxes<V>, const V: usize>(
+        &self,
+        strain: [f64; V],
+        damage: f64,
+    ) -> [[f64; V]; V] {
+        let (axes, principal) = A::of(strain);
+        let [intact, left] = self.energies(principal);
+        let slopes: Matrix3 =
+            std::array::from_fn(|i| mixed(damage, intact.tangent[i], left.tangent[i]));
+        axes.tangent(mixed(damage, intact.stress, left.stress), &slopes)
     }
 
-    /// Principal strains, of which the third is given.
-    fn principal(&self, third: f64) -> [f64; 3] {
-        [self.mean + self.radius, self.mean - self.radius, third]
+    /// Energy of the intact material, and the part of it that cracks leave.
+    fn energies(&self, principal: [f64; 3]) -> [Remaining; 2] {
+        [self.elastic.intact(principal), self.split.remaining(&self.elastic, principal)]
     }
+}
+
+/// What damage leaves of intact values: nothing of a part, and all of the rest `left`.
+fn mixed(damage: f64, intact: [f64; 3], left: [f64; 3]) -> [f64; 3] {
+    let factor = degradation(damage);
+    std::array::from_fn(|i| factor * (intact[i] - left[i]) + left[i])
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::principal_axes::{InPlane, InSpace};
     use super::*;
 
     fn law(split: Split) -> GradientDamage {
@@ -242,33 +195,65 @@ mod tests {
         }
     }
 
-    #[test]
-    fn stress_and_tangent_are_derivatives_of_the_energy() {
+    /// Asserts that stress and tangent are derivatives of the energy at some strains.
+    fn derivatives<A: PrincipalAxes<V>, const V: usize>(strains: &[[f64; V]]) {
         const H: f64 = 1e-6;
         for split in [Split::None, Split::NoTension, Split::Spectral, Split::Volumetric] {
             let law = law(split);
-            for strain in [
-                [0.4, -0.2, 0.1, 0.7],
-                [-0.3, 0.2, -0.5, 0.01],
-                [0.3, 0.3, -0.2, 0.0],
-                [-0.1, -0.2, -0.3, 0.2],
-            ] {
-                let own = law.respond(strain, 0.6);
-                for axis in 0..4 {
+            let respond = |strain| law.respond::<A, V>(strain, 0.6);
+            for strain in strains {
+                let (own, tangent) = (respond(*strain), law.tangent::<A, V>(*strain, 0.6));
+                for axis in 0..V {
                     let at = |h: f64| {
-                        let mut moved = strain;
+                        let mut moved = *strain;
                         moved[axis] += h;
-                        law.respond(moved, 0.6)
+                        respond(moved)
                     };
-                    let energy = |of: PointResponse| degradation(0.6) * of.released + of.remaining;
+                    let energy =
+                        |of: PointResponse<V>| degradation(0.6) * of.released + of.remaining;
                     let slope = (energy(at(H)) - energy(at(-H))) / (2.0 * H);
                     assert!((slope - own.stress[axis]).abs() < 1e-6, "{split:?} {strain:?} {axis}");
-                    for row in 0..4 {
+                    for row in 0..V {
                         let slope = (at(H).stress[row] - at(-H).stress[row]) / (2.0 * H);
-                        let found = own.stiffness.tangent()[row][axis];
+                        let found = tangent[row][axis];
                         assert!((slope - found).abs() < 1e-5, "{split:?} {strain:?} {row} {axis}");
                     }
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn stress_and_tangent_are_derivatives_of_the_energy() {
+        derivatives::<InPlane, 4>(&[
+            [0.4, -0.2, 0.1, 0.7],
+            [-0.3, 0.2, -0.5, 0.01],
+            [0.3, 0.3, -0.2, 0.0],
+            [-0.1, -0.2, -0.3, 0.2],
+        ]);
+        // Two and three equal principal strains among them.
+        derivatives::<InSpace, 6>(&[
+            [0.4, -0.2, 0.1, 0.7, -0.3, 0.2],
+            [-0.3, 0.2, -0.5, 0.01, 0.4, -0.6],
+            [0.3, 0.3, -0.2, 0.0, 0.0, 0.0],
+            [-0.2, -0.2, -0.2, 0.0, 0.0, 0.0],
+            [0.1, 0.1, 0.1, 0.4, 0.4, 0.4],
+            [-0.1, -0.2, -0.3, 0.2, 0.1, 0.05],
+        ]);
+    }
+
+    #[test]
+    fn response_in_space_is_that_of_a_section_whose_normal_is_y() {
+        for split in [Split::None, Split::NoTension, Split::Spectral, Split::Volumetric] {
+            let law = law(split);
+            for [xx, zz, yy, xz] in [[0.4, -0.2, 0.1, 0.7], [-0.3, 0.2, -0.5, 0.01]] {
+                let plane = law.respond::<InPlane, 4>([xx, zz, yy, xz], 0.3);
+                let space = law.respond::<InSpace, 6>([xx, yy, zz, 0.0, 0.0, xz], 0.3);
+                let [sx, sz, sy, sxz] = plane.stress;
+                for (own, wanted) in space.stress.iter().zip([sx, sy, sz, 0.0, 0.0, sxz]) {
+                    assert!((own - wanted).abs() < 1e-12, "{split:?} {own} {wanted}");
+                }
+                assert!((plane.released - space.released).abs() < 1e-12);
             }
         }
     }

@@ -5,6 +5,7 @@ mod crack_growth;
 mod cracking;
 mod damage;
 mod normal_average;
+mod principal_axes;
 mod quasi_brittle;
 mod scatter;
 mod slow_growth;
@@ -14,7 +15,8 @@ mod weibull;
 
 pub use crack_growth::CrackGrowth;
 pub use cracking::Cracking;
-pub use damage::{Components, DEGRADED, Dissipation, GradientDamage, PointResponse, degradation};
+pub use damage::{DEGRADED, Dissipation, GradientDamage, PointResponse, degradation};
+pub use principal_axes::{InPlane, InSpace, PrincipalAxes};
 pub use quasi_brittle::{QuasiBrittle, SofteningKeys, SofteningModel};
 pub use scatter::scattered;
 pub use slow_growth::SlowGrowth;
@@ -46,7 +48,7 @@ pub struct Brittleness {
     /// Cracks that run.
     #[serde(default, rename = "fracture", skip_serializing_if = "Option::is_none")]
     #[schemars(extend(
-        "condition" = "of bodies of one thermoelastic material: discs, and boxes with `section`",
+        "condition" = "of bodies of one thermoelastic material",
         "otherwise" = "nothing cracks"
     ))]
     pub cracking: Option<Cracking>,

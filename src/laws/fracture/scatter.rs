@@ -1,8 +1,8 @@
 //! Scatter of strengths and energies.
 
-/// Factor with the mean 1, evenly distributed between `1 − width` and `1 + width`, from a hash of the seed and two
+/// Factor with the mean 1, evenly distributed between `1 − width` and `1 + width`, from a hash of the seed and some
 /// numbers (G. L. Steele, D. Lea & C. H. Flood 2014, doi 10.1145/2660193.2660195).
-pub fn scattered(width: f64, seed: u32, numbers: [u64; 2]) -> f64 {
+pub fn scattered<const N: usize>(width: f64, seed: u32, numbers: [u64; N]) -> f64 {
     if width == 0.0 {
         return 1.0;
     }

@@ -3,17 +3,18 @@
 //! Each linear system is solved by conjugate gradients, preconditioned by the factor of an earlier stiffness: from one
 //! system to the next few elements break, and each costs few iterations. Where they become many, the iteration stops,
 //! the stiffness is factored anew, and a new iteration finds the rest. Factors are in single precision, which needs
-//! half of the memory. The stiffness is that of the intact section, in which damaged elements are corrected.
+//! half of the memory. The stiffness is that of the intact domain, in which damaged elements are corrected.
 
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use super::DamageError;
 use super::damaged::Damaged;
+use super::domain::{Kinematics, Point};
 use super::elements::{Elements, Nodal, Released};
 use super::patch::{Extent, Patch, System};
-use crate::math::cholesky::{Elimination, RoundedCholesky, SolverError};
+use crate::math::cholesky::{Elimination, LowerTriangle, RoundedCholesky, SolverError};
+use crate::math::grid_matrix::{Grid, GridMatrix, Padded};
 use crate::math::nested_dissection::nested_dissection;
-use crate::math::nine_point::{Grid, NinePoint, Padded};
 use crate::math::separable::dot;
 use crate::runtime::allowance::Allowance;
 use crate::runtime::parallel::Team;
@@ -30,14 +31,16 @@ const REDUCTION: f64 = 1e-2;
 const ENOUGH: f64 = 0.3;
 /// Part of the forces that may be left where Newton's method no longer reduces it.
 const MOST_LEFT: f64 = 0.1;
-/// Updates per unknown that a factorisation and an iteration take, for the allowance of a step.
+/// Updates per unknown that a factorisation takes at least, and for each squared entry of a column of the factor, and
+/// those that an iteration takes, for the allowance of a step.
 const WORK_OF_FACTOR: f64 = 3000.0;
+const WORK_OF_COLUMN: f64 = 0.1;
 const WORK_OF_ITERATION: f64 = 100.0;
 
 /// Places of the unknown displacements.
-pub struct Unknowns {
-    grid: Grid,
-    /// True where a displacement is prescribed, both components of a node together.
+pub struct Unknowns<const D: usize> {
+    grid: Grid<D>,
+    /// True where a displacement is prescribed, all components of a node together.
     pub held: Vec<bool>,
     none_held: Vec<bool>,
     /// Number of each unknown; `usize::MAX` where it is held. Place of each among all components.
@@ -50,15 +53,16 @@ pub struct Unknowns {
     intact: Mutex<Option<Arc<RoundedCholesky>>>,
 }
 
-impl Unknowns {
-    pub fn new(grid: Grid, held: Vec<bool>) -> Self {
+impl<const D: usize> Unknowns<D> {
+    pub fn new(grid: Grid<D>, held: Vec<bool>) -> Self {
         let mut number = vec![usize::MAX; held.len()];
         let places: Vec<usize> = (0..held.len()).filter(|&place| !held[place]).collect();
         places.iter().enumerate().for_each(|(n, &place)| number[place] = n);
-        let [x, z] = grid.elements();
-        let order = nested_dissection([x, 0, z], 1)
+        let mut elements = [0; 3];
+        elements[..D].copy_from_slice(&grid.elements());
+        let order = nested_dissection(elements, 1)
             .into_iter()
-            .flat_map(|node| [2 * node, 2 * node + 1])
+            .flat_map(|node| D * node..D * (node + 1))
             .filter(|&unknown| !held[unknown])
             .map(|unknown| number[unknown])
             .collect();
@@ -74,7 +78,7 @@ impl Unknowns {
         // Numbers of the unknowns by those among all.
         let mut own = vec![usize::MAX; self.places.len()];
         let mut places = Vec::new();
-        let is_inside = |place: &usize| inside[place / 2] && !self.held[*place];
+        let is_inside = |place: &usize| inside[place / D] && !self.held[*place];
         for place in (0..number.len()).filter(is_inside) {
             number[place] = places.len();
             own[self.number[place]] = places.len();
@@ -86,21 +90,21 @@ impl Unknowns {
 }
 
 /// Solver of the displacements of a step: its stiffness and the factor of an earlier one.
-pub struct Balance<'a> {
-    pub elements: &'a Elements,
-    pub unknowns: &'a Unknowns,
+pub struct Balance<'a, const D: usize, const C: usize, const V: usize> {
+    pub elements: &'a Elements<D, C, V>,
+    pub unknowns: &'a Unknowns<D>,
     pub team: &'a Team,
     pub allowance: &'a Allowance,
-    stiffness: NinePoint<2>,
+    stiffness: GridMatrix<D, D>,
     /// Stiffness without damage, and the forces of temperatures there [N], once known.
-    intact: NinePoint<2>,
+    intact: GridMatrix<D, D>,
     thermal: Option<Vec<f64>>,
     /// Elements whose stiffness differs from the intact one.
-    damaged: Damaged,
+    damaged: Damaged<D>,
     factor: Option<Arc<RoundedCholesky>>,
     /// Diagonal of the stiffness of that factor, and where the present stiffness differs from it.
-    factored: Vec<[f64; 2]>,
-    patch: Option<Patch>,
+    factored: Vec<[f64; D]>,
+    patch: Option<Patch<D>>,
     /// Size of loads and of prevented thermal expansion [N], once known, and that of reactions.
     acting: Option<f64>,
     reactions: f64,
@@ -108,15 +112,18 @@ pub struct Balance<'a> {
     pub iterations: usize,
 }
 
-impl<'a> Balance<'a> {
+impl<'a, const D: usize, const C: usize, const V: usize> Balance<'a, D, C, V>
+where
+    Point<D, C>: Kinematics<D, C, V>,
+{
     pub fn new(
-        elements: &'a Elements,
-        unknowns: &'a Unknowns,
+        elements: &'a Elements<D, C, V>,
+        unknowns: &'a Unknowns<D>,
         team: &'a Team,
         allowance: &'a Allowance,
     ) -> Self {
         let intact = elements.intact_stiffness(team);
-        let mut stiffness = NinePoint::zeros(unknowns.grid);
+        let mut stiffness = GridMatrix::zeros(unknowns.grid);
         stiffness.copy_from(&intact);
         Self {
             elements,
@@ -126,7 +133,7 @@ impl<'a> Balance<'a> {
             stiffness,
             intact,
             thermal: None,
-            damaged: Damaged::default(),
+            damaged: Damaged::none(),
             factor: None,
             factored: Vec::new(),
             patch: None,
@@ -145,10 +152,10 @@ impl<'a> Balance<'a> {
         (damage, rise): (&[f64], &[f64]),
         load: &[f64],
         tolerance: f64,
-    ) -> Result<Released, DamageError> {
+    ) -> Result<Released<C>, DamageError> {
         self.damaged.restore(self.elements, &mut self.stiffness, &self.intact);
         self.damaged = Damaged::of(self.elements, damage);
-        let released = |elements: &Elements, displacement: &[f64], team: &Team| {
+        let released = |elements: &Elements<D, C, V>, displacement: &[f64], team: &Team| {
             elements.released(&Nodal { displacement, damage, rise }, team)
         };
         let mut residual = vec![0.0; displacement.len()];
@@ -217,7 +224,7 @@ impl<'a> Balance<'a> {
 
     /// Forces of the stresses on all nodes [N].
     fn forces(&mut self, nodal: &Nodal) -> Vec<f64> {
-        let mut displacement = Padded::<2>::zeros(self.unknowns.grid);
+        let mut displacement = Padded::<D>::zeros(self.unknowns.grid);
         displacement.inner_mut().copy_from_slice(nodal.displacement);
         let mut forces = vec![0.0; nodal.displacement.len()];
         self.intact.product(&displacement, &self.unknowns.none_held, &mut forces, self.team);
@@ -227,11 +234,11 @@ impl<'a> Balance<'a> {
         forces
     }
 
-    /// Forces that the temperatures of the step cause in the intact section at rest [N].
+    /// Forces that the temperatures of the step cause in the intact domain at rest [N].
     fn thermal(&mut self, rise: &[f64]) -> &[f64] {
         let (elements, team) = (self.elements, self.team);
         self.thermal.get_or_insert_with(|| {
-            let (zero, intact) = (vec![0.0; 2 * rise.len()], vec![0.0; rise.len()]);
+            let (zero, intact) = (vec![0.0; D * rise.len()], vec![0.0; rise.len()]);
             elements.forces(&Nodal { displacement: &zero, damage: &intact, rise }, team)
         })
     }
@@ -280,7 +287,11 @@ impl<'a> Balance<'a> {
     fn refactor(&mut self) -> Result<(), DamageError> {
         self.factorings += 1;
         // The work of a step must not depend on what steps before have left.
-        self.allowance.spend(WORK_OF_FACTOR, "factorisations", self.unknowns.places.len())?;
+        let unknowns = self.unknowns.places.len();
+        let elimination = self.elimination()?;
+        let column = elimination.entries() as f64 / unknowns.max(1) as f64;
+        let work = WORK_OF_FACTOR.max(WORK_OF_COLUMN * column * column);
+        self.allowance.spend(work, "factorisations", unknowns)?;
         // The old factor goes before the new one comes.
         (self.factor, self.patch) = (None, None);
         let nodes = 0..self.unknowns.grid.nodes();
@@ -289,7 +300,7 @@ impl<'a> Balance<'a> {
         let known = self.known_factor().take().filter(|_| is_intact);
         let factor = match known {
             Some(known) => known,
-            None => Arc::new(self.factor()?),
+            None => Arc::new(elimination.factor(&self.lower(), self.team.threads())?.rounded()),
         };
         if is_intact {
             *self.known_factor() = Some(Arc::clone(&factor));
@@ -302,18 +313,21 @@ impl<'a> Balance<'a> {
         self.unknowns.intact.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Factors the stiffness.
-    fn factor(&self) -> Result<RoundedCholesky, SolverError> {
-        let lower = self.stiffness.lower_triangle(&self.unknowns.number);
+    /// Lower triangle of the stiffness of the unknowns.
+    fn lower(&self) -> LowerTriangle {
+        self.stiffness.lower_triangle(&self.unknowns.number)
+    }
+
+    /// The pattern of all factors.
+    fn elimination(&self) -> Result<&'a Elimination, SolverError> {
         let known = &self.unknowns.elimination;
-        let elimination = match known.get() {
-            Some(elimination) => elimination,
+        match known.get() {
+            Some(elimination) => Ok(elimination),
             None => {
-                let new = Elimination::new(&lower, &self.unknowns.order)?;
-                known.get_or_init(|| new)
+                let new = Elimination::new(&self.lower(), &self.unknowns.order)?;
+                Ok(known.get_or_init(|| new))
             }
-        };
-        Ok(elimination.factor(&lower, self.team.threads())?.rounded())
+        }
     }
 
     /// Preconditioned conjugate gradients from zero, until the residual is at most `goal`. Returns the residual, too,
@@ -328,7 +342,7 @@ impl<'a> Balance<'a> {
         let mut residual = force.to_vec();
         let mut solution = vec![0.0; force.len()];
         let mut improved = self.improve(&residual);
-        let mut direction = Padded::<2>::zeros(unknowns.grid);
+        let mut direction = Padded::<D>::zeros(unknowns.grid);
         direction.inner_mut().copy_from_slice(&improved);
         let mut energy = dot(&residual, &improved);
         let mut product = vec![0.0; force.len()];

@@ -4,7 +4,7 @@
 //! step there is projected onto the bounds and shortened until the function falls (D. P. Bertsekas 1982, doi
 //! 10.1137/0320018).
 
-use crate::math::nine_point::{NinePoint, Padded};
+use crate::math::grid_matrix::{GridMatrix, Padded};
 use crate::runtime::parallel::Team;
 
 /// Largest numbers of projected steps and of conjugate-gradient iterations in each.
@@ -15,8 +15,8 @@ const REDUCTION: f64 = 1e-3;
 
 /// Minimises `½ d·A d − b·d` over `low ≤ d ≤ 1` from the values of `damage`, until no value would move by more than
 /// `tolerance`. Returns the gradient at the values before.
-pub fn minimise(
-    matrix: &NinePoint<1>,
+pub fn minimise<const D: usize>(
+    matrix: &GridMatrix<D, 1>,
     load: &[f64],
     low: &[f64],
     damage: &mut Padded<1>,
@@ -51,8 +51,8 @@ pub fn minimise(
 }
 
 /// Takes the longest of the step and its halves along which the function falls; returns the largest change of a value.
-fn project(
-    matrix: &NinePoint<1>,
+fn project<const D: usize>(
+    matrix: &GridMatrix<D, 1>,
     free: &[u32],
     step: &[f64],
     gradient: &[f64],
@@ -89,7 +89,12 @@ fn project(
 }
 
 /// Step of the free values to their minimum, by conjugate gradients preconditioned by the diagonal.
-fn newton_step(matrix: &NinePoint<1>, free: &[u32], gradient: &[f64], team: &Team) -> Vec<f64> {
+fn newton_step<const D: usize>(
+    matrix: &GridMatrix<D, 1>,
+    free: &[u32],
+    gradient: &[f64],
+    team: &Team,
+) -> Vec<f64> {
     let mut residual: Vec<f64> = free.iter().map(|&n| -gradient[n as usize]).collect();
     let inverse: Vec<f64> = free.iter().map(|&n| 1.0 / matrix.diagonal(n as usize)[0]).collect();
     let improved = |residual: &[f64]| -> Vec<f64> {

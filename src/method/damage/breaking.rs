@@ -1,6 +1,6 @@
-//! Order in which the places of a section break within a step.
+//! Order in which the places of a body break within a step.
 
-use super::section::Section;
+use super::broken::broken;
 
 /// The alternation in which each node first broke, with its damage then.
 ///
@@ -15,7 +15,7 @@ impl BreakingOrder {
     /// Notes the nodes that are broken after an alternation.
     pub(super) fn note(&mut self, alternation: usize, damage: &[f64]) {
         self.first.resize(damage.len(), None);
-        let broken = Section::broken(damage);
+        let broken = broken(damage);
         for (node, first) in self.first.iter_mut().enumerate().filter(|(node, _)| broken[*node]) {
             first.get_or_insert((alternation, damage[node]));
         }

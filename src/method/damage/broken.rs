@@ -1,16 +1,16 @@
-//! Broken places of a section: how many cracks they are, how deep these reach, and how wide they are open.
+//! Broken places of a body: how many cracks they are, how deep these reach, and how wide they are open.
 
 use std::collections::BTreeSet;
 
-use super::section::Section;
-use crate::math::nine_point::Grid;
+use super::domain::Domain;
+use crate::math::grid_matrix::Grid;
 
 /// Damage from which on a place is broken [1]: it bears less than a hundredth of the stiffness.
 const BROKEN: f64 = 0.9;
 /// Points per element at which a straight crack is followed.
 const POINTS_OF_AN_ELEMENT: f64 = 8.0;
 
-/// Sides of a section: the first and the last along its first axis, then along z.
+/// Sides of a domain: the first and the last along each axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
     /// A face of the body.
@@ -32,11 +32,15 @@ pub struct Cracks {
     pub depth: f64,
 }
 
-/// Returns the broken nodes of a section, each list a connected region. A single node is no crack: nothing has come
+/// Broken nodes.
+pub fn broken(damage: &[f64]) -> Vec<bool> {
+    damage.iter().map(|&damage| damage >= BROKEN).collect()
+}
+
+/// Returns the broken nodes of a grid, each list a connected region. A single node is no crack: nothing has come
 /// apart along it.
-fn regions(grid: Grid, damage: &[f64]) -> Vec<Vec<usize>> {
-    let [columns, rows] = grid.counts;
-    let mut is_open: Vec<bool> = damage.iter().map(|&damage| damage >= BROKEN).collect();
+fn regions<const D: usize>(grid: Grid<D>, damage: &[f64]) -> Vec<Vec<usize>> {
+    let mut is_open = broken(damage);
     let mut found = Vec::new();
     for start in 0..damage.len() {
         if !std::mem::replace(&mut is_open[start], false) {
@@ -46,13 +50,9 @@ fn regions(grid: Grid, damage: &[f64]) -> Vec<Vec<usize>> {
         let mut next = 0;
         while let Some(&node) = region.get(next) {
             next += 1;
-            let (i, j) = (node % columns, node / columns);
-            for row in j.saturating_sub(1)..(j + 2).min(rows) {
-                for column in i.saturating_sub(1)..(i + 2).min(columns) {
-                    let other = column + columns * row;
-                    if std::mem::replace(&mut is_open[other], false) {
-                        region.push(other);
-                    }
+            for other in grid.around(node) {
+                if std::mem::replace(&mut is_open[other], false) {
+                    region.push(other);
                 }
             }
         }
@@ -61,15 +61,22 @@ fn regions(grid: Grid, damage: &[f64]) -> Vec<Vec<usize>> {
     found
 }
 
-impl Section {
-    /// Counts cracks and measures their depth, with the kind of both sides along each axis. Cracks that damage within a
-    /// skin of the faces [m] has joined stay as many as reach below it.
-    pub fn cracks(&self, damage: &[f64], sides: [[Side; 2]; 2], skin: f64) -> Cracks {
+/// Kinds of both sides along each axis.
+pub type Sides<const D: usize> = [[Side; 2]; D];
+
+impl<const D: usize> Domain<D> {
+    /// Counts cracks and measures their depth. Cracks that damage within a skin of the faces [m] has joined stay as many
+    /// as reach below it.
+    pub fn cracks(&self, damage: &[f64], sides: Sides<D>, skin: f64) -> Cracks {
         let grid = self.grid();
-        let mirrored = sides[0][0] == Side::Mirror;
-        let touches = |region: &[usize]| region.iter().any(|node| node % grid.counts[0] == 0);
-        // Those that touch the plane of symmetry are one with their image.
-        let copies = |region: &Vec<usize>| if mirrored && !touches(region) { 2 } else { 1 };
+        // Those that touch a plane of symmetry are one with their image.
+        let copies = |region: &Vec<usize>| -> usize {
+            let is_doubled = |axis: &usize| {
+                let touches = |&node: &usize| grid.position(node)[*axis] == 0;
+                sides[*axis][0] == Side::Mirror && !region.iter().any(touches)
+            };
+            1 << (0..D).filter(is_doubled).count()
+        };
         let whole = regions(grid, damage);
         let deep = regions(grid, &self.below_skin(damage, sides, skin));
         let count = |region: &Vec<usize>| {
@@ -82,15 +89,123 @@ impl Section {
     }
 
     /// Damage of the nodes below a skin of the faces [m]; zero within it.
-    fn below_skin(&self, damage: &[f64], sides: [[Side; 2]; 2], skin: f64) -> Vec<f64> {
-        let faces = (0..4).map(|face| [face / 2, face % 2]);
-        let faces: Vec<_> =
-            faces.filter(|[axis, side]| sides[*axis][*side] == Side::Face).collect();
+    fn below_skin(&self, damage: &[f64], sides: Sides<D>, skin: f64) -> Vec<f64> {
+        let faces: Vec<[usize; 2]> = faces(sides).collect();
         let is_skin = |node: usize| faces.iter().any(|&face| self.distance(node, face) < skin);
         let own = damage.iter().enumerate();
         own.map(|(node, &damage)| if is_skin(node) { 0.0 } else { damage }).collect()
     }
 
+    /// Nodes of cracks that are not among those broken from the start.
+    pub fn grown(&self, damage: &[f64], from_start: &[bool]) -> Vec<usize> {
+        let nodes = regions(self.grid(), damage).into_iter().flatten();
+        nodes.filter(|&node| !from_start[node]).collect()
+    }
+
+    /// Nodes that are farther than a distance [m] along one of the axes from all broken ones.
+    pub fn away_from_broken(&self, damage: &[f64], distance: f64) -> Vec<usize> {
+        let grid = self.grid();
+        // Numbers of broken nodes in the boxes from the first node up to each, with a layer of zeros before the first.
+        let sums = Grid { counts: grid.counts.map(|count| count + 1) };
+        let number = |position: [usize; D]| -> usize {
+            (0..D).map(|axis| position[axis] * sums.stride(axis)).sum()
+        };
+        let mut broken = vec![0_u32; sums.nodes()];
+        for (node, &damage) in damage.iter().enumerate() {
+            broken[number(grid.position(node).map(|along| along + 1))] =
+                u32::from(damage >= BROKEN);
+        }
+        for axis in 0..D {
+            let stride = sums.stride(axis);
+            for place in 0..broken.len() {
+                if place / stride % sums.counts[axis] > 0 {
+                    broken[place] += broken[place - stride];
+                }
+            }
+        }
+        let around = |axis: usize, at: f64| {
+            let nodes = &self.axes[axis];
+            let first = nodes.partition_point(|&place| place < at - distance);
+            [first, nodes.partition_point(|&place| place <= at + distance)]
+        };
+        let is_away = |&node: &usize| {
+            let place = self.place(node);
+            let range: [[usize; 2]; D] = std::array::from_fn(|axis| around(axis, place[axis]));
+            // Corners of the box count by turns.
+            let [added, taken] = [0, 1].map(|odd| {
+                let corners = (0..1_usize << D).filter(|corner| corner.count_ones() % 2 == odd);
+                let count = |corner: usize| {
+                    broken
+                        [number(std::array::from_fn(|axis| range[axis][1 - (corner >> axis & 1)]))]
+                };
+                corners.map(count).sum::<u32>()
+            });
+            added == taken
+        };
+        (0..damage.len()).filter(is_away).collect()
+    }
+
+    /// Returns true if a crack at later damage is not part of one at earlier damage.
+    pub fn has_new_crack(&self, before: &[f64], after: &[f64]) -> bool {
+        let known: BTreeSet<usize> = regions(self.grid(), before).into_iter().flatten().collect();
+        let is_new = |region: &Vec<usize>| region.iter().all(|node| !known.contains(node));
+        regions(self.grid(), after).iter().any(is_new)
+    }
+
+    /// Depth of a region [m]: how far it reaches from the face that it touches, from the nearest one if it touches
+    /// several or none; zero if all faces are held.
+    fn depth(&self, region: &[usize], sides: Sides<D>) -> f64 {
+        let reaches = faces(sides).map(|face| {
+            let distances = region.iter().map(|&node| self.distance(node, face));
+            distances.fold([f64::INFINITY, 0.0], |[near, far], d| [near.min(d), far.max(d)])
+        });
+        let reaches: Vec<[f64; 2]> = reaches.collect();
+        if reaches.is_empty() {
+            return 0.0;
+        }
+        let nearest = reaches.iter().map(|[near, _]| *near).fold(f64::INFINITY, f64::min);
+        let touched = reaches.iter().filter(|[near, _]| *near == nearest);
+        touched.map(|[_, far]| *far).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Distance of a node from the first or last side along an axis [m].
+    fn distance(&self, node: usize, [axis, side]: [usize; 2]) -> f64 {
+        let nodes = &self.axes[axis];
+        (nodes[self.grid().position(node)[axis]] - nodes[side * (nodes.len() - 1)]).abs()
+    }
+
+    /// Largest `|u₁ − u₂|/h` of the displacements u [m] at both ends of an edge of length h [m] with a broken end: how
+    /// wide a crack is open over the size of its elements [1].
+    pub fn opening(&self, displacement: &[f64], damage: &[f64]) -> f64 {
+        let grid = self.grid();
+        let displacement_of = |node: usize| &displacement[D * node..][..D];
+        let mut most = 0.0_f64;
+        for one in 0..grid.nodes() {
+            let position = grid.position(one);
+            for axis in (0..D).filter(|&axis| position[axis] + 1 < grid.counts[axis]) {
+                let other = one + grid.stride(axis);
+                if damage[one].max(damage[other]) >= BROKEN {
+                    let nodes = &self.axes[axis][position[axis]..];
+                    let both = displacement_of(one).iter().zip(displacement_of(other));
+                    let apart: f64 = both.map(|(one, other)| (one - other) * (one - other)).sum();
+                    most = most.max(apart.sqrt() / (nodes[1] - nodes[0]));
+                }
+            }
+        }
+        most
+    }
+}
+
+/// Axis and side of the faces of a body.
+fn faces<const D: usize>(sides: Sides<D>) -> impl Iterator<Item = [usize; 2]> {
+    let all = (0..2 * D).map(|face| [face / 2, face % 2]);
+    all.filter(move |[axis, side]| sides[*axis][*side] == Side::Face)
+}
+
+/// A plane or meridian section.
+pub type Section = Domain<2>;
+
+impl Section {
     /// Nodes of the elements through which a straight crack passes, from one point to another [m].
     pub fn nodes_along(&self, [from, to]: [[f64; 2]; 2]) -> BTreeSet<usize> {
         let grid = self.grid();
@@ -108,15 +223,9 @@ impl Section {
                 let below = self.axes[axis].partition_point(|&node| node <= along);
                 below.saturating_sub(1).min(elements[axis] - 1)
             });
-            grid.corners(place)
+            grid.corners::<4>(place)
         };
         (0..=parts as usize).flat_map(of_part).collect()
-    }
-
-    /// Nodes of cracks that are not among those broken from the start.
-    pub fn grown(&self, damage: &[f64], from_start: &[bool]) -> Vec<usize> {
-        let nodes = regions(self.grid(), damage).into_iter().flatten();
-        nodes.filter(|&node| !from_start[node]).collect()
     }
 
     /// Number of ends within the section of the cracks that have a node among those broken from the start: two of each,
@@ -138,97 +247,6 @@ impl Section {
         let own = regions.iter().filter(|region| region.iter().any(|&node| from_start[node]));
         own.map(of_region).sum()
     }
-
-    /// Nodes that are farther than a distance [m] along one of the axes from all broken ones.
-    pub fn away_from_broken(&self, damage: &[f64], distance: f64) -> Vec<usize> {
-        let [columns, rows] = self.grid().counts;
-        // Numbers of broken nodes in the rectangles from the first node on.
-        let width = columns + 1;
-        let mut broken = vec![0_u32; width * (rows + 1)];
-        for (node, &damage) in damage.iter().enumerate() {
-            let at = node % columns + 1 + width * (node / columns + 1);
-            let own = u32::from(damage >= BROKEN);
-            broken[at] = own + broken[at - 1] + broken[at - width] - broken[at - width - 1];
-        }
-        let around = |axis: usize, at: f64| {
-            let nodes = &self.axes[axis];
-            let first = nodes.partition_point(|&place| place < at - distance);
-            [first, nodes.partition_point(|&place| place <= at + distance)]
-        };
-        let is_away = |&node: &usize| {
-            let [x, z] = self.place(node);
-            let ([left, right], [low, high]) = (around(0, x), around(1, z));
-            let up_to = |column: usize, row: usize| broken[column + width * row];
-            up_to(right, high) + up_to(left, low) == up_to(left, high) + up_to(right, low)
-        };
-        (0..damage.len()).filter(is_away).collect()
-    }
-
-    /// Place of a node in the section [m].
-    pub fn place(&self, node: usize) -> [f64; 2] {
-        let columns = self.axes[0].len();
-        [self.axes[0][node % columns], self.axes[1][node / columns]]
-    }
-
-    /// Broken nodes.
-    pub fn broken(damage: &[f64]) -> Vec<bool> {
-        damage.iter().map(|&damage| damage >= BROKEN).collect()
-    }
-
-    /// Returns true if a crack at later damage is not part of one at earlier damage.
-    pub fn has_new_crack(&self, before: &[f64], after: &[f64]) -> bool {
-        let known: BTreeSet<usize> = regions(self.grid(), before).into_iter().flatten().collect();
-        let is_new = |region: &Vec<usize>| region.iter().all(|node| !known.contains(node));
-        regions(self.grid(), after).iter().any(is_new)
-    }
-
-    /// Depth of a region [m]: how far it reaches from the face that it touches, from the nearest one if it touches
-    /// several or none; zero if all faces are held.
-    fn depth(&self, region: &[usize], sides: [[Side; 2]; 2]) -> f64 {
-        let faces = (0..4).filter(|face| sides[face / 2][face % 2] == Side::Face);
-        let reaches = faces.map(|face| {
-            let distances = region.iter().map(|&node| self.distance(node, [face / 2, face % 2]));
-            distances.fold([f64::INFINITY, 0.0], |[near, far], d| [near.min(d), far.max(d)])
-        });
-        let reaches: Vec<[f64; 2]> = reaches.collect();
-        if reaches.is_empty() {
-            return 0.0;
-        }
-        let nearest = reaches.iter().map(|[near, _]| *near).fold(f64::INFINITY, f64::min);
-        let touched = reaches.iter().filter(|[near, _]| *near == nearest);
-        touched.map(|[_, far]| *far).fold(f64::INFINITY, f64::min)
-    }
-
-    /// Distance of a node from the first or last side along an axis [m].
-    fn distance(&self, node: usize, [axis, side]: [usize; 2]) -> f64 {
-        let columns = self.axes[0].len();
-        let place = [node % columns, node / columns][axis];
-        let nodes = &self.axes[axis];
-        (nodes[place] - nodes[side * (nodes.len() - 1)]).abs()
-    }
-
-    /// Largest `|u₁ − u₂|/h` of the displacements u [m] at both ends of an edge of length h [m] with a broken end: how
-    /// wide a crack is open over the size of its elements [1].
-    pub fn opening(&self, displacement: &[f64], damage: &[f64]) -> f64 {
-        let grid = self.grid();
-        let mut most = 0.0_f64;
-        let mut visit = |one: usize, other: usize, length: f64| {
-            if damage[one].max(damage[other]) >= BROKEN {
-                let apart = [0, 1].map(|c| displacement[2 * one + c] - displacement[2 * other + c]);
-                most = most.max(apart[0].hypot(apart[1]) / length);
-            }
-        };
-        let [columns, rows] = grid.elements();
-        for j in 0..rows {
-            for i in 0..columns {
-                let [first, right, above, _] = grid.corners([i, j]);
-                let [width, height] = self.size([i, j]);
-                visit(first, right, width);
-                visit(first, above, height);
-            }
-        }
-        most
-    }
 }
 
 #[cfg(test)]
@@ -237,7 +255,7 @@ mod tests {
     use crate::method::damage::Form;
 
     /// Nodes a millimetre apart, those of a list broken.
-    fn broken(nodes: &[[usize; 2]]) -> (Section, Vec<f64>) {
+    fn with_broken(nodes: &[[usize; 2]]) -> (Section, Vec<f64>) {
         let axis = |count: usize| (0..count).map(|i| i as f64 * 1e-3).collect();
         let section =
             Section { axes: [axis(9), axis(5)], form: Form::PlaneStrain { thickness: 1.0 } };
@@ -250,7 +268,7 @@ mod tests {
 
     #[test]
     fn separate_cracks_are_counted_with_their_depth() {
-        let (section, damage) = broken(&[[2, 4], [3, 3], [3, 2], [6, 4], [6, 3], [8, 0]]);
+        let (section, damage) = with_broken(&[[2, 4], [3, 3], [3, 2], [6, 4], [6, 3], [8, 0]]);
         let found = section.cracks(&damage, FACES, 0.0);
         assert_eq!(found.count, 2);
         assert!((found.depth - 2e-3).abs() < 1e-15);
@@ -261,17 +279,17 @@ mod tests {
     fn cracks_stay_several_where_their_mouths_have_joined() {
         let mouths: Vec<[usize; 2]> = (2..=6).map(|i| [i, 4]).collect();
         let cracks = [[2, 3], [2, 2], [6, 3], [6, 2]];
-        let (section, damage) = broken(&[&mouths[..], &cracks].concat());
+        let (section, damage) = with_broken(&[&mouths[..], &cracks].concat());
         let count = |skin: f64| section.cracks(&damage, FACES, skin).count;
         assert_eq!([count(0.0), count(0.5e-3)], [1, 2]);
         // A crack within the skin is one, too.
-        let (section, damage) = broken(&mouths);
+        let (section, damage) = with_broken(&mouths);
         assert_eq!(section.cracks(&damage, FACES, 0.5e-3).count, 1);
     }
 
     #[test]
     fn nodes_away_from_cracks_are_outside_of_squares_around_them() {
-        let (section, damage) = broken(&[[2, 4], [2, 3]]);
+        let (section, damage) = with_broken(&[[2, 4], [2, 3]]);
         let away = section.away_from_broken(&damage, 2.1e-3);
         for node in 0..45 {
             let is_near = node % 9 <= 4 && node / 9 >= 1;
@@ -282,10 +300,10 @@ mod tests {
 
     #[test]
     fn growth_is_no_new_crack() {
-        let (section, before) = broken(&[[2, 4], [2, 3], [6, 4]]);
-        let (_, grown) = broken(&[[2, 4], [2, 3], [2, 2], [6, 4]]);
-        let (_, second) = broken(&[[2, 4], [2, 3], [6, 4], [6, 3]]);
-        let (_, joined) = broken(&[[2, 4], [2, 3], [3, 4], [4, 4], [5, 4], [6, 4]]);
+        let (section, before) = with_broken(&[[2, 4], [2, 3], [6, 4]]);
+        let (_, grown) = with_broken(&[[2, 4], [2, 3], [2, 2], [6, 4]]);
+        let (_, second) = with_broken(&[[2, 4], [2, 3], [6, 4], [6, 3]]);
+        let (_, joined) = with_broken(&[[2, 4], [2, 3], [3, 4], [4, 4], [5, 4], [6, 4]]);
         assert_eq!(
             [&before, &grown, &second, &joined].map(|after| section.has_new_crack(&before, after)),
             [false, false, true, false]
@@ -295,7 +313,7 @@ mod tests {
 
     #[test]
     fn images_count_and_no_depth_is_measured_from_a_plane_of_symmetry() {
-        let (section, damage) = broken(&[[0, 2], [1, 2], [6, 4], [6, 3]]);
+        let (section, damage) = with_broken(&[[0, 2], [1, 2], [6, 4], [6, 3]]);
         let sides = [[Side::Mirror, Side::Face], [Side::Face; 2]];
         let found = section.cracks(&damage, sides, 0.0);
         assert_eq!(found.count, 3);
@@ -306,13 +324,13 @@ mod tests {
 
     #[test]
     fn through_crack_has_the_depth_of_the_body() {
-        let (section, damage) = broken(&[0, 1, 2, 3, 4].map(|j| [1, j]));
+        let (section, damage) = with_broken(&[0, 1, 2, 3, 4].map(|j| [1, j]));
         assert!((section.cracks(&damage, FACES, 0.0).depth - 4e-3).abs() < 1e-15);
     }
 
     #[test]
     fn straight_crack_breaks_a_row_of_elements() {
-        let (section, _) = broken(&[]);
+        let (section, _) = with_broken(&[]);
         let nodes = |from, to| -> Vec<usize> {
             section
                 .nodes_along([from, to])
@@ -328,10 +346,10 @@ mod tests {
 
     #[test]
     fn crack_has_grown_where_it_was_not_at_the_start() {
-        let (section, start) = broken(&[[2, 4], [2, 3]]);
-        let from_start = Section::broken(&start);
-        let (_, longer) = broken(&[[2, 4], [2, 3], [2, 2]]);
-        let (_, point) = broken(&[[2, 4], [2, 3], [6, 1]]);
+        let (section, start) = with_broken(&[[2, 4], [2, 3]]);
+        let from_start = broken(&start);
+        let (_, longer) = with_broken(&[[2, 4], [2, 3], [2, 2]]);
+        let (_, point) = with_broken(&[[2, 4], [2, 3], [6, 1]]);
         let grown = [&start, &longer, &point].map(|damage| section.grown(damage, &from_start));
         assert_eq!(grown, [vec![], vec![2 + 9 * 2], vec![]]);
         let place = section.place(2 + 9 * 2);
@@ -340,18 +358,18 @@ mod tests {
 
     #[test]
     fn ends_are_those_within_the_section() {
-        let (section, start) = broken(&[[2, 4], [2, 3], [5, 2], [6, 2]]);
-        let from_start = Section::broken(&start);
+        let (section, start) = with_broken(&[[2, 4], [2, 3], [5, 2], [6, 2]]);
+        let from_start = broken(&start);
         let (_, through) =
-            broken(&[[2, 4], [2, 3], [2, 2], [2, 1], [2, 0], [5, 2], [6, 2], [7, 1], [8, 0]]);
-        let (_, other) = broken(&[[2, 4], [2, 3], [5, 2], [6, 2], [8, 1], [8, 2]]);
+            with_broken(&[[2, 4], [2, 3], [2, 2], [2, 1], [2, 0], [5, 2], [6, 2], [7, 1], [8, 0]]);
+        let (_, other) = with_broken(&[[2, 4], [2, 3], [5, 2], [6, 2], [8, 1], [8, 2]]);
         let ends = [&start, &through, &other].map(|damage| section.ends(damage, &from_start));
         assert_eq!(ends, [3, 0, 3]);
     }
 
     #[test]
     fn opening_is_that_of_broken_elements() {
-        let (section, damage) = broken(&[[4, 2]]);
+        let (section, damage) = with_broken(&[[4, 2]]);
         let mut displacement = vec![0.0; 90];
         displacement[2 * (4 + 18)] = 2e-3;
         assert!((section.opening(&displacement, &damage) - 2.0).abs() < 1e-12);

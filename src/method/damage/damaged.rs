@@ -1,25 +1,36 @@
-//! Elements in which damage takes stiffness: what they lack of the forces and the stiffness of the intact section.
+//! Elements in which damage takes stiffness: what they lack of the forces and the stiffness of the intact domain.
 //!
-//! All others are linear, so that the forces of a section are those of its intact stiffness and of its temperatures,
+//! All others are linear, so that the forces of a domain are those of its intact stiffness and of its temperatures,
 //! less those of a few elements.
 
-use super::elements::{Elements, Nodal, add_forces, add_stiffness, dot, mirror};
-use crate::laws::fracture::Components;
-use crate::math::nine_point::NinePoint;
+use super::domain::{Kinematics, Point};
+use super::elements::{Elements, Nodal, dot};
+use crate::math::grid_matrix::GridMatrix;
 use crate::runtime::parallel::Team;
 
+/// Elements whose matrices are held at a time.
+const AT_A_TIME: usize = 1 << 12;
+
 /// Elements with a damaged corner, in ascending order.
-#[derive(Debug, Default)]
-pub struct Damaged {
-    places: Vec<[usize; 2]>,
+#[derive(Debug)]
+pub struct Damaged<const D: usize> {
+    places: Vec<[usize; D]>,
 }
 
-impl Damaged {
-    pub fn of(elements: &Elements, damage: &[f64]) -> Self {
-        let [columns, rows] = elements.grid.elements();
-        let all = (0..rows).flat_map(|j| (0..columns).map(move |i| [i, j]));
+impl<const D: usize> Damaged<D> {
+    pub fn none() -> Self {
+        Self { places: Vec::new() }
+    }
+
+    pub fn of<const C: usize, const V: usize>(
+        elements: &Elements<D, C, V>,
+        damage: &[f64],
+    ) -> Self {
+        let grid = elements.grid;
+        let columns = grid.elements()[0];
+        let all = (0..grid.rows()).flat_map(|row| (0..columns).map(move |i| grid.element(i, row)));
         let is_damaged =
-            |place: &[usize; 2]| elements.grid.corners(*place).iter().any(|&n| damage[n] > 0.0);
+            |place: &[usize; D]| grid.corners::<C>(*place).iter().any(|&n| damage[n] > 0.0);
         Self { places: all.filter(is_damaged).collect() }
     }
 
@@ -29,55 +40,67 @@ impl Damaged {
 
     /// Adds the forces of their stress to nodal forces, and takes those away that they have where nothing is damaged
     /// [N].
-    pub fn correct_forces(
+    pub fn correct_forces<const C: usize, const V: usize>(
         &self,
-        elements: &Elements,
+        elements: &Elements<D, C, V>,
         nodal: &Nodal,
         forces: &mut [f64],
         team: &Team,
-    ) {
+    ) where
+        Point<D, C>: Kinematics<D, C, V>,
+    {
         let intact = elements.intact_tangent();
-        let loss = |strain: Components, damage: f64| -> Components {
-            let own = elements.law.respond(strain, damage).stress;
+        let loss = |strain: [f64; V], damage: f64| -> [f64; V] {
+            let own = elements.respond(strain, damage).stress;
             std::array::from_fn(|i| own[i] - dot(&intact[i], &strain))
         };
         let found =
             team.map(self.places.len(), |n| elements.nodal_forces(self.places[n], nodal, loss));
         for (place, own) in self.places.iter().zip(&found) {
-            add_forces(forces, elements.grid.corners(*place), own);
+            elements.add_forces(forces, *place, own);
         }
     }
 
     /// Adds the difference of their stiffness from that of intact elements to a matrix.
-    pub fn correct_stiffness(
+    pub fn correct_stiffness<const C: usize, const V: usize>(
         &self,
-        elements: &Elements,
+        elements: &Elements<D, C, V>,
         nodal: &Nodal,
-        matrix: &mut NinePoint<2>,
+        matrix: &mut GridMatrix<D, D>,
         team: &Team,
-    ) {
+    ) where
+        Point<D, C>: Kinematics<D, C, V>,
+    {
         let intact = elements.intact_tangent();
-        let found = team.map(self.places.len(), |n| {
-            let mut stiffness = Box::new([0.0; 64]);
-            elements.each_strain(self.places[n], nodal, |_, point, strain, damage| {
-                let mut tangent = elements.law.respond(strain, damage).stiffness.tangent();
+        let correction = |place: [usize; D]| {
+            let mut stiffness = Elements::<D, C, V>::no_stiffness();
+            elements.each_strain(place, nodal, |_, point, strain, damage| {
+                let mut tangent = elements.tangent(strain, damage);
                 let entries = tangent.as_flattened_mut().iter_mut().zip(intact.as_flattened());
                 entries.for_each(|(own, intact)| *own -= intact);
-                let strains = std::array::from_fn(|k| point.unit_strains(k / 2)[k % 2]);
-                add_stiffness(&mut stiffness, point, &strains, tangent);
+                Elements::add_stiffness(&mut stiffness, point, &tangent);
             });
-            mirror(&mut stiffness);
+            Elements::<D, C, V>::mirror(&mut stiffness);
             stiffness
-        });
-        for (place, own) in self.places.iter().zip(&found) {
-            matrix.add_element(*place, &own[..]);
+        };
+        // Some at a time, which need not fill the memory.
+        for places in self.places.chunks(AT_A_TIME) {
+            let found = team.map(places.len(), |n| correction(places[n]));
+            for (place, own) in places.iter().zip(&found) {
+                matrix.add_element::<C>(*place, own);
+            }
         }
     }
 
     /// Gives the rows of their nodes the values of another matrix.
-    pub fn restore(&self, elements: &Elements, matrix: &mut NinePoint<2>, other: &NinePoint<2>) {
+    pub fn restore<const C: usize, const V: usize>(
+        &self,
+        elements: &Elements<D, C, V>,
+        matrix: &mut GridMatrix<D, D>,
+        other: &GridMatrix<D, D>,
+    ) {
         for place in &self.places {
-            for node in elements.grid.corners(*place) {
+            for node in elements.grid.corners::<C>(*place) {
                 matrix.copy_row_from(node, other);
             }
         }

@@ -1,25 +1,29 @@
-//! Loops over the elements of a section: forces, stiffness, the energy that drives damage, and sums.
+//! Loops over the elements of a domain: forces, stiffness, the energy that drives damage, and sums.
 
-use super::section::{POINTS, Point, Section};
-use crate::laws::fracture::{Components, DEGRADED, GradientDamage, PointResponse, degradation};
-use crate::math::nine_point::{Grid, NinePoint};
+use super::domain::{Domain, Kinematics, Point};
+use crate::laws::fracture::{DEGRADED, GradientDamage, PointResponse, degradation};
+use crate::math::grid_matrix::{Grid, GridMatrix};
 use crate::runtime::parallel::Team;
 
 /// Rows of elements whose matrices are held at a time.
 const ROWS: usize = 16;
 
-/// A section of one material.
+/// A domain of one material, in elements of `C` corners, with strains of `V` components.
 #[derive(Debug, Clone)]
-pub struct Elements {
-    pub section: Section,
+pub struct Elements<const D: usize, const C: usize, const V: usize> {
+    pub domain: Domain<D>,
     pub law: GradientDamage,
-    pub grid: Grid,
+    pub grid: Grid<D>,
 }
+
+/// Elements of a section, and in space.
+pub type PlaneElements = Elements<2, 4, 4>;
+pub type Bricks = Elements<3, 8, 6>;
 
 /// Nodal values at a moment.
 #[derive(Debug, Clone, Copy)]
 pub struct Nodal<'a> {
-    /// [m], both components of a node together.
+    /// [m], all components of a node together.
     pub displacement: &'a [f64],
     /// [1]
     pub damage: &'a [f64],
@@ -28,55 +32,67 @@ pub struct Nodal<'a> {
 }
 
 /// Energy of the points that cracks release [J/m³], element by element.
-pub type Released = Vec<[f64; POINTS]>;
+pub type Released<const C: usize> = Vec<[f64; C]>;
 
-/// Sums over a section [J].
+/// Sums over a domain [J].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Energies {
     pub elastic: f64,
     pub dissipated: f64,
 }
 
-impl Elements {
-    pub fn new(section: Section, law: GradientDamage) -> Self {
-        Self { grid: section.grid(), section, law }
+impl<const D: usize, const C: usize, const V: usize> Elements<D, C, V>
+where
+    Point<D, C>: Kinematics<D, C, V>,
+{
+    pub fn new(domain: Domain<D>, law: GradientDamage) -> Self {
+        Self { grid: domain.grid(), domain, law }
     }
 
-    fn gather<const N: usize>(&self, element: [usize; 2], nodal: &[f64]) -> [f64; N] {
-        let width = N / 4;
-        let corners = self.grid.corners(element);
-        std::array::from_fn(|k| nodal[corners[k / width] * width + k % width])
+    /// Values of a nodal field at the corners of an element.
+    fn gather(&self, element: [usize; D], nodal: &[f64]) -> [f64; C] {
+        self.grid.corners::<C>(element).map(|node| nodal[node])
     }
 
-    /// Size of an element across a crack [m]: the geometric mean of its edges.
-    fn size(&self, element: [usize; 2]) -> f64 {
-        let [width, height] = self.section.size(element);
-        (width * height).sqrt()
+    /// Displacements of the corners of an element [m].
+    fn gather_vectors(&self, element: [usize; D], nodal: &[f64]) -> [[f64; D]; C] {
+        let own = |node| std::array::from_fn(|axis| nodal[D * node + axis]);
+        self.grid.corners::<C>(element).map(own)
+    }
+
+    /// Response of a point to its elastic strain.
+    pub(super) fn respond(&self, strain: [f64; V], damage: f64) -> PointResponse<V> {
+        self.law.respond::<<Point<D, C> as Kinematics<D, C, V>>::Axes, V>(strain, damage)
+    }
+
+    /// Derivatives of the stress of a point by its elastic strain [Pa].
+    pub(super) fn tangent(&self, strain: [f64; V], damage: f64) -> [[f64; V]; V] {
+        self.law.tangent::<<Point<D, C> as Kinematics<D, C, V>>::Axes, V>(strain, damage)
     }
 
     /// Calls back for the points of an element with their responses.
     fn each_point(
         &self,
-        element: [usize; 2],
+        element: [usize; D],
         nodal: &Nodal,
-        mut visit: impl FnMut(usize, &Point, &PointResponse),
+        mut visit: impl FnMut(usize, &Point<D, C>, &PointResponse<V>),
     ) {
         self.each_strain(element, nodal, |q, point, strain, damage| {
-            visit(q, point, &self.law.respond(strain, damage));
+            visit(q, point, &self.respond(strain, damage));
         });
     }
 
     /// Calls back for the points of an element with their elastic strain and damage.
     pub(super) fn each_strain(
         &self,
-        element: [usize; 2],
+        element: [usize; D],
         nodal: &Nodal,
-        mut visit: impl FnMut(usize, &Point, Components, f64),
+        mut visit: impl FnMut(usize, &Point<D, C>, [f64; V], f64),
     ) {
-        let u: [f64; 8] = self.gather(element, nodal.displacement);
-        let damage: [f64; 4] = self.gather(element, nodal.damage);
-        let rise: [f64; 4] = self.gather(element, nodal.rise);
-        for (q, point) in self.section.points(element).iter().enumerate() {
+        let u = self.gather_vectors(element, nodal.displacement);
+        let damage = self.gather(element, nodal.damage);
+        let rise = self.gather(element, nodal.rise);
+        for (q, point) in self.domain.points(element).iter().enumerate() {
             let thermal = self.law.expansion * point.interpolate(&rise);
             let mut strain = point.strain(&u);
             strain[..3].iter_mut().for_each(|strain| *strain -= thermal);
@@ -87,47 +103,80 @@ impl Elements {
     /// Forces of an element by a stress of its points.
     pub(super) fn nodal_forces(
         &self,
-        element: [usize; 2],
+        element: [usize; D],
         nodal: &Nodal,
-        stress: impl Fn(Components, f64) -> Components,
-    ) -> [f64; 8] {
-        let mut forces = [0.0; 8];
+        stress: impl Fn([f64; V], f64) -> [f64; V],
+    ) -> [[f64; D]; C] {
+        let mut forces = [[0.0; D]; C];
         self.each_strain(element, nodal, |_, point, strain, damage| {
             let stress = stress(strain, damage);
-            for (k, force) in forces.iter_mut().enumerate() {
-                *force += point.volume * dot(&point.unit_strains(k / 2)[k % 2], &stress);
+            for (corner, forces) in forces.iter_mut().enumerate() {
+                for (force, unit) in forces.iter_mut().zip(&point.unit_strains(corner)) {
+                    *force += point.volume * dot(unit, &stress);
+                }
             }
         });
         forces
     }
 
-    pub(super) fn intact_tangent(&self) -> [Components; 4] {
-        self.law.respond([0.0; 4], 0.0).stiffness.tangent()
+    pub(super) fn intact_tangent(&self) -> [[f64; V]; V] {
+        self.tangent([0.0; V], 0.0)
+    }
+
+    /// Stiffness of an element without any, row by row, with all components of a corner together.
+    pub(super) fn no_stiffness() -> Vec<f64> {
+        vec![0.0; (C * D) * (C * D)]
+    }
+
+    /// Adds the part of a point to the lower triangle of an element's stiffness.
+    pub(super) fn add_stiffness(
+        stiffness: &mut [f64],
+        point: &Point<D, C>,
+        tangent: &[[f64; V]; V],
+    ) {
+        let strains: [[[f64; V]; D]; C] = std::array::from_fn(|corner| point.unit_strains(corner));
+        let strains = strains.as_flattened();
+        for (column, strain) in strains.iter().enumerate() {
+            let stress = tangent.map(|row| point.volume * dot(&row, strain));
+            for (row, strain) in strains.iter().enumerate().skip(column) {
+                stiffness[row * C * D + column] += dot(strain, &stress);
+            }
+        }
+    }
+
+    /// Copies the lower triangle of an element's stiffness to the upper one.
+    pub(super) fn mirror(stiffness: &mut [f64]) {
+        for row in 0..C * D {
+            for column in 0..row {
+                stiffness[column * C * D + row] = stiffness[row * C * D + column];
+            }
+        }
     }
 
     /// Stiffness of an intact element.
-    fn intact(&self, element: [usize; 2]) -> Box<[f64; 64]> {
+    fn intact(&self, element: [usize; D]) -> Vec<f64> {
         let tangent = self.intact_tangent();
-        let mut stiffness = Box::new([0.0; 64]);
-        for point in &self.section.points(element) {
-            let strains = std::array::from_fn(|k| point.unit_strains(k / 2)[k % 2]);
-            add_stiffness(&mut stiffness, point, &strains, tangent);
+        let mut stiffness = Self::no_stiffness();
+        for point in &self.domain.points(element) {
+            Self::add_stiffness(&mut stiffness, point, &tangent);
         }
-        mirror(&mut stiffness);
+        Self::mirror(&mut stiffness);
         stiffness
     }
 
-    /// Stiffness of the intact section.
-    pub fn intact_stiffness(&self, team: &Team) -> NinePoint<2> {
-        let mut matrix = NinePoint::zeros(self.grid);
-        let [columns, rows] = self.grid.elements();
+    /// Stiffness of the intact domain.
+    pub fn intact_stiffness(&self, team: &Team) -> GridMatrix<D, D> {
+        let mut matrix = GridMatrix::zeros(self.grid);
+        let (columns, rows) = (self.grid.elements()[0], self.grid.rows());
         for first in (0..rows).step_by(ROWS) {
             let found = team.map((rows - first).min(ROWS), |row| {
-                (0..columns).map(|i| self.intact([i, first + row])).collect::<Vec<_>>()
+                (0..columns)
+                    .map(|i| self.intact(self.grid.element(i, first + row)))
+                    .collect::<Vec<_>>()
             });
             for (row, own) in found.iter().enumerate() {
                 for (i, element) in own.iter().enumerate() {
-                    matrix.add_element([i, first + row], &element[..]);
+                    matrix.add_element::<C>(self.grid.element(i, first + row), element);
                 }
             }
         }
@@ -136,19 +185,19 @@ impl Elements {
 
     /// Computes nodal forces of the stresses [N].
     pub fn forces(&self, nodal: &Nodal, team: &Team) -> Vec<f64> {
-        let [columns, rows] = self.grid.elements();
-        let mut forces = vec![0.0; 2 * self.grid.nodes()];
-        let stress = |strain, damage| self.law.respond(strain, damage).stress;
+        let (columns, rows) = (self.grid.elements()[0], self.grid.rows());
+        let mut forces = vec![0.0; D * self.grid.nodes()];
+        let stress = |strain, damage| self.respond(strain, damage).stress;
         // Computed on all threads, added in fixed order.
         for first in (0..rows).step_by(ROWS) {
             let found = team.map((rows - first).min(ROWS), |row| {
-                let of_row =
-                    (0..columns).map(|i| self.nodal_forces([i, first + row], nodal, stress));
-                of_row.collect::<Vec<_>>()
+                let of_element =
+                    |i| self.nodal_forces(self.grid.element(i, first + row), nodal, stress);
+                (0..columns).map(of_element).collect::<Vec<_>>()
             });
             for (row, own) in found.iter().enumerate() {
                 for (i, element) in own.iter().enumerate() {
-                    add_forces(&mut forces, self.grid.corners([i, first + row]), element);
+                    self.add_forces(&mut forces, self.grid.element(i, first + row), element);
                 }
             }
         }
@@ -156,14 +205,15 @@ impl Elements {
     }
 
     /// Computes the energy that cracks release.
-    pub fn released(&self, nodal: &Nodal, team: &Team) -> Released {
-        let [columns, rows] = self.grid.elements();
-        let mut released = vec![[0.0; POINTS]; columns * rows];
+    pub fn released(&self, nodal: &Nodal, team: &Team) -> Released<C> {
+        let (columns, rows) = (self.grid.elements()[0], self.grid.rows());
+        let mut released = vec![[0.0; C]; columns * rows];
         let mut of_rows: Vec<_> = released.chunks_mut(columns).collect();
         team.for_each(&mut of_rows, |row, own| {
             for (i, own) in own.iter_mut().enumerate() {
-                self.each_strain([i, row], nodal, |q, _, strain, _| {
-                    own[q] = self.law.released(strain)
+                self.each_strain(self.grid.element(i, row), nodal, |q, _, strain, _| {
+                    own[q] =
+                        self.law.released::<<Point<D, C> as Kinematics<D, C, V>>::Axes, V>(strain)
                 });
             }
         });
@@ -175,38 +225,33 @@ impl Elements {
     /// The energy `(1 − d)²ψ + G_c/c_w (w/ℓ + ℓ|∇d|²)` is quadratic in d.
     pub fn damage_system(
         &self,
-        released: &Released,
-        matrix: &mut NinePoint<1>,
+        released: &Released<C>,
+        matrix: &mut GridMatrix<D, 1>,
         team: &Team,
     ) -> Vec<f64> {
         use crate::laws::fracture::Dissipation::{At1, At2};
-        let [columns, rows] = self.grid.elements();
+        let (columns, rows) = (self.grid.elements()[0], self.grid.rows());
         matrix.clear();
         let mut load = vec![0.0; self.grid.nodes()];
         for first in (0..rows).step_by(ROWS) {
             let found = team.map((rows - first).min(ROWS), |row| {
                 let of_element = |i: usize| {
-                    let place = [i, first + row];
-                    let [local, spread] = self.law.weights(self.size(place), place);
-                    let (mut own, mut b) = ([0.0; 16], [0.0; 4]);
-                    for (point, psi) in self
-                        .section
-                        .points(place)
-                        .iter()
-                        .zip(released[place[0] + columns * place[1]])
-                    {
+                    let place = self.grid.element(i, first + row);
+                    let [local, spread] = self.law.weights(self.domain.mean_size(place), place);
+                    let (mut own, mut b) = ([[0.0; C]; C], [0.0; C]);
+                    let points: [Point<D, C>; C] = self.domain.points(place);
+                    for (point, psi) in points.iter().zip(released[i + columns * (first + row)]) {
                         let psi = DEGRADED * psi;
                         let (mass, pull) = match self.law.dissipation {
                             At1 => (2.0 * psi, 2.0 * psi - local),
                             At2 => (2.0 * (psi + local), 2.0 * psi),
                         };
-                        for r in 0..4 {
+                        for r in 0..C {
                             b[r] += point.volume * pull * point.shape[r];
-                            for c in 0..4 {
-                                let slopes = &point.slopes;
-                                let gradients =
-                                    slopes[0][r] * slopes[0][c] + slopes[1][r] * slopes[1][c];
-                                own[4 * r + c] += point.volume
+                            for c in 0..C {
+                                let gradients: f64 =
+                                    point.slopes.iter().map(|slopes| slopes[r] * slopes[c]).sum();
+                                own[r][c] += point.volume
                                     * (mass * point.shape[r] * point.shape[c]
                                         + 2.0 * spread * gradients);
                             }
@@ -218,9 +263,9 @@ impl Elements {
             });
             for (row, elements) in found.iter().enumerate() {
                 for (i, (own, b)) in elements.iter().enumerate() {
-                    let place = [i, first + row];
-                    matrix.add_element(place, own);
-                    for (node, b) in self.grid.corners(place).into_iter().zip(b) {
+                    let place = self.grid.element(i, first + row);
+                    matrix.add_element::<C>(place, own.as_flattened());
+                    for (node, b) in self.grid.corners::<C>(place).into_iter().zip(b) {
                         load[node] += b;
                     }
                 }
@@ -232,14 +277,14 @@ impl Elements {
     /// Energies of a moment [J].
     pub fn energies(&self, nodal: &Nodal, team: &Team) -> Energies {
         let sums = self.by_rows(team, |place, sum: &mut Energies| {
-            let damage: [f64; 4] = self.gather(place, nodal.damage);
-            let weights = self.law.weights(self.size(place), place);
+            let damage = self.gather(place, nodal.damage);
+            let weights = self.law.weights(self.domain.mean_size(place), place);
             self.each_point(place, nodal, |_, point, response| {
                 let own = point.interpolate(&damage);
                 let elastic = degradation(own) * response.released + response.remaining;
                 sum.elastic += point.volume * elastic;
                 let gradient = point.gradient(&damage);
-                sum.dissipated += point.volume * self.law.dissipated(weights, own, gradient);
+                sum.dissipated += point.volume * self.law.dissipated(weights, own, &gradient);
             });
         });
         sums.iter().fold(Energies::default(), |all, row| Energies {
@@ -251,7 +296,7 @@ impl Elements {
     /// Work of the stress of a moment on a change of temperatures, `−∫ σ : α ΔT dV` [J].
     pub fn thermal_work(&self, nodal: &Nodal, change: &[f64], team: &Team) -> f64 {
         let sums = self.by_rows(team, |place, sum: &mut f64| {
-            let change: [f64; 4] = self.gather(place, change);
+            let change = self.gather(place, change);
             self.each_point(place, nodal, |_, point, response| {
                 let strain = self.law.expansion * point.interpolate(&change);
                 *sum -= point.volume * strain * response.stress[..3].iter().sum::<f64>();
@@ -264,67 +309,46 @@ impl Elements {
     fn by_rows<T: Default + Send>(
         &self,
         team: &Team,
-        add: impl Fn([usize; 2], &mut T) + Sync,
+        add: impl Fn([usize; D], &mut T) + Sync,
     ) -> Vec<T> {
-        let [columns, rows] = self.grid.elements();
+        let (columns, rows) = (self.grid.elements()[0], self.grid.rows());
         team.map(rows, |row| {
             let mut sum = T::default();
-            (0..columns).for_each(|i| add([i, row], &mut sum));
+            (0..columns).for_each(|i| add(self.grid.element(i, row), &mut sum));
             sum
         })
     }
 
-    /// Stress at the nodes: means of the points of the elements around, by their volumes [Pa].
-    pub fn nodal_stress(&self, nodal: &Nodal) -> Vec<Components> {
-        let mut sums = vec![([0.0; 4], 0.0); self.grid.nodes()];
-        let [columns, rows] = self.grid.elements();
-        for place in (0..rows).flat_map(|j| (0..columns).map(move |i| [i, j])) {
-            let corners = self.grid.corners(place);
-            self.each_point(place, nodal, |q, point, response| {
-                // The nearest point of an element represents its corner.
-                let (stress, volume) = &mut sums[corners[q]];
-                *volume += point.volume;
-                for (sum, own) in stress.iter_mut().zip(&response.stress) {
-                    *sum += point.volume * own;
-                }
-            });
+    /// Stress at the nodes as xx, yy, zz, xy, yz and xz, where the normal of a section is y: means of the points of the
+    /// elements around, by their volumes [Pa].
+    pub fn nodal_stress(&self, nodal: &Nodal) -> Vec<[f64; 6]> {
+        let mut sums = vec![([0.0; V], 0.0); self.grid.nodes()];
+        let columns = self.grid.elements()[0];
+        for row in 0..self.grid.rows() {
+            for place in (0..columns).map(|i| self.grid.element(i, row)) {
+                let corners = self.grid.corners::<C>(place);
+                self.each_point(place, nodal, |q, point, response| {
+                    // The nearest point of an element represents its corner.
+                    let (stress, volume) = &mut sums[corners[q]];
+                    *volume += point.volume;
+                    for (sum, own) in stress.iter_mut().zip(&response.stress) {
+                        *sum += point.volume * own;
+                    }
+                });
+            }
         }
-        sums.into_iter().map(|(stress, volume)| stress.map(|sum| sum / volume)).collect()
+        let mean = |(stress, volume): ([f64; V], f64)| stress.map(|sum| sum / volume);
+        sums.into_iter().map(|sum| Point::in_space(mean(sum))).collect()
     }
-}
 
-/// Adds the forces of an element to those of all nodes.
-pub(super) fn add_forces(forces: &mut [f64], corners: [usize; 4], element: &[f64; 8]) {
-    for (a, node) in corners.into_iter().enumerate() {
-        forces[2 * node] += element[2 * a];
-        forces[2 * node + 1] += element[2 * a + 1];
-    }
-}
-
-/// Adds the part of a point to the lower triangle of an element's stiffness.
-pub(super) fn add_stiffness(
-    stiffness: &mut [f64; 64],
-    point: &Point,
-    strains: &[Components; 8],
-    tangent: [Components; 4],
-) {
-    for (column, strain) in strains.iter().enumerate() {
-        let stress = tangent.map(|row| point.volume * dot(&row, strain));
-        for (row, strain) in strains.iter().enumerate().skip(column) {
-            stiffness[row * 8 + column] += dot(strain, &stress);
+    /// Adds the forces of an element to those of all nodes.
+    pub(super) fn add_forces(&self, forces: &mut [f64], element: [usize; D], own: &[[f64; D]; C]) {
+        for (node, own) in self.grid.corners::<C>(element).into_iter().zip(own) {
+            forces[D * node..][..D].iter_mut().zip(own).for_each(|(force, own)| *force += own);
         }
     }
 }
 
-/// Copies the lower triangle of an element's stiffness to the upper one.
-pub(super) fn mirror(stiffness: &mut [f64; 64]) {
-    for row in 0..8 {
-        for column in 0..row {
-            stiffness[column * 8 + row] = stiffness[row * 8 + column];
-        }
-    }
-}
-
-pub(super) fn dot(a: &Components, b: &Components) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]
+pub(super) fn dot<const V: usize>(a: &[f64; V], b: &[f64; V]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

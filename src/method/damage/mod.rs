@@ -1,4 +1,4 @@
-//! Cracks as gradient damage: sections of solids that minimise elastic energy and that of cracks.
+//! Cracks as gradient damage: solids, in a section or in space, that minimise elastic energy and that of cracks.
 
 mod acceleration;
 mod balance;
@@ -6,18 +6,20 @@ mod bounded;
 mod breaking;
 mod broken;
 mod damaged;
+mod domain;
 mod elements;
+mod model;
 mod patch;
 mod problem;
-mod section;
 #[cfg(test)]
 mod tests;
 
 pub use breaking::BreakingOrder;
-pub use broken::{Cracks, Side};
-pub use elements::{Elements, Energies};
-pub use problem::{DamageProblem, DamageState, Effort};
-pub use section::{Form, Section};
+pub use broken::{Cracks, Section, Side, broken};
+pub use domain::{Domain, Form};
+pub use elements::{Bricks, Elements, Energies, PlaneElements};
+pub use model::DamageModel;
+pub use problem::{DamageProblem, DamageState, Effort, SectionProblem};
 
 use crate::math::cholesky::SolverError;
 use crate::runtime::allowance::Halt;

@@ -7,7 +7,7 @@
 
 use super::balance::Unknowns;
 use crate::math::cholesky::{Elimination, SolverError, SparseCholesky};
-use crate::math::nine_point::{Grid, NinePoint, Padded};
+use crate::math::grid_matrix::{Grid, GridMatrix, Padded};
 use crate::runtime::parallel::Team;
 
 /// Relative change of a diagonal entry from which on a node belongs to the patch.
@@ -17,15 +17,15 @@ const OVERLAP: usize = 2;
 /// Largest part of all nodes in a patch.
 const LARGEST: f64 = 0.1;
 
-/// A part of a section whose equilibrium is solved for itself.
-pub struct Patch {
+/// A part of a domain whose equilibrium is solved for itself.
+pub struct Patch<const D: usize> {
     part: Part,
     factor: SparseCholesky,
     /// Diagonal of the stiffness that was factored, by node of the part.
-    diagonal: Vec<[f64; 2]>,
+    diagonal: Vec<[f64; D]>,
 }
 
-/// Some nodes of a section, and the elimination of their displacements.
+/// Some nodes of a domain, and the elimination of their displacements.
 struct Part {
     inside: Vec<bool>,
     /// The nodes, and those whose forces depend on their displacements, by number.
@@ -38,18 +38,18 @@ struct Part {
 }
 
 /// Extent of the change of a stiffness.
-pub enum Extent {
+pub enum Extent<const D: usize> {
     Nothing,
-    Patch(Patch),
+    Patch(Patch<D>),
     /// So much that a new factor of the whole is worth more.
     TooMuch,
 }
 
 impl Part {
-    fn new(
+    fn new<const D: usize>(
         inside: Vec<bool>,
-        stiffness: &NinePoint<2>,
-        unknowns: &Unknowns,
+        stiffness: &GridMatrix<D, D>,
+        unknowns: &Unknowns<D>,
     ) -> Result<Self, SolverError> {
         let nodes = numbers(&inside);
         let reached = numbers(&dilated(&inside, stiffness.grid()));
@@ -58,7 +58,11 @@ impl Part {
         Ok(Self { inside, nodes, reached, places, number, elimination })
     }
 
-    fn factor(self, stiffness: &NinePoint<2>, threads: usize) -> Result<Patch, SolverError> {
+    fn factor<const D: usize>(
+        self,
+        stiffness: &GridMatrix<D, D>,
+        threads: usize,
+    ) -> Result<Patch<D>, SolverError> {
         let lower = stiffness.lower_triangle(&self.number);
         let factor = self.elimination.factor(&lower, threads)?;
         let diagonal = self.nodes.iter().map(|&node| stiffness.diagonal(node as usize)).collect();
@@ -66,16 +70,16 @@ impl Part {
     }
 }
 
-impl Patch {
+impl<const D: usize> Patch<D> {
     /// Finds where a stiffness differs from that of an earlier factor, of which the diagonal is known. The last patch
     /// serves again as far as it can.
     pub fn between(
-        stiffness: &NinePoint<2>,
-        diagonal: &[[f64; 2]],
-        unknowns: &Unknowns,
+        stiffness: &GridMatrix<D, D>,
+        diagonal: &[[f64; D]],
+        unknowns: &Unknowns<D>,
         threads: usize,
         last: Option<Self>,
-    ) -> Result<Extent, SolverError> {
+    ) -> Result<Extent<D>, SolverError> {
         let grid = stiffness.grid();
         let has_changed = |node: usize| differs(stiffness.diagonal(node), diagonal[node]);
         let mut inside: Vec<bool> = (0..grid.nodes()).map(has_changed).collect();
@@ -101,13 +105,13 @@ impl Patch {
     }
 
     /// Returns true if its factor is that of a stiffness, nearly.
-    fn is_of(&self, stiffness: &NinePoint<2>) -> bool {
+    fn is_of(&self, stiffness: &GridMatrix<D, D>) -> bool {
         let mut own = self.part.nodes.iter().zip(&self.diagonal);
         own.all(|(&node, then)| !differs(stiffness.diagonal(node as usize), *then))
     }
 
     /// Adds the displacements of the patch under the forces in it, all else at rest.
-    pub fn solve(&self, force: &[f64], displacement: &mut Padded<2>) {
+    pub fn solve(&self, force: &[f64], displacement: &mut Padded<D>) {
         let mut values: Vec<f64> = self.part.places.iter().map(|&place| force[place]).collect();
         self.factor.solve_in_place(&mut values);
         let all = displacement.inner_mut();
@@ -115,47 +119,47 @@ impl Patch {
     }
 
     /// Subtracts from a force what displacements of the patch alone take, wherever they do.
-    pub fn balance_around(&self, force: &mut [f64], displacement: &Padded<2>, system: &System) {
+    pub fn balance_around(&self, force: &mut [f64], displacement: &Padded<D>, system: &System<D>) {
         subtract(&self.part.reached, force, displacement, system);
     }
 
     /// Subtracts from a force what displacements take inside the patch.
-    pub fn balance_inside(&self, force: &mut [f64], displacement: &Padded<2>, system: &System) {
+    pub fn balance_inside(&self, force: &mut [f64], displacement: &Padded<D>, system: &System<D>) {
         subtract(&self.part.nodes, force, displacement, system);
     }
 }
 
 /// Returns true if the diagonal of a node belongs to another stiffness.
-fn differs(now: [f64; 2], then: [f64; 2]) -> bool {
-    (0..2).any(|i| (now[i] - then[i]).abs() > CHANGED * then[i].min(now[i]))
+fn differs<const D: usize>(now: [f64; D], then: [f64; D]) -> bool {
+    (0..D).any(|i| (now[i] - then[i]).abs() > CHANGED * then[i].min(now[i]))
 }
 
 /// A stiffness, and the components whose displacements are prescribed.
-pub struct System<'a> {
-    pub stiffness: &'a NinePoint<2>,
+pub struct System<'a, const D: usize> {
+    pub stiffness: &'a GridMatrix<D, D>,
     pub held: &'a [bool],
     pub team: &'a Team,
 }
 
-fn subtract(nodes: &[u32], force: &mut [f64], displacement: &Padded<2>, system: &System) {
-    let mut product = vec![0.0; 2 * nodes.len()];
+fn subtract<const D: usize>(
+    nodes: &[u32],
+    force: &mut [f64],
+    displacement: &Padded<D>,
+    system: &System<D>,
+) {
+    let mut product = vec![0.0; D * nodes.len()];
     system.stiffness.product_of(nodes, displacement, &mut product, system.team);
-    for (&node, product) in nodes.iter().zip(product.chunks_exact(2)) {
-        let own = (2 * node as usize..).zip(product);
+    for (&node, product) in nodes.iter().zip(product.chunks_exact(D)) {
+        let own = (D * node as usize..).zip(product);
         own.filter(|(place, _)| !system.held[*place]).for_each(|(place, p)| force[place] -= p);
     }
 }
 
 /// Nodes within one layer of others, these included.
-fn dilated(inside: &[bool], grid: Grid) -> Vec<bool> {
-    let [columns, rows] = grid.counts;
+fn dilated<const D: usize>(inside: &[bool], grid: Grid<D>) -> Vec<bool> {
     let mut wider = vec![false; inside.len()];
     for node in (0..inside.len()).filter(|&node| inside[node]) {
-        let (i, j) = (node % columns, node / columns);
-        for row in j.saturating_sub(1)..(j + 2).min(rows) {
-            wider[row * columns + i.saturating_sub(1)..row * columns + (i + 2).min(columns)]
-                .fill(true);
-        }
+        grid.around(node).for_each(|other| wider[other] = true);
     }
     wider
 }

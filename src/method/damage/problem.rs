@@ -1,13 +1,13 @@
-//! Damage and displacement of a section, from one state to the next.
+//! Damage and displacement of a domain, from one state to the next.
 
 use super::DamageError;
 use super::acceleration::{Acceleration, Alternated};
 use super::balance::{Balance, Unknowns};
 use super::bounded::minimise;
 use super::breaking::BreakingOrder;
+use super::domain::{Kinematics, Point};
 use super::elements::{Elements, Energies, Nodal};
-use crate::laws::fracture::Components;
-use crate::math::nine_point::{NinePoint, Padded};
+use crate::math::grid_matrix::{GridMatrix, Padded};
 use crate::math::separable::dot;
 use crate::runtime::allowance::Allowance;
 use crate::runtime::parallel::Team;
@@ -22,17 +22,20 @@ const TOLERANCE: f64 = 1e-4;
 const TOLERANCE_OF_FORCES: f64 = 1e-6;
 const LARGEST_TOLERANCE: f64 = 1e-3;
 
-/// Equilibrium of a section that cracks.
-pub struct DamageProblem {
-    pub elements: Elements,
-    unknowns: Unknowns,
+/// Equilibrium of a domain that cracks.
+pub struct DamageProblem<const D: usize, const C: usize, const V: usize> {
+    pub elements: Elements<D, C, V>,
+    unknowns: Unknowns<D>,
     threads: usize,
 }
 
-/// State of a section.
+/// That of a section.
+pub type SectionProblem = DamageProblem<2, 4, 4>;
+
+/// State of a domain.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DamageState {
-    /// [m], both components of a node together.
+    /// [m], all components of a node together.
     pub displacement: Vec<f64>,
     /// [1], 0 intact to 1 broken.
     pub damage: Vec<f64>,
@@ -50,9 +53,12 @@ pub struct Effort {
     pub factorings: usize,
 }
 
-impl DamageProblem {
-    /// `held` marks prescribed displacements, both components of a node together.
-    pub fn new(elements: Elements, held: Vec<bool>, threads: usize) -> Self {
+impl<const D: usize, const C: usize, const V: usize> DamageProblem<D, C, V>
+where
+    Point<D, C>: Kinematics<D, C, V>,
+{
+    /// `held` marks prescribed displacements, all components of a node together.
+    pub fn new(elements: Elements<D, C, V>, held: Vec<bool>, threads: usize) -> Self {
         let unknowns = Unknowns::new(elements.grid, held);
         Self { elements, unknowns, threads }
     }
@@ -60,7 +66,7 @@ impl DamageProblem {
     pub fn initial_state(&self) -> DamageState {
         let nodes = self.elements.grid.nodes();
         DamageState {
-            displacement: vec![0.0; 2 * nodes],
+            displacement: vec![0.0; D * nodes],
             damage: vec![0.0; nodes],
             rise: vec![0.0; nodes],
             work: 0.0,
@@ -113,13 +119,13 @@ impl DamageProblem {
         &self,
         state: &mut DamageState,
         (rise, forces): (&[f64], &[f64]),
-        balance: &mut Balance,
+        balance: &mut Balance<D, C, V>,
         order: &mut BreakingOrder,
     ) -> Result<Effort, DamageError> {
         let team = balance.team;
         let low = state.damage.clone();
         let grid = self.elements.grid;
-        let mut matrix = NinePoint::<1>::zeros(grid);
+        let mut matrix = GridMatrix::<D, 1>::zeros(grid);
         let mut damage = Padded::<1>::zeros(grid);
         damage.inner_mut().copy_from_slice(&state.damage);
         let mut acceleration = Acceleration::new();
@@ -160,8 +166,8 @@ impl DamageProblem {
         self.elements.forces(&state.nodal(), &Team::new(self.threads))
     }
 
-    /// Stress at the nodes [Pa].
-    pub fn stress(&self, state: &DamageState) -> Vec<Components> {
+    /// Stress at the nodes as xx, yy, zz, xy, yz and xz, where the normal of a section is y [Pa].
+    pub fn stress(&self, state: &DamageState) -> Vec<[f64; 6]> {
         self.elements.nodal_stress(&state.nodal())
     }
 }

@@ -1,8 +1,9 @@
 use super::damaged::Damaged;
+use super::domain::{Kinematics, Point};
 use super::elements::Nodal;
 use super::*;
 use crate::laws::fracture::{Dissipation, GradientDamage, Principal, Split};
-use crate::math::nine_point::Padded;
+use crate::math::grid_matrix::Padded;
 use crate::runtime::allowance::Allowance;
 use crate::runtime::parallel::Team;
 
@@ -25,7 +26,7 @@ fn law(dissipation: Dissipation, split: Split) -> GradientDamage {
 
 /// A bar along x in plane stress whose ends are drawn apart, weak in the middle by a part of a crack's damage.
 struct Bar {
-    problem: DamageProblem,
+    problem: SectionProblem,
     state: DamageState,
     columns: usize,
 }
@@ -124,46 +125,161 @@ fn broken_bar_has_dissipated_the_energy_of_a_crack() {
     }
 }
 
+/// A nodal field without a pattern.
+fn wave(n: usize) -> f64 {
+    (1.7 * n as f64 + 0.3).sin()
+}
+
+/// Asserts that the stiffness of damaged elements is the derivative of their forces.
+fn derivative<const D: usize, const C: usize, const V: usize>(
+    domain: &Domain<D>,
+    law: GradientDamage,
+) where
+    Point<D, C>: Kinematics<D, C, V>,
+{
+    const H: f64 = 1e-7;
+    let elements = Elements::<D, C, V>::new(domain.clone(), law);
+    let nodes = elements.grid.nodes();
+    let displacement: Vec<f64> = (0..D * nodes).map(|n| 1e-3 * wave(n)).collect();
+    let damage: Vec<f64> = (0..nodes).map(|n| 0.3 + 0.2 * wave(n)).collect();
+    let rise: Vec<f64> = (0..nodes).map(|n| 2.0 * wave(3 * n)).collect();
+    let change: Vec<f64> = (0..D * nodes).map(|n| wave(7 * n)).collect();
+    let team = Team::new(1);
+    let at = |by: f64| {
+        let moved: Vec<f64> = displacement.iter().zip(&change).map(|(u, du)| u + by * du).collect();
+        let nodal = Nodal { displacement: &moved, damage: &damage, rise: &rise };
+        elements.forces(&nodal, &team)
+    };
+    let nodal = Nodal { displacement: &displacement, damage: &damage, rise: &rise };
+    let mut stiffness = elements.intact_stiffness(&team);
+    Damaged::of(&elements, &damage).correct_stiffness(&elements, &nodal, &mut stiffness, &team);
+    let mut padded = Padded::zeros(elements.grid);
+    padded.inner_mut().copy_from_slice(&change);
+    let mut found = vec![0.0; D * nodes];
+    stiffness.product(&padded, &vec![false; D * nodes], &mut found, &team);
+    let scale = found.iter().map(|own| own.abs()).fold(0.0, f64::max);
+    for ((high, low), found) in at(H).iter().zip(&at(-H)).zip(&found) {
+        let slope = (high - low) / (2.0 * H);
+        let form = domain.form;
+        assert!((slope - found).abs() < 1e-5 * scale, "{form:?} {law:?} {slope} {found}");
+    }
+}
+
 #[test]
 fn stiffness_is_the_derivative_of_forces() {
-    const H: f64 = 1e-7;
-    let axes = [vec![0.1, 0.3, 0.6], vec![-0.2, 0.0, 0.1]];
-    for form in [Form::Axisymmetric, Form::PlaneStrain { thickness: 0.5 }] {
-        for split in [Split::None, Split::NoTension, Split::Spectral, Split::Volumetric] {
-            let mut law = law(Dissipation::At1, split);
-            law.elastic.is_plane_stress = false;
-            let section = Section { axes: axes.clone(), form };
-            let elements = Elements::new(section, law);
-            let nodes = elements.grid.nodes();
-            let wave = |n: usize| (1.7 * n as f64 + 0.3).sin();
-            let displacement: Vec<f64> = (0..2 * nodes).map(|n| 1e-3 * wave(n)).collect();
-            let damage: Vec<f64> = (0..nodes).map(|n| 0.3 + 0.2 * wave(n)).collect();
-            let rise: Vec<f64> = (0..nodes).map(|n| 2.0 * wave(3 * n)).collect();
-            let change: Vec<f64> = (0..2 * nodes).map(|n| wave(7 * n)).collect();
-            let team = Team::new(1);
-            let at = |by: f64| {
-                let moved: Vec<f64> =
-                    displacement.iter().zip(&change).map(|(u, du)| u + by * du).collect();
-                let nodal = Nodal { displacement: &moved, damage: &damage, rise: &rise };
-                elements.forces(&nodal, &team)
-            };
-            let nodal = Nodal { displacement: &displacement, damage: &damage, rise: &rise };
-            let mut stiffness = elements.intact_stiffness(&team);
-            Damaged::of(&elements, &damage).correct_stiffness(
-                &elements,
-                &nodal,
-                &mut stiffness,
-                &team,
-            );
-            let mut padded = Padded::zeros(elements.grid);
-            padded.inner_mut().copy_from_slice(&change);
-            let mut found = vec![0.0; 2 * nodes];
-            stiffness.product(&padded, &vec![false; 2 * nodes], &mut found, &team);
-            let scale = found.iter().map(|own| own.abs()).fold(0.0, f64::max);
-            for ((high, low), found) in at(H).iter().zip(&at(-H)).zip(&found) {
-                let slope = (high - low) / (2.0 * H);
-                assert!((slope - found).abs() < 1e-5 * scale, "{form:?} {split:?} {slope} {found}");
-            }
+    let [x, y, z] = [vec![0.1, 0.3, 0.6], vec![0.0, 0.25, 0.35], vec![-0.2, 0.0, 0.1]];
+    for split in [Split::None, Split::NoTension, Split::Spectral, Split::Volumetric] {
+        let mut law = law(Dissipation::At1, split);
+        law.elastic.is_plane_stress = false;
+        for form in [Form::Axisymmetric, Form::PlaneStrain { thickness: 0.5 }] {
+            derivative::<2, 4, 4>(&Domain { axes: [x.clone(), z.clone()], form }, law);
+        }
+        let axes = [x.clone(), y.clone(), z.clone()];
+        derivative::<3, 8, 6>(&Domain { axes, form: Form::Space }, law);
+    }
+}
+
+/// A strip in plane strain, and the same in space, one element thick between planes that do not move along y, with a
+/// notch, under temperatures that vary.
+#[test]
+fn cracks_in_space_are_those_of_plane_strain_between_fixed_planes() {
+    let h = 0.25 * DAMAGE_LENGTH;
+    let even = |count: usize| -> Vec<f64> { (0..=count).map(|i| h * i as f64).collect() };
+    let (columns, layers) = (24, 12);
+    let mut law = law(Dissipation::At1, Split::NoTension);
+    law.elastic.is_plane_stress = false;
+    let section =
+        Domain { axes: [even(columns), even(layers)], form: Form::PlaneStrain { thickness: h } };
+    let space = Domain { axes: [even(columns), even(1), even(layers)], form: Form::Space };
+    // Both ends are held along x, the lowest layer along z.
+    let [nx, nz] = section.grid().counts;
+    let is_end = |i: usize| i == 0 || i == columns;
+    let in_section = (0..nx * nz).flat_map(|n| [is_end(n % nx), n / nx == 0]).collect();
+    let in_space =
+        (0..nx * 2 * nz).flat_map(|n| [is_end(n % nx), true, n / (2 * nx) == 0]).collect();
+    let plane = DamageProblem::<2, 4, 4>::new(Elements::new(section, law), in_section, 1);
+    let bricks = DamageProblem::<3, 8, 6>::new(Elements::new(space, law), in_space, 1);
+    let (mut flat, mut solid) = (plane.initial_state(), bricks.initial_state());
+    for k in layers - 2..=layers {
+        for i in [columns / 2, columns / 2 + 1] {
+            flat.damage[i + nx * k] = 1.0;
+            (0..2).for_each(|j| solid.damage[i + nx * (j + 2 * k)] = 1.0);
         }
     }
+    let cold = -1.2 * law.strength() / (law.elastic.young * law.expansion);
+    for step in 1..=3 {
+        let of_node = |n: usize| cold * step as f64 / 3.0 * (0.4 + 0.05 * (n / nx) as f64);
+        let rise: Vec<f64> = (0..nx * nz).map(of_node).collect();
+        let in_space: Vec<f64> =
+            (0..nz).flat_map(|k| [&rise[nx * k..][..nx], &rise[nx * k..][..nx]].concat()).collect();
+        let none = vec![0.0; 2 * rise.len()];
+        plane.advance(&mut flat, (&rise, &none), &Allowance::default()).unwrap();
+        let none = vec![0.0; 3 * in_space.len()];
+        bricks.advance(&mut solid, (&in_space, &none), &Allowance::default()).unwrap();
+    }
+    let [one, other] = [plane.energies(&flat), bricks.energies(&solid)];
+    assert!(one.dissipated > 2.0 * ENERGY * h * h, "{one:?}");
+    for (one, other) in [(one.dissipated, other.dissipated), (one.elastic, other.elastic)] {
+        assert!((one / other - 1.0).abs() < 1e-3, "{one} {other}");
+    }
+    for (n, damage) in flat.damage.iter().enumerate() {
+        for j in 0..2 {
+            let own = solid.damage[n % nx + nx * (j + 2 * (n / nx))];
+            assert!((own - damage).abs() < 5e-3, "{n} {own} {damage}");
+        }
+    }
+    let [mine, theirs] = [plane.stress(&flat), bricks.stress(&solid)];
+    let scale = mine.iter().flatten().fold(0.0_f64, |most, own| most.max(own.abs()));
+    for (n, own) in mine.iter().enumerate() {
+        let other = theirs[n % nx + nx * 2 * (n / nx)];
+        for (own, other) in own.iter().zip(other) {
+            assert!((own - other).abs() < 5e-3 * scale, "{n} {own} {other}");
+        }
+    }
+}
+
+#[test]
+fn bar_in_space_breaks_at_its_strength_with_the_energy_of_its_section() {
+    let law = GradientDamage {
+        elastic: Principal {
+            is_plane_stress: false,
+            ..law(Dissipation::At1, Split::NoTension).elastic
+        },
+        ..law(Dissipation::At1, Split::NoTension)
+    };
+    let count = 61;
+    let h = LENGTH / count as f64;
+    let along = (0..=count).map(|i| h * i as f64).collect();
+    let domain = Domain { axes: [along, vec![0.0, h], vec![0.0, h]], form: Form::Space };
+    let nodes = domain.grid().nodes();
+    let mut held = vec![false; 3 * nodes];
+    let is_end = |node: usize| node % (count + 1) == 0 || node % (count + 1) == count;
+    (0..nodes).filter(|&node| is_end(node)).for_each(|node| held[3 * node] = true);
+    // The planes y = 0 and z = 0 do not move along their normals.
+    for node in 0..nodes {
+        let row = node / (count + 1);
+        held[3 * node + 1] = row % 2 == 0;
+        held[3 * node + 2] = row / 2 == 0;
+    }
+    let problem = DamageProblem::<3, 8, 6>::new(Elements::new(domain, law), held, 2);
+    let mut state = problem.initial_state();
+    for (node, damage) in state.damage.iter_mut().enumerate() {
+        let place = h * (node % (count + 1)) as f64 - 0.5 * LENGTH;
+        *damage = 5e-3 * profile(place).powi(2);
+    }
+    let strain = law.strength() / law.elastic.young;
+    let none = (vec![0.0; nodes], vec![0.0; 3 * nodes]);
+    let mut peak = 0.0_f64;
+    for part in (0..=12).map(|step| 0.96 + 0.01 * f64::from(step)).chain([1.5]) {
+        for node in (0..nodes).filter(|node| node % (count + 1) == count) {
+            state.displacement[3 * node] = part * strain * LENGTH;
+        }
+        problem.advance(&mut state, (&none.0, &none.1), &Allowance::default()).unwrap();
+        let forces = problem.forces(&state);
+        let end = (0..nodes).filter(|node| node % (count + 1) == count);
+        peak = peak.max(end.map(|node| forces[3 * node]).sum::<f64>() / (h * h));
+    }
+    assert!((peak / law.strength() - 1.0).abs() < 0.02, "{}", peak / law.strength());
+    let part = problem.energies(&state).dissipated / (ENERGY * h * h);
+    assert!((part - 1.0).abs() < 0.02, "{part}");
 }

@@ -15,7 +15,8 @@ pub fn crack_mesh(solid: &Solid, mirrored: [bool; 2], length: f64, factors: [f64
     match *shape {
         Shape::Box([lx, ly, _]) => {
             let x = axis([low(0, lx / 2.0), lx / 2.0], along, Weight::Uniform);
-            let y = axis([low(1, ly / 2.0), ly / 2.0], ly, Weight::Uniform);
+            let across = if solid.cracks_in_space() { along } else { ly };
+            let y = axis([low(1, ly / 2.0), ly / 2.0], across, Weight::Uniform);
             Mesh { axes: [x, y, height], mirrored, geometry: Geometry::Box, layering }
         }
         Shape::Disc(disc) => {

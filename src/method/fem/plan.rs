@@ -45,6 +45,8 @@ pub struct Plan {
     pub inelastic: Option<Vec<Arc<dyn FlowLaw>>>,
     /// Law of cracks; `None` if nothing cracks.
     pub damage: Option<GradientDamage>,
+    /// True if a body that cracks does so in a section of its mesh.
+    pub cracks_in_section: bool,
     /// Cracks at time zero.
     pub notches: Vec<Notch>,
     /// Flaws in each layer, from the lowest on.
@@ -185,6 +187,7 @@ impl Plan {
             newton,
             inelastic,
             damage,
+            cracks_in_section: solid.cracks() && !solid.cracks_in_space(),
             notches: solid.notches.clone(),
             flaws: flaws(solid),
             stress_free_rise,
@@ -212,8 +215,11 @@ impl Plan {
         [
             self.mesh.sided_nodes(),
             if self.damage.is_some() {
-                let [columns, _, layers] = self.mesh.node_counts();
-                2 * columns * layers
+                let [columns, rows, layers] = self.mesh.node_counts();
+                match self.cracks_in_section {
+                    true => 2 * columns * layers,
+                    false => 3 * columns * rows * layers,
+                }
             } else if self.law.is_some() || self.inelastic.is_some() {
                 nodes.saturating_mul(degrees)
             } else {

@@ -102,11 +102,6 @@ fn form(checker: &mut Checker, path: &Path, solid: &Solid) {
             let message = "a disc cracks in its meridian section";
             checker.refuse(&path.key("section"), message, "nothing");
         }
-        (Shape::Box(_), None) => {
-            let message = "a box cracks in a plane section only, and none is chosen";
-            let allowed = "plane_strain, plane_stress; or a disc, or no `fracture`";
-            checker.refuse(&path.key("section"), message, allowed);
-        }
         _ => {}
     }
 }
@@ -175,8 +170,8 @@ fn loads_on_section(checker: &mut Checker, name: &str, solid: &Solid) {
     }
 }
 
-/// Largest number of nodes of a section.
-const MOST_NODES: f64 = 4e6;
+/// Largest number of nodes of a section, and in space.
+const MOST_NODES: [f64; 2] = [4e6, 1e6];
 
 /// Requires a mesh that resolves the length of damage.
 fn mesh(checker: &mut Checker, path: &Path, solid: &Solid) {
@@ -211,12 +206,9 @@ fn mesh(checker: &mut Checker, path: &Path, solid: &Solid) {
 /// Refuses cracks that are too short for a mesh.
 fn number_of_nodes(checker: &mut Checker, path: &Path, solid: &Solid) {
     let Some(law) = solid.damage() else { return };
-    let [x, _] = lateral_extents(&solid.shape);
-    let extents = [x, solid.shape.thickness()];
-    let spacing = solid.mesh.spacing_of_cracks(law.length);
-    let nodes = [0, 1].map(|axis| extents[axis] / spacing[axis] + 1.0);
-    let nodes = nodes[0] * nodes[1];
-    let fine = nodes <= MOST_NODES;
+    let nodes = solid.nodes_of_cracks(law.length);
+    let most = MOST_NODES[usize::from(solid.cracks_in_space())];
+    let fine = nodes <= most;
     let model = match law.dissipation {
         Dissipation::At1 => "AT1",
         Dissipation::At2 => "AT2",
@@ -233,6 +225,7 @@ fn number_of_nodes(checker: &mut Checker, path: &Path, solid: &Solid) {
         }
         (None, None) => (of_fracture.key("length"), format!("`length` of {model}")),
     };
-    let allowed = format!("at most {MOST_NODES:.0e}: a smaller body, or a larger {larger}");
+    let section = if solid.cracks_in_space() { ", or a plane `section`" } else { "" };
+    let allowed = format!("at most {most:.0e}: a smaller body{section}, or a larger {larger}");
     checker.require(fine, &place, message, allowed);
 }

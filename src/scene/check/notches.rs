@@ -20,6 +20,12 @@ const PARALLEL: f64 = 1e-9;
 /// Refuses notches outside of the meshed section, those without length, those that leave less than an element at an
 /// edge, and those that cut the section in two.
 pub fn check(checker: &mut Checker, path: &Path, solid: &Solid) {
+    if solid.cracks_in_space() {
+        let message = "notches are lines of a section, and this body cracks in space";
+        let allowed = "none; or a disc, or a `section`";
+        checker.require(solid.notches.is_empty(), path, message, allowed);
+        return;
+    }
     let is_half = solid.symmetry == Symmetry::Quarter;
     let [low, high] = match solid.shape {
         Shape::Box([x, _, _]) if !is_half => [-0.5 * x, 0.5 * x],

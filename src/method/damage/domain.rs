@@ -1,0 +1,184 @@
+//! Multilinear quadrilaterals of a section, or hexahedra in space, with two Gauss points along each axis.
+
+use std::f64::consts::TAU;
+
+use crate::laws::fracture::{InPlane, InSpace, PrincipalAxes};
+use crate::math::grid_matrix::Grid;
+
+/// Places of the two-point Gauss rule on [0, 1]: ½ ∓ 1/√12.
+const GAUSS: [f64; 2] = [0.211_324_865_405_187_13, 0.788_675_134_594_812_9];
+
+/// Body that a domain represents.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Form {
+    /// No strain along the normal of a plane section; thickness [m].
+    PlaneStrain { thickness: f64 },
+    /// No stress along that normal.
+    PlaneStress { thickness: f64 },
+    /// A meridian section, whose first axis is the radius.
+    Axisymmetric,
+    /// A body in space.
+    Space,
+}
+
+/// A plane section (`D = 2`) or a body in space (`D = 3`): the product of its axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Domain<const D: usize> {
+    /// Coordinates of nodes along x (or r) and z, or along x, y and z [m], ascending.
+    pub axes: [Vec<f64>; D],
+    pub form: Form,
+}
+
+/// A quadrature point of an element of `C` corners.
+#[derive(Debug, Clone, Copy)]
+pub struct Point<const D: usize, const C: usize> {
+    /// Volume that it represents [m³].
+    pub volume: f64,
+    /// Values of the shape functions, and their derivatives along all axes [1/m].
+    pub shape: [f64; C],
+    pub slopes: [[f64; C]; D],
+    /// `1/r` of a meridian section, otherwise 0 [1/m].
+    pub curvature: f64,
+}
+
+/// Strain with engineering shear, of `V` components, from displacements.
+pub trait Kinematics<const D: usize, const C: usize, const V: usize> {
+    type Axes: PrincipalAxes<V>;
+
+    /// Strain of displacements of the corners.
+    fn strain(&self, u: &[[f64; D]; C]) -> [f64; V];
+
+    /// Strains of a unit displacement of a corner along each axis.
+    fn unit_strains(&self, corner: usize) -> [[f64; V]; D];
+
+    /// Stress as xx, yy, zz, xy, yz and xz, where the normal of a section is y.
+    fn in_space(stress: [f64; V]) -> [f64; 6];
+}
+
+impl<const D: usize, const C: usize> Point<D, C> {
+    /// Value of a nodal field.
+    pub fn interpolate(&self, nodal: &[f64; C]) -> f64 {
+        (0..C).map(|a| self.shape[a] * nodal[a]).sum()
+    }
+
+    /// Gradient of a nodal field.
+    pub fn gradient(&self, nodal: &[f64; C]) -> [f64; D] {
+        self.slopes.map(|slopes| (0..C).map(|a| slopes[a] * nodal[a]).sum())
+    }
+}
+
+impl Kinematics<2, 4, 4> for Point<2, 4> {
+    type Axes = InPlane;
+
+    fn strain(&self, u: &[[f64; 2]; 4]) -> [f64; 4] {
+        let mut strain = [0.0; 4];
+        for (a, [ux, uz]) in u.iter().enumerate() {
+            let [dx, dz] = [self.slopes[0][a], self.slopes[1][a]];
+            strain[0] += dx * ux;
+            strain[1] += dz * uz;
+            strain[2] += self.curvature * self.shape[a] * ux;
+            strain[3] += dz * ux + dx * uz;
+        }
+        strain
+    }
+
+    fn unit_strains(&self, corner: usize) -> [[f64; 4]; 2] {
+        let [dx, dz] = [self.slopes[0][corner], self.slopes[1][corner]];
+        [[dx, 0.0, self.curvature * self.shape[corner], dz], [0.0, dz, 0.0, dx]]
+    }
+
+    /// The normal of a plane section is y, that of a meridian section the hoop.
+    fn in_space([first, second, third, shear]: [f64; 4]) -> [f64; 6] {
+        [first, third, second, 0.0, 0.0, shear]
+    }
+}
+
+impl Kinematics<3, 8, 6> for Point<3, 8> {
+    type Axes = InSpace;
+
+    fn strain(&self, u: &[[f64; 3]; 8]) -> [f64; 6] {
+        let mut strain = [0.0; 6];
+        for (a, [ux, uy, uz]) in u.iter().enumerate() {
+            let [dx, dy, dz] = self.slopes.map(|slopes| slopes[a]);
+            strain[0] += dx * ux;
+            strain[1] += dy * uy;
+            strain[2] += dz * uz;
+            strain[3] += dy * ux + dx * uy;
+            strain[4] += dz * uy + dy * uz;
+            strain[5] += dz * ux + dx * uz;
+        }
+        strain
+    }
+
+    fn unit_strains(&self, corner: usize) -> [[f64; 6]; 3] {
+        let [dx, dy, dz] = self.slopes.map(|slopes| slopes[corner]);
+        [[dx, 0.0, 0.0, dy, 0.0, dz], [0.0, dy, 0.0, dx, dz, 0.0], [0.0, 0.0, dz, 0.0, dy, dx]]
+    }
+
+    fn in_space(stress: [f64; 6]) -> [f64; 6] {
+        stress
+    }
+}
+
+impl<const D: usize> Domain<D> {
+    pub fn grid(&self) -> Grid<D> {
+        Grid { counts: self.axes.each_ref().map(Vec::len) }
+    }
+
+    /// Lengths of the edges of an element [m].
+    pub fn size(&self, element: [usize; D]) -> [f64; D] {
+        std::array::from_fn(|axis| {
+            let nodes: &[f64] = &self.axes[axis];
+            nodes[element[axis] + 1] - nodes[element[axis]]
+        })
+    }
+
+    /// Size of an element across a crack [m]: the geometric mean of its edges.
+    pub fn mean_size(&self, element: [usize; D]) -> f64 {
+        let volume: f64 = self.size(element).iter().product();
+        if D == 2 { volume.sqrt() } else { volume.cbrt() }
+    }
+
+    /// Place of a node [m].
+    pub fn place(&self, node: usize) -> [f64; D] {
+        let position = self.grid().position(node);
+        std::array::from_fn(|axis| self.axes[axis][position[axis]])
+    }
+
+    pub fn points<const C: usize>(&self, element: [usize; D]) -> [Point<D, C>; C] {
+        let size = self.size(element);
+        let per_length = size.map(|size| 1.0 / size);
+        let start = self.axes[0][element[0]];
+        let area: f64 = size.iter().map(|size| 0.5 * size).product();
+        std::array::from_fn(|q| {
+            let at: [f64; D] = std::array::from_fn(|axis| GAUSS[q >> axis & 1]);
+            // Values and derivatives of the functions of a corner along each axis.
+            let along: [[(f64, f64); D]; C] = std::array::from_fn(|a| {
+                std::array::from_fn(|axis| match a >> axis & 1 {
+                    1 => (at[axis], per_length[axis]),
+                    _ => (1.0 - at[axis], -per_length[axis]),
+                })
+            });
+            let radius = start + at[0] * size[0];
+            let (depth, curvature) = match self.form {
+                Form::PlaneStrain { thickness } | Form::PlaneStress { thickness } => {
+                    (thickness, 0.0)
+                }
+                Form::Axisymmetric => (TAU * radius, 1.0 / radius),
+                Form::Space => (1.0, 0.0),
+            };
+            Point {
+                volume: area * depth,
+                shape: along.map(|own| own.iter().map(|(value, _)| value).product()),
+                slopes: std::array::from_fn(|axis| {
+                    along.map(|own| {
+                        let factor =
+                            |(other, (value, slope))| if other == axis { slope } else { value };
+                        own.into_iter().enumerate().map(factor).product()
+                    })
+                }),
+                curvature,
+            }
+        })
+    }
+}
