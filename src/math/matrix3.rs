@@ -75,8 +75,9 @@ fn rotate(m: &mut Matrix3, vectors: &mut Matrix3, i: usize, j: usize) {
         return;
     }
     let half = 0.5 * (m[j][j] - m[i][i]) / m[i][j];
-    let tangent = half.signum() / (half.abs() + half.hypot(1.0));
-    let cosine = 1.0 / tangent.hypot(1.0);
+    // Where the square overflows the turn is zero.
+    let tangent = half.signum() / (half.abs() + (half * half + 1.0).sqrt());
+    let cosine = 1.0 / (tangent * tangent + 1.0).sqrt();
     let sine = tangent * cosine;
     let turned = |[a, b]: [f64; 2]| [cosine * a - sine * b, sine * a + cosine * b];
     for row in m.iter_mut().chain(vectors.iter_mut()) {

@@ -56,8 +56,9 @@ fn bar_in_space_breaks_at_its_strength_across_its_section() {
     cool(&mut trial, drop(1.05));
     assert_eq!(trial.get("plate.crack_count"), 1.0);
     assert!(trial.get("p.stress_xx").abs() < 0.02 * STRENGTH);
+    // It breaks at a roller, where half the profile of a crack is inside.
     let area = trial.get("plate.crack_area");
-    assert!(off(area, 1e-8) < 0.06, "{area}");
+    assert!((0.5e-8..0.6e-8).contains(&area), "{area}");
     let first = ["x", "y", "z"].map(|axis| trial.get(&format!("plate.first_crack_{axis}")));
     assert!(
         first[0].abs() <= 0.4e-3 && first[1].abs() <= 0.05e-3 && (-1e-4..=0.0).contains(&first[2])
@@ -70,7 +71,7 @@ const PROBE: &str = "[[probe]]\nname = \"p\"\nin = \"plate\"\nat = [1e-4, 0.6e-4
                      gives = [\"stress\", \"displacement\", \"temperature\"]";
 const COMPONENTS: [&str; 6] = ["xx", "yy", "zz", "xy", "yz", "xz"];
 const SPOT: &str = "[[load]]\nname = \"spot\"\non = \"plate.top\"\ncarries = [\"heat_flux\", \"pressure\", \"shear\"]\n\
-                    footprint = { disc = { radius = 0.15e-3, x = 0.1e-3, y = 0.05e-3 } }";
+                    footprint = { disc = { radius = 0.15e-3 } }\nstart = { x = 0.1e-3, y = 0.05e-3 }";
 const SHAPE: &str =
     "shape = { box = [0.6e-3, 0.5e-3, 0.3e-3] }\nsymmetry = \"none\"\nmesh = { spacing = 20e-6 }";
 
@@ -103,9 +104,9 @@ fn quarter_cracks_as_the_whole_does() {
         let shape = format!(
             "shape = {{ box = [0.8e-3, 0.8e-3, 0.2e-3] }}\nsymmetry = \"{symmetry}\"\nmesh = {{ spacing = 20e-6 }}"
         );
-        let spot = SPOT.replace(", x = 0.1e-3, y = 0.05e-3", "");
+        let spot = SPOT.replace("start = { x = 0.1e-3, y = 0.05e-3 }", "");
         let mut trial = Trial::new(&scene(&shape, AT1, faces, &spot));
-        trial.set("spot.heat_flux", -4.5e7);
+        trial.set("spot.heat_flux", -1.2e8);
         let mut found = Vec::new();
         for _ in 0..3 {
             trial.step(2e-4);

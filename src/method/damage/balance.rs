@@ -23,8 +23,9 @@ use crate::runtime::parallel::Team;
 const MOST_STEPS: usize = 40;
 const MOST_HALVINGS: usize = 8;
 const MOST_ITERATIONS: usize = 400;
-/// Conjugate-gradient iterations that cost as much as a new factor.
+/// Conjugate-gradient iterations that cost as much as a new factor, at least, and columns' entries for each of them.
 const WORTH_A_FACTOR: usize = 8;
+const ENTRIES_PER_ITERATION: usize = 16;
 /// Reduction of the residual by the conjugate gradients of a Newton step, and part of the wanted residual at which they
 /// end, too.
 const REDUCTION: f64 = 1e-2;
@@ -263,7 +264,8 @@ where
             true => self.correct()?,
             false => self.refactor()?,
         }
-        let (mut change, left) = self.iterate(force, goal, WORTH_A_FACTOR)?;
+        let worth = WORTH_A_FACTOR.max(self.entries_of_column()? / ENTRIES_PER_ITERATION);
+        let (mut change, left) = self.iterate(force, goal, worth)?;
         if let Some(left) = left {
             self.refactor()?;
             let (rest, _) = self.iterate(&left, goal, MOST_ITERATIONS)?;
@@ -289,7 +291,7 @@ where
         // The work of a step must not depend on what steps before have left.
         let unknowns = self.unknowns.places.len();
         let elimination = self.elimination()?;
-        let column = elimination.entries() as f64 / unknowns.max(1) as f64;
+        let column = self.entries_of_column()? as f64;
         let work = WORK_OF_FACTOR.max(WORK_OF_COLUMN * column * column);
         self.allowance.spend(work, "factorisations", unknowns)?;
         // The old factor goes before the new one comes.
@@ -316,6 +318,11 @@ where
     /// Lower triangle of the stiffness of the unknowns.
     fn lower(&self) -> LowerTriangle {
         self.stiffness.lower_triangle(&self.unknowns.number)
+    }
+
+    /// Mean number of entries of a column of a factor.
+    fn entries_of_column(&self) -> Result<usize, SolverError> {
+        Ok(self.elimination()?.entries() / self.unknowns.places.len().max(1))
     }
 
     /// The pattern of all factors.
