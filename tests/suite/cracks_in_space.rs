@@ -92,7 +92,7 @@ fn intact_box_is_the_box_that_does_not_crack() {
     let (one, other) = (of(&mut cracking), of(&mut usual));
     let scale = other.iter().fold(0.0_f64, |most, own| most.max(own.abs()));
     for (one, other) in one.iter().zip(other) {
-        assert!((one - other).abs() < 0.03 * scale, "{one} {other}");
+        assert!((one - other).abs() < 0.05 * scale, "{one} {other}");
     }
     assert!(off(cracking.get("p.temperature") - START, usual.get("p.temperature") - START) < 0.02);
 }
@@ -106,7 +106,7 @@ fn quarter_cracks_as_the_whole_does() {
         );
         let spot = SPOT.replace("start = { x = 0.1e-3, y = 0.05e-3 }", "");
         let mut trial = Trial::new(&scene(&shape, AT1, faces, &spot));
-        trial.set("spot.heat_flux", -1.2e8);
+        trial.set("spot.heat_flux", -8e7);
         let mut found = Vec::new();
         for _ in 0..3 {
             trial.step(2e-4);

@@ -82,6 +82,9 @@ const WITH_CREEP: f64 = 11.0;
 /// per node [B].
 const CRACKING: f64 = 2.5e-5;
 const CRACKING_MEMORY: f64 = 2e3;
+/// The same in space: the middle of a spot that breaks and of a surface on which a network of cracks forms.
+const CRACKING_IN_SPACE: f64 = 4e-4;
+const CRACKING_MEMORY_IN_SPACE: f64 = 9e3;
 /// Time of a body with moduli that relax, over that of one that stays elastic: a step is compared with its halves.
 const WITH_RELAXATION: f64 = 4.0;
 /// Memory per node of a body with yielding parts [B].
@@ -149,10 +152,18 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
         nonlinear_time += yielding_time(solid, geometry) * nodes / threads;
     }
     if plan.damage.is_some() {
-        further_memory +=
-            CRACKING_MEMORY * nodes + 2.0 * factor_memory(Geometry::Axisymmetric, unknowns[1]);
-        nonlinear_time += CRACKING * nodes;
-        let time = CRACKING * nodes * (scene.stop_time / scene.step).ceil();
+        let (memory, time) = match plan.cracks_in_section {
+            true => (CRACKING_MEMORY, CRACKING),
+            false => (CRACKING_MEMORY_IN_SPACE, CRACKING_IN_SPACE),
+        };
+        // In space the factor of a patch is smaller than that of the whole, in which its rounding fits, too.
+        further_memory += memory * nodes
+            + match plan.cracks_in_section {
+                true => 2.0 * factor_memory(Geometry::Axisymmetric, unknowns[1]),
+                false => factor_memory(Geometry::Box, unknowns[1]),
+            };
+        nonlinear_time += time * nodes;
+        let time = time * nodes * (scene.stop_time / scene.step).ceil();
         proposed = savings(scene, (name, solid), (nodes, time));
     }
     if scene.meets_rings(name) {

@@ -35,7 +35,7 @@ const MOST_LEFT: f64 = 0.1;
 /// Updates per unknown that a factorisation takes at least, and for each squared entry of a column of the factor, and
 /// those that an iteration takes, for the allowance of a step.
 const WORK_OF_FACTOR: f64 = 3000.0;
-const WORK_OF_COLUMN: f64 = 0.1;
+const WORK_OF_COLUMN: f64 = 0.02;
 const WORK_OF_ITERATION: f64 = 100.0;
 
 /// Places of the unknown displacements.

@@ -16,8 +16,9 @@ const CHANGED: f64 = 0.02;
 const CHANGED_IN_SPACE: f64 = 0.3;
 /// Layers of nodes around changed ones.
 const OVERLAP: usize = 2;
-/// Largest part of all nodes in a patch.
+/// Largest part of all nodes in a patch, in a section and in space.
 const LARGEST: f64 = 0.1;
+const LARGEST_IN_SPACE: f64 = 0.3;
 
 /// A part of a domain whose equilibrium is solved for itself.
 pub struct Patch<const D: usize> {
@@ -96,7 +97,8 @@ impl<const D: usize> Patch<D> {
         }
         (0..OVERLAP).for_each(|_| inside = dilated(&inside, grid));
         let count = inside.iter().filter(|inside| **inside).count();
-        if count as f64 > LARGEST * grid.nodes() as f64 {
+        let most = if D == 2 { LARGEST } else { LARGEST_IN_SPACE };
+        if count as f64 > most * grid.nodes() as f64 {
             return Ok(Extent::TooMuch);
         }
         let part = match last {
