@@ -169,6 +169,10 @@ rules! {
      much of their rise above melting, as the front advances from node to node; the tolerance is {tolerance}";
     "{finer_mesh_or_tolerance}"
 
+    End bend_is_coarse(across, error, effect, finer_mesh)
+    "metal was bent beyond its yield stress with {across} elements or nodes across, from yield to yield: what stays of the \
+     bend once it is let go may be {error} % {effect}"; "{finer_mesh}: the error falls with its square"
+
     End heat_unbalanced(residual, expected)
     "heat in differs from heat stored and lost by {residual} of the largest of them (expected at most {expected})";
     "report the scene: this is an error of the program"

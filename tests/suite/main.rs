@@ -21,6 +21,7 @@ mod adversarial;
 mod architecture;
 mod back_stress;
 mod baths;
+mod bends;
 mod coarse_large_strain;
 mod concrete;
 mod contact;

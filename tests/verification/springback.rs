@@ -5,8 +5,9 @@ use crate::common::Trial;
 const LENGTH: f64 = 50e-3;
 const HEIGHT: f64 = 2e-3;
 
-/// Deflection of the end of a cantilever under a multiple of the load of first yield, and after unloading [m].
-fn bent(across: f64, load: f64, hardening: f64) -> [f64; 2] {
+/// Deflection of the end of a cantilever under a multiple of the load of first yield, and after unloading [m], and the
+/// part of that of which the end of the run warns.
+fn bent(across: f64, load: f64, hardening: f64) -> ([f64; 2], f64) {
     let text = format!(
         r#"
 name = "Springback"
@@ -48,7 +49,14 @@ gives = ["displacement"]
         trial.get("end.displacement_z")
     };
     let under_load = [0.25, 0.5, 0.75, 1.0].map(&mut to)[3];
-    [under_load, [0.75, 0.5, 0.25, 0.0].map(&mut to)[3]]
+    let found = [under_load, [0.75, 0.5, 0.25, 0.0].map(&mut to)[3]];
+    let warnings = trial.model.closing_warnings(&trial.state);
+    let missing = warnings.first().map_or(0.0, |warning| {
+        let words = warning.to_string();
+        let words = words.split_once("may be ").expect("a bend that is coarse").1;
+        words.split_once(" % too small").expect("an error").0.parse::<f64>().expect("a number")
+    });
+    (found, 0.01 * missing)
 }
 
 #[test]
@@ -56,13 +64,19 @@ fn what_stays_of_a_bend_converges_to_second_order() {
     for (load, hardening, errors) in
         [(1.3, 1e9, [-0.41, -0.15, -0.04]), (1.45, 7e9, [-0.36, -0.10, -0.03])]
     {
-        let found = [4.0, 8.0, 16.0, 32.0].map(|across| bent(across, load, hardening));
+        let bends = [4.0, 8.0, 16.0, 32.0].map(|across| bent(across, load, hardening));
+        let (found, missing) = (bends.map(|bend| bend.0), bends.map(|bend| bend.1));
         let limit = [0, 1].map(|n| found[3][n] + (found[3][n] - found[2][n]) / 3.0);
         let off = found.map(|own| [0, 1].map(|n| own[n] / limit[n] - 1.0));
         println!("springback at {load}: under load {limit:?} m, errors {off:?}");
         for (found, wanted) in off.iter().zip(errors) {
             assert!((found[1] - wanted).abs() < 0.015, "{off:?}");
         }
+        // The warning estimates the error, from above on coarse meshes, and fine ones have none.
+        println!("errors warned of: {missing:?}");
+        let ratios = [0, 1, 2].map(|n| missing[n] / -off[n][1]);
+        assert!((0.9..2.1).contains(&ratios[0]) && (0.7..1.4).contains(&ratios[1]), "{ratios:?}");
+        assert!(missing[3] == 0.0 && (missing[2] == 0.0 || ratios[2] < 1.4), "{missing:?}");
         // From 8 elements on errors fall by a quarter.
         let order = ((found[2][1] - found[1][1]) / (found[3][1] - found[2][1])).log2();
         assert!(order > 1.7, "{order}");

@@ -2,6 +2,7 @@
 //! in equilibrium under the displacements of their faces.
 
 mod advised;
+mod bends;
 mod faces;
 mod forecast;
 mod moving;

@@ -3,6 +3,7 @@
 use std::slice::from_mut;
 
 use super::advised::Advised;
+use super::bends::BendTest;
 use super::faces::{Faces, Prescribed, loaded};
 use super::probes::Probes;
 use super::snapshot::{Seen, columns, copies};
@@ -42,6 +43,7 @@ pub struct RestingBody {
     /// Heat of a body that conducts it.
     warming: Option<Warming>,
     advised: Advised,
+    bend_test: BendTest,
     /// Halvings of a step.
     halvings: u32,
 }
@@ -76,6 +78,8 @@ const PASSED: f64 = 0.05;
 const ITERATIONS: f64 = 5.0;
 /// Part of the distance between two faces by which sides may bulge beyond them without a warning.
 const BULGED: f64 = 0.01;
+/// Part of the dissipated work from which on loads, not moved faces, have bent a body.
+const BY_LOADS: f64 = 0.5;
 /// Share of the energy that the balance of a state may miss.
 const ENERGY: f64 = 1e-6;
 
@@ -147,6 +151,7 @@ impl RestingBody {
             thermal: solid.thermal(),
             warming,
             advised,
+            bend_test: BendTest::of((name, solid)),
         };
         Ok(own)
     }
@@ -466,6 +471,13 @@ impl RestingBody {
             finding.at(&self.name).whatever_its_numbers()
         })
     }
+
+    /// Warns of bends beyond yield that the mesh resolves poorly.
+    fn warning_on_bends(&self, state: &[f64]) -> Option<Warning> {
+        let Resting { rest, work, stored, load_work, .. } = self.structure(state);
+        let is_loaded = load_work > BY_LOADS * (work - stored);
+        self.bend_test.warning(&self.equilibrium.body, &rest.history, is_loaded)
+    }
 }
 
 impl Approach for RestingBody {}
@@ -478,7 +490,8 @@ impl Advice for RestingBody {
     fn warnings(&self, state: &[f64], occasion: Occasion) -> Vec<Warning> {
         match occasion {
             Occasion::Step => self.warning_on_sides(state).into_iter().collect(),
-            Occasion::Response { .. } | Occasion::End => Vec::new(),
+            Occasion::Response { .. } => Vec::new(),
+            Occasion::End => self.warning_on_bends(state).into_iter().collect(),
         }
     }
 

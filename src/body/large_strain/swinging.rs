@@ -3,6 +3,7 @@
 use std::slice::from_mut;
 
 use super::advised::Advised;
+use super::bends::BendTest;
 use super::faces::{Faces, Prescribed, loaded};
 use super::probes::Probes;
 use super::snapshot::{Seen, Snapshot, columns, copies};
@@ -10,7 +11,8 @@ use super::totals::Sums;
 use super::warming::Temperatures;
 use super::{View, is_large, named, plan};
 use crate::body::{
-    Acts, Advice, Approach, BodyError, Events, Given, Giver, Maxima, Reading, Resources, Structured,
+    Acts, Advice, Approach, BodyError, Events, Given, Giver, Maxima, Occasion, Reading, Resources,
+    Structured,
 };
 use crate::inputs::InputLayout;
 use crate::method::large_strain::{
@@ -35,6 +37,7 @@ pub struct SwingingBody {
     /// No stretch over no time.
     still: Courses,
     advised: Advised,
+    bend_test: BendTest,
 }
 
 /// State of the body.
@@ -74,6 +77,8 @@ impl Fields for Swinging {
 const HALVINGS: u32 = 10;
 /// Iterations of a usual step.
 const ITERATIONS: f64 = 5.0;
+/// Part of the work of the stresses from which on loads, not moved faces, have bent a body.
+const BY_LOADS: f64 = 0.5;
 /// Share of the energy that a balance may miss.
 const ENERGY: f64 = 1e-5;
 
@@ -109,6 +114,7 @@ impl SwingingBody {
             temperature: solid.initial_temperature,
             still,
             advised,
+            bend_test: BendTest::of((name, solid)),
         })
     }
 
@@ -202,6 +208,15 @@ impl SwingingBody {
     }
 }
 
+impl SwingingBody {
+    /// Warns of bends beyond yield that the mesh resolves poorly.
+    fn warning_on_bends(&self, state: &[f64]) -> Option<Warning> {
+        let Motion { ledger, history, .. } = self.structure(state).motion;
+        let is_loaded = ledger.load_work > BY_LOADS * ledger.internal_work;
+        self.bend_test.warning(&self.dynamics.body, &history, is_loaded)
+    }
+}
+
 impl Structured for SwingingBody {
     type State = Swinging;
     type View = View;
@@ -273,6 +288,13 @@ impl Approach for SwingingBody {}
 impl Advice for SwingingBody {
     fn notes(&self) -> Vec<String> {
         self.advised.notes()
+    }
+
+    fn warnings(&self, state: &[f64], occasion: Occasion) -> Vec<Warning> {
+        match occasion {
+            Occasion::Step | Occasion::Response { .. } => Vec::new(),
+            Occasion::End => self.warning_on_bends(state).into_iter().collect(),
+        }
     }
 
     fn warning_on_value(&self, reading: &Reading, value: f64) -> Option<Warning> {

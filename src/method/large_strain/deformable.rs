@@ -224,13 +224,22 @@ impl Deformable {
 
     /// Accumulated plastic strain of each point for a history of all.
     pub fn plastic_strains(&self, history: &[f64]) -> Vec<f64> {
-        let of_group = |group: usize| {
-            let (law, points) = (self.law_of(group), self.space.groups[group].len());
-            let own = &history[self.history_of(group)];
+        self.of_histories(history, LargeStrainLaw::plastic_strain)
+    }
+
+    /// Values of all points that follow from the law and the history of each.
+    pub fn of_histories<T>(
+        &self,
+        history: &[f64],
+        of: impl Fn(&LargeStrainLaw, &[f64]) -> T,
+    ) -> Vec<T> {
+        let mut values = Vec::with_capacity(self.space.volume.len());
+        for (group, points) in self.space.groups.iter().enumerate() {
+            let (law, own) = (self.law_of(group), &history[self.history_of(group)]);
             let length = law.history();
-            (0..points).map(move |n| law.plastic_strain(&own[length * n..length * (n + 1)]))
-        };
-        (0..self.space.groups.len()).flat_map(of_group).collect()
+            values.extend((0..points.len()).map(|n| of(law, &own[length * n..length * (n + 1)])));
+        }
+        values
     }
 
     /// Returns true if a run may produce a history of all points.

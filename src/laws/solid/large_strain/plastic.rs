@@ -12,7 +12,7 @@
 
 use super::{Deformed, Isochoric, Tangent, kinematic};
 use crate::math::matrix3::{
-    IDENTITY, Matrix3, contraction, full, inverse, packed, product, transposed,
+    IDENTITY, Matrix3, contraction, eigen, full, inverse, packed, product, transposed,
 };
 
 /// Yield stress over the equivalent plastic strain, and the modulus of the back stress.
@@ -69,6 +69,22 @@ impl Plastic {
         let Self { yield_stress, hardening, saturation, rate, .. } = *self;
         let rest = (saturation - yield_stress) * (-rate * alpha).exp();
         [saturation - rest + hardening * alpha, rate * rest + hardening]
+    }
+
+    /// Stress at an α of a bar that is drawn out of its initial state, and its slope: that of the back stress included.
+    pub fn flow_stress(&self, alpha: f64) -> [f64; 2] {
+        let [stress, slope] = self.yield_stress(alpha);
+        [stress + self.kinematic * alpha, slope + self.kinematic]
+    }
+
+    /// Logarithmic plastic strain `½ ln C_p` of a history, in axes of the reference configuration.
+    pub fn logarithmic_strain(history: &[f64]) -> Matrix3 {
+        let (stretches, axes) = eigen(&unpacked(history));
+        let logarithms = stretches.map(|inverse| -0.5 * inverse.ln());
+        let entry = |a: usize, b: usize| -> f64 {
+            (0..3).map(|n| axes[a][n] * logarithms[n] * axes[b][n]).sum()
+        };
+        std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)))
     }
 
     fn step(&self, shear: f64, at: &Deformed, before: &[f64]) -> Step {
