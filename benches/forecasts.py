@@ -2,7 +2,7 @@
 
     python benches/forecasts.py [NAME …]
 
-Each of some twenty scenes runs once as a process of its own. `time` is its processor time, which
+Each of some seventy scenes runs once as a process of its own. `time` is its processor time, which
 an idle machine takes as wall time; `memory` is its peak resident set. Ratios are measured over
 forecast.
 """
@@ -125,6 +125,46 @@ SCENES = {
     + solid(BOX, THERMAL, gives=ONLY_HEAT)
     + droplet(WATER, 1e-4, 3.0, 0, f'method = "film"\n{TRAIN}'),
 }
+
+RUBBER = (
+    'model = "neo_hookean", density = 1000.0, specific_heat = 1900.0, conductivity = 0.2, '
+    "young = 1e6, poisson = 0.4"
+)
+METAL = (
+    'model = "elastoplastic", density = 2700.0, specific_heat = 900.0, conductivity = 200.0, '
+    "young = 70e9, poisson = 0.33, yield_stress = 100e6, isotropic_hardening = 1e9"
+)
+
+
+def block(mechanics: str, axes: int, cells: int, motion: str, of_metal: bool) -> str:
+    """A square or cube of large strain that a traction shears, or that falls."""
+    traction = 4.2e7 if of_metal else 5e4
+    moves = f"top = {{ traction = [{traction:e}, 0.0, 0.0] }}"
+    crossing = 20e-3 * (2.0e-4 if of_metal else 3.2e-2)  # s
+    step = crossing * {"rest": 1.0, "implicit": 0.5, "explicit": 0.2}[motion]
+    keys = {
+        "rest": f"faces = {{ bottom = {{ clamped = true }}, {moves} }}",
+        "implicit": 'inertia = true\nmotion = "implicit"\n'
+        f"faces = {{ bottom = {{ clamped = true }}, {moves} }}",
+        "explicit": "inertia = true\nstart = { velocity = [0.0, 0.0, -0.5], height = 2e-5 }",
+    }
+    # A body at rest has moved after its first step.
+    steps = {"rest": 2, "implicit": 8, "explicit": 20}[motion]
+    return head("S", steps * step, step) + (
+        f'[body.block]\nkind = "solid"\nstrain = "finite"\ndimension = {axes}\n'
+        f'symmetry = "none"\nmechanics = "{mechanics}"\ninitial_temperature = 293.15\n'
+        f"shape = {{ box = [20e-3, {'20e-3' if axes == 3 else '1.0'}, 20e-3] }}\n"
+        f"mesh = {{ spacing = {20e-3 / cells:e} }}\n"
+        f"material = {{ {METAL if of_metal else RUBBER} }}\n{keys[motion]}\n"
+    )
+
+
+for mechanics, sizes in {"fem": [50, 10], "rkpm": [20, 5], "efg": [20, 5], "sph": [25, 7]}.items():
+    for axes, cells in zip([2, 3], sizes, strict=True):
+        for motion in ["rest", "implicit", "explicit"]:
+            for of_metal in [False, True]:
+                title = f"{mechanics}, {axes} axes, {motion}, {'metal' if of_metal else 'rubber'}"
+                SCENES[title] = block(mechanics, axes, cells, motion, of_metal)
 
 
 def scenes(folder: Path) -> dict[str, Path]:

@@ -1,7 +1,5 @@
 //! Cost of solids of large strain.
 
-use std::f64::consts::PI;
-
 use super::plan;
 use crate::body::threads_for;
 use crate::laws::solid::large_strain::{LargeStrainLaw, Thermal};
@@ -28,30 +26,82 @@ pub struct LargeStrainForecast {
     pub notes: Vec<String>,
 }
 
-/// Time of a point and of a function there, in a step of motion and in one of equilibrium with five iterations, and of
-/// the factorisation there, which grows with the power 1.5 of the nodes in a plane and the square in space [s].
-const MOVING: [f64; 2] = [0.15e-6, 0.04e-6];
-const RESTING: [f64; 2] = [5e-6, 0.4e-6];
-/// Time of an implicit step over that of an equilibrium: its matrix is not symmetric, and stress has two stations.
-const IMPLICIT: f64 = 4.0;
-const FACTOR_IN_PLANE: f64 = 4.0e-8;
-const FACTOR_IN_SPACE: f64 = 6.0e-8;
+/// Times of a step of a body without explicit steps [s], all iterations of a usual step included.
+struct StepTimes {
+    /// Of a point, and of a pair of functions of the points that share a dilatation.
+    point: f64,
+    pair: f64,
+    /// Of the factorisations, over a product of powers of the size of the mesh and of the functions at a point: see
+    /// [`Self::of_factors`].
+    in_plane: f64,
+    in_space: f64,
+    powers_of_size: [f64; 2],
+    powers_of_functions: [f64; 2],
+}
+
+/// Equilibria of bodies whose stiffness is symmetric, those of bodies that yield, and implicit steps.
+///
+/// Fitted to processor times of `impinge run` on one thread of an AMD EPYC (Zen 5): three sizes each of squares and
+/// cubes of rubber and of metal that yields, with `fem`, `rkpm` (`nsni`, `gauss`), `efg` and `sph`, of 121 to 12 300
+/// nodes in a plane and 125 to 4900 in space. They are sheared by 30 % and 2 % in six steps, or set in motion by a
+/// traction for eight. To these come slender strips, bars and plates of `fem` that are bent. Forecasts are 0.58 to 1.85
+/// times these 138 times, mostly as the number of iterations varies, and 0.4 to 2.1 times 22 other ones: discs, `scni`,
+/// `basis = 2`.
+const ELASTIC: StepTimes = StepTimes {
+    point: 9e-6,
+    pair: 7e-8,
+    in_plane: 2.0e-9,
+    in_space: 6.5e-8,
+    powers_of_size: [1.0, 0.8],
+    powers_of_functions: [2.0, 1.33],
+};
+const YIELDING: StepTimes = StepTimes {
+    point: 0.0,
+    pair: 1.1e-7,
+    in_plane: 1.4e-6,
+    in_space: 3.0e-7,
+    powers_of_size: [1.0, 0.9],
+    powers_of_functions: [0.8, 0.8],
+};
+const IMPLICIT: StepTimes = StepTimes {
+    point: 2.6e-6,
+    pair: 8.5e-8,
+    in_plane: 1.06e-6,
+    in_space: 2.1e-7,
+    powers_of_size: [1.0, 0.9],
+    powers_of_functions: [0.8, 0.8],
+};
+/// Time of an implicit step of a body that yields over that of an elastic one.
+const IMPLICIT_YIELDING: f64 = 1.45;
+/// Time of a point and of a function there in an explicit step [s], and that of a metal over it: 16² to 160² cells in a
+/// plane and 4³ to 28³ in space, by the same discretisations. Forecasts are 0.59 to 1.55 times the 60 measured times.
+const MOVING: [f64; 2] = [0.18e-6, 0.011e-6];
+const MOVING_YIELDING: f64 = 1.6;
+/// Time to set up a point in a plane and in space by elements, particles and kernels [s], and to start a run.
+const SET_UP: [[f64; 2]; 3] = [[0.5e-6; 2], [2e-6, 8e-6], [5e-6, 35e-6]];
+const START: f64 = 0.03;
 /// Parts of a usual step of heat, and time of a pair of functions at a point in one [s].
 const PARTS: f64 = 4.0;
 const HEAT: f64 = 0.05e-6;
-/// Time of a step of concrete in equilibrium over that of an elastic body: its tangent is made of differences, and
+/// Time of a step of concrete in equilibrium over that of a metal: its tangent is made of differences, and
 /// softening takes many iterations.
-const OF_CONCRETE: f64 = 30.0;
-/// Memory of a point, and of a function there [B].
-const POINT: f64 = 500.0;
-const FUNCTION: f64 = 90.0;
+const OF_CONCRETE: f64 = 15.0;
+/// Time to factor the capacity of a body that conducts, over the power 1.5 of the nodes in a plane and the square in
+/// space [s].
+const FACTOR_OF_HEAT: [f64; 2] = [4.4e-9, 6.7e-9];
+/// Memory of the program for a body, of a point, and of a function there [B]; with [`OF_ENTRY`] and those after it
+/// 0.57 to 1.68 times the peak resident memory of all runs above.
+const OF_BODY: f64 = 11e6;
+const POINT: f64 = 250.0;
+const FUNCTION: f64 = 130.0;
 
 impl LargeStrainForecast {
     /// Estimates the cost from the mesh alone.
     pub fn of(scene: &Scene, name: &str, solid: &LargeStrain) -> Self {
         let mesh = plan::mesh(solid);
         let nodes = mesh.nodes.len();
-        let (points, functions) = points(solid, &mesh);
+        let size = Size::of(solid, &mesh);
+        let Size { points, functions, .. } = size;
         let threads = threads_for(scene.solver.threads, super::is_large(points)) as f64;
         let layers = plan::layers(solid);
         let speeds = layers.iter().map(|own| (own.law.wave_modulus() / own.density).sqrt());
@@ -62,27 +112,39 @@ impl LargeStrainForecast {
         let time_step = explicit.then(|| OF_CROSSING * solid.spacing() / speed);
         let exchanges = (scene.stop_time / scene.step).ceil();
         let steps = time_step.map_or(exchanges, |dt| (scene.stop_time / dt).max(exchanges));
+        let yields = layers.iter().any(|own| own.law.yields());
         let of_step = match (explicit, solid.inertia) {
-            (true, _) => points as f64 * (MOVING[0] + MOVING[1] * functions),
-            (false, inertia) => {
-                let assembly = points as f64 * (RESTING[0] + RESTING[1] * functions * functions);
-                let resting = assembly + 5.0 * factor_time(solid.form(), nodes as f64);
-                if inertia { IMPLICIT * resting } else { resting }
+            (true, _) => {
+                let slower = if yields { MOVING_YIELDING } else { 1.0 };
+                slower * points as f64 * (MOVING[0] + MOVING[1] * functions)
             }
+            (false, true) => {
+                let slower = if yields { IMPLICIT_YIELDING } else { 1.0 };
+                slower * IMPLICIT.of_step(&size)
+            }
+            (false, false) if yields => YIELDING.of_step(&size),
+            (false, false) => ELASTIC.of_step(&size),
         };
         let heat = match solid.conducts() {
             true => {
                 PARTS
                     * (points as f64 * HEAT * functions * functions
-                        + factor_time(solid.form(), nodes as f64) / 9.0)
+                        + factor_of_heat(solid.form(), nodes as f64))
             }
             false => 0.0,
         };
         let is_concrete = layers.iter().any(|own| own.law.concrete().is_some());
         let of_step = if is_concrete && !explicit { OF_CONCRETE * of_step } else { of_step };
         let of_point = POINT + FUNCTION * functions + 8.0 * history as f64;
-        let solver = if explicit { 0.0 } else { solver_memory(&mesh, functions) };
-        let memory = of_point * points as f64 + solver;
+        let is_symmetric = !solid.inertia && !yields;
+        let solver = if explicit { 0.0 } else { size.solver_memory(is_symmetric) };
+        let memory = OF_BODY + of_point * points as f64 + solver;
+        let set_up = SET_UP[match solid.mechanics {
+            Mechanics::Fem => 0,
+            Mechanics::Sph => 1,
+            Mechanics::Rkpm | Mechanics::Efg => 2,
+        }];
+        let set_up = points as f64 * set_up[usize::from(solid.form() == Form::Solid)];
         Self {
             name: name.to_owned(),
             nodes,
@@ -91,7 +153,10 @@ impl LargeStrainForecast {
             time_step,
             steps,
             memory,
-            run_time: steps * of_step / if explicit { threads } else { 1.0 } + exchanges * heat,
+            run_time: START
+                + set_up
+                + steps * of_step / if explicit { threads } else { 1.0 }
+                + exchanges * heat,
             notes: notes(solid),
         }
     }
@@ -100,55 +165,128 @@ impl LargeStrainForecast {
 /// Stable step over the time in which sound crosses an element.
 const OF_CROSSING: f64 = 0.45;
 
-/// Number of points of the volume, and of functions at each.
-fn points(solid: &LargeStrain, mesh: &Mesh) -> (usize, f64) {
-    let axes = mesh.form.axes().len();
-    let corners = 1 << axes;
-    let kernels = plan::kernels(solid, mesh);
-    match (solid.mechanics, kernels.integration) {
-        (Mechanics::Fem, _) => (mesh.cells.len() * corners, corners as f64),
-        (Mechanics::Sph, _) => {
-            let support = solid.sph.unwrap_or_default().support;
-            let ball = if axes == 3 { 4.0 / 3.0 * PI } else { PI };
-            (plan::cells(mesh) * corners, ball * support.powi(axes as i32))
-        }
-        (_, integration) => {
-            // Averaged gradients have the functions of all cells within the radius.
-            let averaged = kernels.smoothing.map_or(0.0, |radius| radius / solid.spacing());
-            let reach = (2.0 * (kernels.support + averaged)).powi(axes as i32);
-            let cells = match integration {
-                Integration::Scni | Integration::Nsni => mesh.nodes.len(),
-                Integration::Gauss(_) => mesh.cells.len(),
-            };
-            let points = integration.points_of_cell(mesh.form) * cells;
-            // Means over the cell of a node have the functions of all of its corners.
-            let wider = if matches!(integration, Integration::Gauss(_)) { 1.0 } else { 1.6 };
-            (points, wider * reach)
-        }
+/// Sizes of a model.
+struct Size {
+    form: Form,
+    nodes: f64,
+    points: usize,
+    /// Functions at a point, and points that share a dilatation.
+    functions: f64,
+    together: f64,
+    /// Product of the nodes with those across the model in a plane; with those across one way and the square of those
+    /// across the other in space. Factorisations of long bodies take less than those of cubes.
+    across: f64,
+}
+
+impl Size {
+    fn of(solid: &LargeStrain, mesh: &Mesh) -> Self {
+        let axes = mesh.form.axes();
+        let corners = 1 << axes.len();
+        let kernels = plan::kernels(solid, mesh);
+        let nodes = mesh.nodes.len() as f64;
+        let along = |&a: &usize| {
+            let all = || mesh.nodes.iter().map(|at| at[a]);
+            let [low, high] =
+                [all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max)];
+            (high - low) / solid.spacing() + 1.0
+        };
+        let mut counts: Vec<f64> = axes.iter().map(along).collect();
+        counts.sort_by(f64::total_cmp);
+        let across = match counts[..] {
+            [least, middle, _] => least * least * middle,
+            _ => counts[0].powi(2),
+        };
+        // Functions that reach a place; near faces some of them are missing.
+        let product =
+            |reach: f64| counts.iter().map(|count| within(reach, *count)).product::<f64>();
+        let (points, functions, together) = match (solid.mechanics, kernels.integration) {
+            (Mechanics::Fem, _) => (mesh.cells.len() * corners, corners as f64, corners as f64),
+            (Mechanics::Sph, _) => {
+                let support = solid.sph.unwrap_or_default().support;
+                let missing = counts.iter().map(|count| (1.0 - 0.2 * support / count).max(0.5));
+                let functions = lattice(support, axes.len()) * missing.product::<f64>();
+                (plan::cells(mesh) * corners, functions, corners as f64)
+            }
+            (_, integration) => {
+                // Averaged gradients have the functions of all cells within the radius, means over the cell of a node
+                // those of all of its corners.
+                let averaged =
+                    kernels.smoothing.map_or(0.0, |radius| 2.0 * radius / solid.spacing());
+                let (cells, reach) = match integration {
+                    Integration::Scni | Integration::Nsni => {
+                        (mesh.nodes.len(), 2.0 * (kernels.support + 0.5).floor() + 1.0)
+                    }
+                    Integration::Gauss(_) => (mesh.cells.len(), 2.0 * kernels.support - 0.5),
+                };
+                let of_cell = integration.points_of_cell(mesh.form);
+                (of_cell * cells, product(reach + averaged), 1.0)
+            }
+        };
+        let across = if axes.len() == 3 { across.min(nodes) } else { across.min(nodes).sqrt() };
+        Self { form: mesh.form, nodes, points, functions, together, across: nodes * across }
+    }
+
+    fn is_solid(&self) -> bool {
+        self.form == Form::Solid
+    }
+
+    /// Memory of the stiffness and its factor [B]: the places of the entries of all blocks, and fill that grows with
+    /// the power 4/3 of the unknowns in space.
+    fn solver_memory(&self, is_symmetric: bool) -> f64 {
+        let axes = self.form.axes().len() as f64;
+        let unknowns = axes * self.nodes;
+        let blocks = self.points as f64 / self.together * (axes * self.functions).powi(2);
+        let fill = match self.is_solid() {
+            true => unknowns.powf(4.0 / 3.0) * self.functions.sqrt(),
+            false => unknowns * self.functions * unknowns.max(2.0).log2(),
+        };
+        let of_fill = if is_symmetric { OF_FILL } else { OF_GENERAL_FILL };
+        OF_ENTRY * blocks + of_fill[usize::from(self.is_solid())] * fill
     }
 }
 
-/// Memory of the stiffness and its factor [B]: the entries of all blocks with their places, and fill that grows with
-/// the power 4/3 of the unknowns in space; measured on blocks of 1000 to 9300 nodes.
-fn solver_memory(mesh: &Mesh, functions: f64) -> f64 {
-    let axes = mesh.form.axes().len() as f64;
-    let unknowns = axes * mesh.nodes.len() as f64;
-    let blocks = plan::cells(mesh) as f64 * (axes * functions).powi(2);
-    let fill = match mesh.form {
-        Form::Solid => unknowns.powf(4.0 / 3.0),
-        Form::Plane | Form::Axisymmetric => unknowns * unknowns.max(2.0).log2(),
-    };
-    OF_ENTRY * blocks + OF_FILL * fill
+/// Memory of an entry of a block, and of the fill in a plane and in space, of symmetric and general matrices [B].
+const OF_ENTRY: f64 = 4.4;
+const OF_FILL: [f64; 2] = [63.0, 137.0];
+const OF_GENERAL_FILL: [f64; 2] = [118.0, 350.0];
+
+impl StepTimes {
+    fn of_step(&self, size: &Size) -> f64 {
+        let points = size.points as f64;
+        let pairs = points / size.together * size.functions.powi(2);
+        points * self.point + pairs * self.pair + self.of_factors(size)
+    }
+
+    fn of_factors(&self, size: &Size) -> f64 {
+        let n = usize::from(size.is_solid());
+        let of_functions = size.functions.powf(self.powers_of_functions[n]);
+        [self.in_plane, self.in_space][n] * size.across.powf(self.powers_of_size[n]) * of_functions
+    }
 }
 
-/// Memory of an entry of a block, and of the fill [B].
-const OF_ENTRY: f64 = 48.0;
-const OF_FILL: f64 = 400.0;
+/// Nodes among some in a row that a function of a reach has on average, in distances of nodes.
+fn within(reach: f64, count: f64) -> f64 {
+    if reach < 2.0 * count { reach - reach * reach / (4.0 * count) } else { count }
+}
 
-fn factor_time(form: Form, nodes: f64) -> f64 {
+/// Nodes of a lattice within a distance of one of them, in distances of nodes.
+fn lattice(distance: f64, axes: usize) -> f64 {
+    let most = distance.floor() as i32;
+    let within = |[x, y, z]: [i32; 3]| f64::from(x * x + y * y + z * z) < distance * distance;
+    let depth = if axes == 3 { most } else { 0 };
+    let mut count = 0.0;
+    for x in -most..=most {
+        for y in -most..=most {
+            count += (-depth..=depth).filter(|&z| within([x, y, z])).count() as f64;
+        }
+    }
+    count
+}
+
+fn factor_of_heat(form: Form, nodes: f64) -> f64 {
     match form {
-        Form::Plane | Form::Axisymmetric => FACTOR_IN_PLANE * nodes.powf(1.5),
-        Form::Solid => FACTOR_IN_SPACE * nodes.powi(2),
+        Form::Plane | Form::Axisymmetric => FACTOR_OF_HEAT[0] * nodes.powf(1.5),
+        Form::Solid => FACTOR_OF_HEAT[1] * nodes.powi(2),
     }
 }
 
