@@ -63,6 +63,7 @@ COARSE = {
     },
     "thermostat_strip": {"spacing = 0.2e-3": "spacing = 0.8e-3"},
     "quench_cracks": {"strength = 180e6": "strength = 80e6"},
+    "crack_network": {"strength = 180e6": "strength = 90e6"},
     "glass_strip": {"length = 0.75e-3": "length = 3e-3"},
     "remelting": {"\nspacing = 80e-6": "\nspacing = 270e-6"},
     "stress_study": {
@@ -80,6 +81,7 @@ GRIDS = {
     "printed_line": {"grid = [48, 16]": "grid = [4, 2]"},
     "printer_control": {"grid = [40, 12]": "grid = [4, 2]"},
     "quench_cracks": {"grid = [144, 48]": "grid = [4, 2]"},
+    "crack_network": {"grid = [61, 61]": "grid = [4, 2]", "grid = [61, 31]": "grid = [4, 2]"},
     "glass_strip": {"grid = [72, 93]": "grid = [4, 2]"},
     "wax_layers": {"grid = [24, 24]": "grid = [4, 3]"},
     "wax_line": {"grid = [60, 45]": "grid = [4, 3]"},

@@ -18,6 +18,7 @@ FEWER = {
     "paste_bead": ["--steps", "12"],
     "spoked_ring": ["--stop", "0.011"],
     "quench_cracks": ["--steps", "6"],
+    "crack_network": ["--steps", "6"],
     "glass_strip": ["--steps", "4"],
     "thermal_fatigue": ["--drops", "2"],
     "stress_study": ["--samples", "4", "--levels", "3"],

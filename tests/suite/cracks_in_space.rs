@@ -106,7 +106,7 @@ fn quarter_cracks_as_the_whole_does() {
         );
         let spot = SPOT.replace("start = { x = 0.1e-3, y = 0.05e-3 }", "");
         let mut trial = Trial::new(&scene(&shape, AT1, faces, &spot));
-        trial.set("spot.heat_flux", -8e7);
+        trial.set("spot.heat_flux", -1.2e8);
         let mut found = Vec::new();
         for _ in 0..3 {
             trial.step(2e-4);
@@ -116,7 +116,7 @@ fn quarter_cracks_as_the_whole_does() {
         found
     };
     let (whole, quarter) = (run("none"), run("quarter"));
-    assert!(whole[2][3] > 0.0 && whole[0][3] == 0.0, "{whole:?}");
+    assert!(whole[2][0] > 0.8, "{whole:?}");
     for (one, other) in whole.iter().flatten().zip(quarter.iter().flatten()) {
         assert!((one - other).abs() <= 2e-3 * one.abs(), "{whole:?} {quarter:?}");
     }
