@@ -70,7 +70,7 @@ def draw(moments: list[Moment], folder: Path):
             axis.spines[:].set_visible(True)
     axes[0, 0].set(ylabel="y / mm")
     axes[1, 0].set(ylabel="z / mm")
-    figure.suptitle("Damage of the cooled face, and of the cut at y = 0")
+    figure.suptitle("Damage of the cooled face, and of the cut at y = −0.7 mm")
     shared.save(figure, folder, NAME)
 
 
