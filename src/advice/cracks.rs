@@ -13,6 +13,9 @@ use crate::warning;
 /// Largest length of damage over the smallest extent of the body's section.
 const LARGEST_PART: f64 = 1.0 / 3.0;
 
+/// Factor of lengths that are equal to rounding.
+const SLACK: f64 = 1.0 + 1e-9;
+
 /// Fourier number `κt/L²` of an extent L that is cooled suddenly on both sides, at which stress in its surfaces has fallen
 /// to 55 % of its peak: to `1 − 4 √(κt/(π L²))`.
 const PASSED: f64 = 0.04;
@@ -27,7 +30,7 @@ pub fn review(reviewer: &mut Reviewer) {
         }
         let Some(law) = solid.damage() else { continue };
         let extent = smallest_extent(solid);
-        if law.length > LARGEST_PART * extent {
+        if law.length > LARGEST_PART * extent * SLACK {
             let path = Path::default().key("body").key(name).key("material");
             let [length, extent] = [law.length, extent].map(number);
             reviewer.warn(&path, warning::damage_wider_than_body(length, extent));

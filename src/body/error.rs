@@ -54,7 +54,7 @@ pub enum BodyError {
     Cracking { body: String, error: DamageError },
     /// Loads on a body modelled by one part are not symmetric about its planes of symmetry.
     #[error(
-        "{body}: forces are not even about the planes of symmetry, which a body that yields or relaxes needs (allowed: \
+        "{body}: forces are not even about the planes of symmetry, which a body that yields, relaxes or cracks needs (allowed: \
          forces that are, or `symmetry = \"none\"`)"
     )]
     Uneven { body: String },

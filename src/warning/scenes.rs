@@ -160,8 +160,8 @@ rules! {
     "take `stress_intensity`, and the modulus of the time that counts"
 
     Check damage_wider_than_body(length, extent)
-    "damage spreads over {length} m, more than a third of the body's extent of {extent} m: it fails as a whole, before a \
-     crack has formed"; "did you mean a higher `strength` or a lower `toughness`?"
+    "damage spreads over {length} m, more than a third of the body's extent of {extent} m: cracks are as wide as the \
+     body, whose strength and energy then depend on its size"; "did you mean a higher `strength` or a lower `toughness`?"
 
     Check plate_unevenly_warm(biot, part)
     "the temperature is taken as even through the thickness of a section in plane stress, and its Biot number in the bath \

@@ -12,8 +12,9 @@ use impinge::runtime::allowance::Allowance;
 use crate::edge_crack::{AHEAD, POISSON, YOUNG, fine_within};
 
 const H: f64 = 1.0 / 3.0;
-const RADIUS: f64 = 6.0;
-const END: f64 = 8.0 * RADIUS;
+const RADIUS: f64 = 4.0;
+const END: f64 = 5.0 * RADIUS;
+const ROUNDING: f64 = 1e-9;
 const PLANE_YOUNG: f64 = YOUNG / (1.0 - POISSON * POISSON);
 
 /// A quarter of the block in AT1 without split, whose ends move apart along z; the plane of the crack is one row of
@@ -30,13 +31,13 @@ fn penny_in_space_starts_at_its_stress() {
         scatter: 0.0,
         seed: 0,
     };
-    let lateral = fine_within([0.0, RADIUS + 5.0], [0.0, END], H, 8.0);
-    let z = fine_within([-2.5, 2.5], [-END, END], H, 8.0);
+    let lateral = fine_within([0.0, RADIUS + 3.0], [0.0, END], H, 4.0);
+    let z = fine_within([-2.0, 2.0], [-END, END], H, 4.0);
     let domain = Domain { axes: [lateral.clone(), lateral.clone(), z.clone()], form: Form::Space };
     let grid = domain.grid();
     let places: Vec<[f64; 3]> = (0..grid.nodes()).map(|node| domain.place(node)).collect();
-    let is_end = |place: &[f64; 3]| place[2].abs() == END;
-    let held = places.iter().flat_map(|p| [p[0] == 0.0, p[1] == 0.0, is_end(p)]).collect();
+    let is_end = |place: &[f64; 3]| place[2].abs() > END - ROUNDING;
+    let held = places.iter().flat_map(|p| [p[0] < ROUNDING, p[1] < ROUNDING, is_end(p)]).collect();
     let problem = DamageProblem::<3, 8, 6>::new(Elements::new(domain, law), held, 2);
     let mut state = problem.initial_state();
     for (damage, [x, y, z]) in state.damage.iter_mut().zip(&places) {
@@ -60,7 +61,7 @@ fn penny_in_space_starts_at_its_stress() {
             first = dissipated(&state);
         }
         let forces = problem.forces(&state);
-        let on_top = places.iter().enumerate().filter(|(_, place)| place[2] == END);
+        let on_top = places.iter().enumerate().filter(|(_, place)| place[2] > END - ROUNDING);
         let stress = on_top.map(|(n, _)| forces[3 * n + 2]).sum::<f64>() / (END * END);
         // Growth of the radius of a quarter.
         let grown = (dissipated(&state) - first) / (0.5 * PI * RADIUS);
@@ -72,7 +73,7 @@ fn penny_in_space_starts_at_its_stress() {
     }
     let starts = starts.expect("it starts");
     println!("penny in space: it starts at {starts:.4} of its stress");
-    assert!((starts - 1.0).abs() < 0.03, "{starts}");
+    assert!((starts - 1.0).abs() < 0.05, "{starts}");
     // It has kept its symmetry, and its shape as far as a grid lets it.
     let broken = |node: usize| state.damage[node] >= 0.9;
     let front = |turn: f64| {

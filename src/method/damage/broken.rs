@@ -155,9 +155,17 @@ impl<const D: usize> Domain<D> {
     /// Depth of a region [m]: how far it reaches from the face that it touches, from the nearest one if it touches
     /// several or none; zero if all faces are held.
     fn depth(&self, region: &[usize], sides: Sides<D>) -> f64 {
-        let reaches = faces(sides).map(|face| {
+        let grid = self.grid();
+        let reaches = faces(sides).map(|face @ [axis, _]| {
             let distances = region.iter().map(|&node| self.distance(node, face));
-            distances.fold([f64::INFINITY, 0.0], |[near, far], d| [near.min(d), far.max(d)])
+            let [near, far] =
+                distances.fold([f64::INFINITY, 0.0], |[near, far], d| [near.min(d), far.max(d)]);
+            // The image of what touches a plane of symmetry reaches as near to the opposite face.
+            let touches = |&node: &usize| grid.position(node)[axis] == 0;
+            let is_doubled = sides[axis][0] == Side::Mirror && region.iter().any(touches);
+            let nodes = &self.axes[axis];
+            let extent = nodes[nodes.len() - 1] - nodes[0];
+            [near, if is_doubled { 2.0 * extent - near } else { far }]
         });
         let reaches: Vec<[f64; 2]> = reaches.collect();
         if reaches.is_empty() {

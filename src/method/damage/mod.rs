@@ -28,7 +28,7 @@ use crate::runtime::allowance::Halt;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum DamageError {
     #[error(
-        "no equilibrium at given damage: {residual:e} of the forces are left, where {tolerance:e} is wanted; loads may \
+        "no equilibrium at given damage: {residual:.1e} of the forces are left, where {tolerance:.0e} is wanted; loads may \
          be more than the body bears once it is cracked (allowed: smaller loads, or supports that hold each part)"
     )]
     NoEquilibrium { residual: f64, tolerance: f64 },

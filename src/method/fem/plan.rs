@@ -170,7 +170,8 @@ impl Plan {
         notes.extend(solid.bath.map(|_| note_on_bath(solid)));
         let inelastic = is_inelastic.then(|| inelastic_laws(solid, &mesh));
         notes.extend(inelastic.as_ref().map(|laws| note_on_history(solid, laws)));
-        notes.extend(damage.as_ref().map(|damage| note_on_cracks(damage, &mesh)));
+        let in_section = solid.cracks() && !solid.cracks_in_space();
+        notes.extend(damage.as_ref().map(|damage| note_on_cracks(damage, &mesh, in_section)));
         let stress_free_rise = solid.temperature_without_stress() - solid.initial_temperature;
         let initial_temperature = solid.initial_temperature;
         Self {
@@ -187,7 +188,7 @@ impl Plan {
             newton,
             inelastic,
             damage,
-            cracks_in_section: solid.cracks() && !solid.cracks_in_space(),
+            cracks_in_section: in_section,
             notches: solid.notches.clone(),
             flaws: flaws(solid),
             stress_free_rise,
@@ -400,11 +401,17 @@ fn newton_plan(solid: &Solid, mesh: &Mesh, tolerance: f64) -> NewtonPlan {
 }
 
 /// Note on cracks.
-fn note_on_cracks(law: &GradientDamage, mesh: &Mesh) -> String {
+fn note_on_cracks(law: &GradientDamage, mesh: &Mesh, in_section: bool) -> String {
     let spacing = [0, 2].map(|axis| mesh.axes[axis].end_distance(true));
+    let cost = match in_section {
+        true => "",
+        false => {
+            "; a step takes a fifth of the forecast where nothing cracks, and up to thirty times that where a network forms"
+        }
+    };
     format!(
         "cracks are damage over a length of {:.3e} m, with {:.3e} J/m² and a strength of {:.3e} Pa; nodes are {:.3e} m \
-         apart along the surface and {:.3e} m through the thickness; heat passes cracks as if they were closed",
+         apart along the surface and {:.3e} m through the thickness; heat passes cracks as if they were closed{cost}",
         law.length,
         law.energy,
         law.strength(),

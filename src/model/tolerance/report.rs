@@ -301,6 +301,9 @@ fn beyond_tolerance(scene: &Scene, estimate: &BodyEstimate) -> Option<Warning> {
 /// Keys of a mesh that would keep the tolerance.
 fn finer_spacing(scene: &Scene, estimate: &BodyEstimate, solid: &Solid) -> String {
     let Some([along, through]) = finer_mesh(scene, estimate) else {
+        if solid.cracks() {
+            return "the mesh of cracks is far from keeping it: take a smaller body".to_owned();
+        }
         return "leave out `mesh.spacing` and `mesh.depth_spacing`, which are far from keeping it: the mesh then follows \
                 from the tolerance"
             .to_owned();

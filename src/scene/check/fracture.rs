@@ -156,7 +156,7 @@ fn loads_on_section(checker: &mut Checker, name: &str, solid: &Solid) {
             _ => false,
         };
         let message = "a load on a plane section does not vary along y";
-        let allowed = format!("{{ tiles = {{ count = [n, 1], size = […, {}] }} }}", number(width));
+        let allowed = format!("{{ tiles = {{ count = [n, 1], size = […, {}] }} }}", exact(width));
         checker.require(is_across, &path.at("footprint"), message, allowed);
         let fine = load.start.y.is_none_or(|y| y == 0.0) && load.range.y.is_none();
         let message = "a load on a plane section does not move along y";
@@ -170,13 +170,19 @@ fn loads_on_section(checker: &mut Checker, name: &str, solid: &Solid) {
     }
 }
 
+/// A number with all its digits.
+fn exact(value: f64) -> String {
+    let plain = number(value);
+    if plain.parse() == Ok(value) { plain } else { format!("{value:e}") }
+}
+
 /// Largest number of nodes of a section, and in space.
 const MOST_NODES: [f64; 2] = [4e6, 1e6];
 
 /// Requires a mesh that resolves the length of damage.
 fn mesh(checker: &mut Checker, path: &Path, solid: &Solid) {
     let keys = &solid.mesh;
-    let message = "a body that cracks has bilinear elements";
+    let message = "a body that cracks has linear elements";
     checker.require(keys.order.is_none_or(|order| order == 1), &path.at("order"), message, "1");
     let message = "cracks may run anywhere, so that all elements of the body are of one size";
     let fine = keys.growth.is_none_or(|growth| growth == 1.0);

@@ -3,7 +3,7 @@
 use super::Checker;
 use crate::scene::locate::Path;
 use crate::scene::lookup::split_place;
-use crate::scene::types::{HeatMethod, Layer, Scene, Solid, SolverMethod, Symmetry};
+use crate::scene::types::{CellValues, HeatMethod, Layer, Scene, Solid, SolverMethod, Symmetry};
 
 /// Returns true if Newton's method advances the heat of a solid.
 pub fn takes_newton(scene: &Scene, solid: &Solid) -> bool {
@@ -32,6 +32,14 @@ fn even_loads(checker: &mut Checker, path: &Path) {
                 message,
                 "0, or `symmetry = \"none\"` for the body",
             );
+        }
+        for (key, value) in
+            [("start.shear_x", &load.start.shear_x), ("start.shear_y", &load.start.shear_y)]
+        {
+            let fine = !matches!(value, Some(CellValues::Uniform(value)) if *value != 0.0);
+            let message = "shear along one direction is not even about the planes of a quarter";
+            let allowed = "0, or `symmetry = \"none\"` for the body";
+            checker.require(fine, &path.at(key), message, allowed);
         }
     }
 }
