@@ -253,7 +253,7 @@ fn bar_in_space_breaks_at_its_strength_with_the_energy_of_its_section() {
     let domain = Domain { axes: [along, vec![0.0, h], vec![0.0, h]], form: Form::Space };
     let nodes = domain.grid().nodes();
     let mut held = vec![false; 3 * nodes];
-    let is_end = |node: usize| node % (count + 1) == 0 || node % (count + 1) == count;
+    let is_end = |node: usize| [0, count].contains(&(node % (count + 1)));
     (0..nodes).filter(|&node| is_end(node)).for_each(|node| held[3 * node] = true);
     // The planes y = 0 and z = 0 do not move along their normals.
     for node in 0..nodes {

@@ -97,13 +97,9 @@ fn form(checker: &mut Checker, path: &Path, solid: &Solid) {
     let message = "particles conduct heat in bodies that do not crack";
     let fine = solid.heat == HeatMethod::Fem;
     checker.require(fine, &path.key("heat"), message, "fem, or no `fracture`");
-    match (solid.shape, solid.section) {
-        (Shape::Disc(_), Some(_)) => {
-            let message = "a disc cracks in its meridian section";
-            checker.refuse(&path.key("section"), message, "nothing");
-        }
-        _ => {}
-    }
+    let message = "a disc cracks in its meridian section";
+    let fine = solid.section.is_none() || matches!(solid.shape, Shape::Box(_));
+    checker.require(fine, &path.key("section"), message, "nothing");
 }
 
 /// Refuses flaws in a body that cracks, and bodies in contact with a plane section.
