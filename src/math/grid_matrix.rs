@@ -168,9 +168,13 @@ impl<const D: usize, const B: usize> GridMatrix<D, B> {
     }
 
     /// Calls back for each block of a node's row inside the grid, with the column's node.
-    fn each_block(&self, node: usize, mut visit: impl FnMut(usize, &[f64])) {
+    fn each_block(
+        &self,
+        node: usize,
+        offsets: &[isize; LARGEST_STENCIL],
+        mut visit: impl FnMut(usize, &[f64]),
+    ) {
         let position = self.grid.position(node);
-        let offsets = self.offsets();
         let size = B * B;
         for (k, offset) in offsets[..Self::STENCIL].iter().enumerate() {
             let mut digits = k;
@@ -238,6 +242,7 @@ impl<const D: usize, const B: usize> GridMatrix<D, B> {
     /// Lower triangle of the unknowns that are not held, whose numbers are `number`; held ones have `usize::MAX`.
     pub fn lower_triangle(&self, number: &[usize]) -> LowerTriangle {
         let mut lower = LowerTriangle { column_start: vec![0], ..LowerTriangle::default() };
+        let offsets = self.offsets();
         for unknown in 0..number.len() {
             let column = number[unknown];
             if column == usize::MAX {
@@ -245,7 +250,7 @@ impl<const D: usize, const B: usize> GridMatrix<D, B> {
             }
             // By symmetry a column is a row.
             let (node, own) = (unknown / B, unknown % B);
-            self.each_block(node, |other, block| {
+            self.each_block(node, &offsets, |other, block| {
                 for j in 0..B {
                     let row = number[other * B + j];
                     if row != usize::MAX && row >= column {

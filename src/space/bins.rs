@@ -2,7 +2,7 @@
 
 /// Boxes of a lattice, each with the nodes whose supports overlap it in ascending order, so that a place looks up one.
 #[derive(Debug)]
-pub(super) struct Bins {
+pub struct Bins {
     low: [f64; 3],
     inverse_width: [f64; 3],
     count: [usize; 3],
@@ -15,7 +15,7 @@ const BOXES_PER_NODE: f64 = 4.0;
 
 impl Bins {
     /// Sorts supports, given by their lowest and highest coordinates, into boxes of about `width` along each of `axes`.
-    pub(super) fn new(axes: &[usize], supports: &[[[f64; 3]; 2]], width: [f64; 3]) -> Self {
+    pub fn new(axes: &[usize], supports: &[[[f64; 3]; 2]], width: [f64; 3]) -> Self {
         let mut low = [0.0; 3];
         let mut count = [1; 3];
         let mut inverse_width = [0.0; 3];
@@ -53,7 +53,7 @@ impl Bins {
     }
 
     /// Nodes that may reach a place.
-    pub(super) fn near(&self, at: [f64; 3]) -> &[u32] {
+    pub fn near(&self, at: [f64; 3]) -> &[u32] {
         let [i, j, k] = [0, 1, 2].map(|a| self.index(at[a], a));
         let number = i + self.count[0] * (j + self.count[1] * k);
         &self.nodes[self.starts[number]..self.starts[number + 1]]

@@ -12,6 +12,7 @@ mod places;
 mod reproducing;
 mod samples;
 
+pub use bins::Bins;
 pub use cloud::{BadCloud, Cloud, Patch};
 pub use finite_elements::finite_elements;
 pub use given::BadMesh;

@@ -13,7 +13,7 @@ fn column() -> String {
 }
 
 #[test]
-fn a_column_rings_with_the_period_of_its_length() {
+fn column_rings_with_the_period_of_its_length() {
     let modulus = 200e9 * 0.7 / (1.3 * 0.4);
     let (period, settled) = (0.4 / (modulus / 7800.0_f64).sqrt(), -0.1 * 1e8 / modulus);
     let mut trial = Trial::new(&column());
@@ -34,7 +34,7 @@ fn a_column_rings_with_the_period_of_its_length() {
 }
 
 #[test]
-fn a_moved_face_takes_the_body_along() {
+fn moved_face_takes_the_body_along() {
     let keys = format!(
         "{BLOCK}\ninertia = true\nmotion = \"implicit\"\nfaces = {{ bottom = {{ displacement = [0.0, 0.0, 0.0] }} }}"
     );

@@ -3,7 +3,8 @@
 use crate::common::{Trial, off};
 use crate::driven_solids::probe;
 
-fn metal(keys: &str, constants: &str) -> String {
+/// A body of metal with its keys, and constants of its law.
+pub fn metal(keys: &str, constants: &str) -> String {
     format!(
         r#"
 name = "Metal"

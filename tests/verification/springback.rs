@@ -1,4 +1,4 @@
-//! What stays of a strip of metal that was bent beyond its yield stress: the table of `docs/theory/large_strain.md`.
+//! A strip of metal is bent beyond its yield stress and let go: springback as in `docs/theory/large_strain.md`.
 
 use crate::common::Trial;
 
@@ -60,7 +60,7 @@ gives = ["displacement"]
 }
 
 #[test]
-fn what_stays_of_a_bend_converges_to_second_order() {
+fn springback_converges_to_second_order() {
     for (load, hardening, errors) in
         [(1.3, 1e9, [-0.41, -0.15, -0.04]), (1.45, 7e9, [-0.36, -0.10, -0.03])]
     {

@@ -14,9 +14,10 @@
 //! error with 4. Where no point of a coarse mesh yields, nothing shows the bend.
 
 use crate::laws::solid::large_strain::{Deviator, LargeStrainLaw, Plastic};
-use crate::math::matrix3::{Matrix3, eigen, inverse};
+use crate::math::matrix3::{IDENTITY, Matrix3, eigen, inverse};
 use crate::method::large_strain::Deformable;
 use crate::scene::{KernelIntegration, LargeStrain, Mechanics};
+use crate::space::Bins;
 use crate::warning::{self, Warning};
 
 /// Test of the mesh of a body for its bends.
@@ -169,7 +170,8 @@ struct Field<'a> {
     strains: Vec<Matrix3>,
     sizes: Vec<f64>,
     axes: Vec<([f64; 3], Matrix3)>,
-    near: Lattice,
+    /// Points by place, each in reach of all places that it may be the nearest to.
+    near: Bins,
     spacing: f64,
     /// Elements have sizes of their own, of which nodes of a point are the corners.
     has_elements: bool,
@@ -191,8 +193,35 @@ impl<'a> Field<'a> {
         let laws = (0..groups.len()).flat_map(|group| groups[group].clone().map(move |_| group));
         let laws = laws.map(|group| body.law_of(group)).collect();
         let BendTest { spacing, has_elements, .. } = *test;
-        let near = Lattice::new(&body.space.volume.at, spacing);
+        let near = Self::bins(body, spacing, has_elements);
         Self { body, laws, strains, sizes, axes, near, spacing, has_elements }
+    }
+
+    /// The points of a body, in reach of places among them and of those just outside.
+    fn bins(body: &Deformable, spacing: f64, has_elements: bool) -> Bins {
+        let volume = &body.space.volume;
+        let largest = match has_elements {
+            true => (0..volume.at.len()).map(|point| diagonal(body, point)).fold(0.0, f64::max),
+            false => spacing,
+        };
+        let reach = (AROUND * spacing).max(OUTSIDE * largest);
+        let around = |at: &[f64; 3]| [at.map(|x| x - reach), at.map(|x| x + reach)];
+        let supports: Vec<_> = volume.at.iter().map(around).collect();
+        Bins::new(body.space.form.axes(), &supports, [spacing; 3])
+    }
+
+    /// The point nearest to a place within a distance [m].
+    fn nearest(&self, place: [f64; 3], distance: f64) -> Option<usize> {
+        let places = &self.body.space.volume.at;
+        let mut best = (distance * distance, None);
+        for &point in self.near.near(place) {
+            let way = [0, 1, 2].map(|a| places[point as usize][a] - place[a]);
+            let square = dot(way, way);
+            if square < best.0 {
+                best = (square, Some(point as usize));
+            }
+        }
+        best.1
     }
 
     /// Plastic strain of a point below which nothing stays of its bend.
@@ -235,7 +264,7 @@ impl<'a> Field<'a> {
             let places = (0..most).map(move |n| way * n as f64 * step);
             let values = places.map_while(move |s| {
                 let at = [0, 1, 2].map(|a| from[a] + s * across[a]);
-                let point = self.near.nearest(&self.body.space.volume.at, at, OUTSIDE * size)?;
+                let point = self.nearest(at, OUTSIDE * size)?;
                 let own = self.body.space.volume.at[point];
                 let offset = dot([0, 1, 2].map(|a| own[a] - from[a]), across);
                 Some((offset, sign * along(&self.strains[point], direction)))
@@ -269,7 +298,7 @@ impl<'a> Field<'a> {
         let own = along(&self.strains[point], direction);
         let (mut moments, mut sums) = ([[0.0; 3]; 3], [0.0; 3]);
         let reach = AROUND * self.spacing;
-        self.near.each(places[point], reach, |other| {
+        for other in self.near.near(places[point]).iter().map(|&other| other as usize) {
             let way = [0, 1, 2].map(|a| (places[other][a] - places[point][a]) / reach);
             if dot(way, way) < 1.0 {
                 let change = along(&self.strains[other], direction) - own;
@@ -278,7 +307,7 @@ impl<'a> Field<'a> {
                     (0..3).for_each(|b| moments[a][b] += way[a] * way[b]);
                 }
             }
-        });
+        }
         let axes = self.body.space.form.axes();
         (0..3).filter(|a| !axes.contains(a)).for_each(|a| moments[a][a] = 1.0);
         let (inverse, determinant) = inverse(&moments);
@@ -293,12 +322,23 @@ impl<'a> Field<'a> {
         if !self.has_elements {
             return self.spacing;
         }
-        let nodes = self.body.space.volume.row(point).iter();
-        let along = nodes.map(|value| dot(self.body.space.nodes[value.node as usize], direction));
-        let (low, high) = along
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-        high - low
+        extent(self.body, point, direction)
     }
+}
+
+/// Extent of the element of a point along a direction [m].
+fn extent(body: &Deformable, point: usize, direction: [f64; 3]) -> f64 {
+    let nodes = body.space.volume.row(point).iter();
+    let along = nodes.map(|value| dot(body.space.nodes[value.node as usize], direction));
+    let (low, high) =
+        along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+    high - low
+}
+
+/// Diagonal of the box around the element of a point [m].
+fn diagonal(body: &Deformable, point: usize) -> f64 {
+    let edges = IDENTITY.map(|direction| extent(body, point, direction));
+    dot(edges, edges).sqrt()
 }
 
 /// A rectangular section that is bent, in units of stress; see the head of this file.
@@ -367,88 +407,6 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 fn along(strain: &Matrix3, direction: [f64; 3]) -> f64 {
     (0..3).map(|a| direction[a] * dot(strain[a], direction)).sum()
-}
-
-/// Points sorted into boxes.
-struct Lattice {
-    low: [f64; 3],
-    width: f64,
-    count: [usize; 3],
-    starts: Vec<usize>,
-    points: Vec<u32>,
-}
-
-impl Lattice {
-    fn new(places: &[[f64; 3]], width: f64) -> Self {
-        let end = |a: usize, least: f64, pick: fn(f64, f64) -> f64| {
-            places.iter().map(|at| at[a]).fold(least, pick)
-        };
-        let low = [0, 1, 2].map(|a| end(a, f64::INFINITY, f64::min));
-        let high = [0, 1, 2].map(|a| end(a, f64::NEG_INFINITY, f64::max));
-        // Some boxes a point at most.
-        let mut width = width;
-        let counts = |width: f64| [0, 1, 2].map(|a| ((high[a] - low[a]) / width) as usize + 1);
-        while counts(width).iter().product::<usize>() > 8 * places.len() {
-            width *= 2.0;
-        }
-        let count = counts(width);
-        let mut lattice = Self {
-            low,
-            width,
-            count,
-            starts: vec![0; count.iter().product::<usize>() + 1],
-            points: Vec::new(),
-        };
-        let boxes: Vec<usize> = places
-            .iter()
-            .map(|at| lattice.number([0, 1, 2].map(|a| lattice.index(at[a], a))))
-            .collect();
-        let mut order: Vec<u32> = (0..places.len() as u32).collect();
-        order.sort_by_key(|&point| boxes[point as usize]);
-        for own in &boxes {
-            lattice.starts[own + 1] += 1;
-        }
-        for n in 1..lattice.starts.len() {
-            lattice.starts[n] += lattice.starts[n - 1];
-        }
-        lattice.points = order;
-        lattice
-    }
-
-    fn index(&self, x: f64, axis: usize) -> usize {
-        (((x - self.low[axis]) / self.width).max(0.0) as usize).min(self.count[axis] - 1)
-    }
-
-    fn number(&self, [i, j, k]: [usize; 3]) -> usize {
-        i + self.count[0] * (j + self.count[1] * k)
-    }
-
-    /// Visits the points of all boxes within a distance of a place, and others.
-    fn each(&self, at: [f64; 3], distance: f64, mut visit: impl FnMut(usize)) {
-        let [low, high] =
-            [-distance, distance].map(|by| [0, 1, 2].map(|a| self.index(at[a] + by, a)));
-        for k in low[2]..=high[2] {
-            for j in low[1]..=high[1] {
-                for i in low[0]..=high[0] {
-                    let number = self.number([i, j, k]);
-                    let own = &self.points[self.starts[number]..self.starts[number + 1]];
-                    own.iter().for_each(|&point| visit(point as usize));
-                }
-            }
-        }
-    }
-
-    fn nearest(&self, places: &[[f64; 3]], at: [f64; 3], distance: f64) -> Option<usize> {
-        let mut best = (distance * distance, None);
-        self.each(at, distance, |point| {
-            let way = [0, 1, 2].map(|a| places[point][a] - at[a]);
-            let square = dot(way, way);
-            if square < best.0 {
-                best = (square, Some(point));
-            }
-        });
-        best.1
-    }
 }
 
 #[cfg(test)]

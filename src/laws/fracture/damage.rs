@@ -171,7 +171,7 @@ impl GradientDamage {
     }
 }
 
-/// What damage leaves of intact values: nothing of a part, and all of the rest `left`.
+/// Returns what damage leaves of intact values: it degrades all but `left`.
 fn mixed(damage: f64, intact: [f64; 3], left: [f64; 3]) -> [f64; 3] {
     let factor = degradation(damage);
     std::array::from_fn(|i| factor * (intact[i] - left[i]) + left[i])

@@ -20,6 +20,10 @@ pub struct Elements<const D: usize, const C: usize, const V: usize> {
 pub type PlaneElements = Elements<2, 4, 4>;
 pub type Bricks = Elements<3, 8, 6>;
 
+/// Principal axes of the strains of a point.
+type Axes<const D: usize, const C: usize, const V: usize> =
+    <Point<D, C> as Kinematics<D, C, V>>::Axes;
+
 /// Nodal values at a moment.
 #[derive(Debug, Clone, Copy)]
 pub struct Nodal<'a> {
@@ -62,12 +66,12 @@ where
 
     /// Response of a point to its elastic strain.
     pub(super) fn respond(&self, strain: [f64; V], damage: f64) -> PointResponse<V> {
-        self.law.respond::<<Point<D, C> as Kinematics<D, C, V>>::Axes, V>(strain, damage)
+        self.law.respond::<Axes<D, C, V>, V>(strain, damage)
     }
 
     /// Derivatives of the stress of a point by its elastic strain [Pa].
     pub(super) fn tangent(&self, strain: [f64; V], damage: f64) -> [[f64; V]; V] {
-        self.law.tangent::<<Point<D, C> as Kinematics<D, C, V>>::Axes, V>(strain, damage)
+        self.law.tangent::<Axes<D, C, V>, V>(strain, damage)
     }
 
     /// Calls back for the points of an element with their responses.
@@ -212,8 +216,7 @@ where
         team.for_each(&mut of_rows, |row, own| {
             for (i, own) in own.iter_mut().enumerate() {
                 self.each_strain(self.grid.element(i, row), nodal, |q, _, strain, _| {
-                    own[q] =
-                        self.law.released::<<Point<D, C> as Kinematics<D, C, V>>::Axes, V>(strain)
+                    own[q] = self.law.released::<Axes<D, C, V>, V>(strain)
                 });
             }
         });
