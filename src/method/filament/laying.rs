@@ -7,6 +7,7 @@
 //! distance `v t_r` behind it. Threads that swing, coil or buckle are not modelled.
 
 use super::beneath::Beneath;
+use super::carriers::Carriers;
 use super::cooling::{LAYERS, SHARES};
 use super::line::Line;
 use super::{Failure, Segment, Strand};
@@ -19,6 +20,8 @@ const PIECES: f64 = 4.0;
 const SLOW: f64 = 0.25;
 /// Least gap above an older segment, over the diameter of the nozzle, with which a strand lies on that.
 const CLEARANCE: f64 = 0.1;
+/// Difference in height of the segments on which one lies, over their own height.
+const LEVEL: f64 = 0.5;
 /// Part of a segment's volume below which fluid belongs to the segment before: the rounding of a path's end.
 const SLIVER: f64 = 1e-6;
 /// Rounding that a comparison of volumes leaves room for.
@@ -197,8 +200,9 @@ impl Line {
         }
     }
 
-    /// Finds on what a segment lies: the highest of the `older` ones under its middle that the outlet clears, or the
-    /// plate. Neighbours along the strand, closer than its width, are not below it unless the outlet has risen since.
+    /// Finds on what a segment lies: at the height of the highest of the `older` ones under its middle that the outlet
+    /// clears, on all of about this height below it, or on the plate. Neighbours along the strand, closer than its
+    /// width, are not below it unless the outlet has risen since.
     fn settled(
         &self,
         (strand, beneath): (&Strand, &mut Beneath),
@@ -206,24 +210,32 @@ impl Line {
         (older, outlet): (usize, f64),
     ) -> Segment {
         beneath.extend(strand, older);
-        let place = segment.middle();
-        let mut settled = Segment { base: 0.0, below: None, ..segment };
-        for n in beneath.near(place) {
+        let clearance = CLEARANCE * self.plan.diameter;
+        let may_carry = |n: usize, place: [f64; 2]| {
             let older = strand.segment(n);
             let apart = beneath.apart(n, (strand, segment.start));
-            let clearance = CLEARANCE * self.plan.diameter;
             let clears = outlet - older.top() > clearance;
             let has_risen = outlet - older.outlet > clearance;
             let is_under = older.distance(place) <= older.half_width;
-            if (apart > older.width() || has_risen)
-                && clears
-                && is_under
-                && older.top() > settled.base
-            {
-                (settled.base, settled.below) = (older.top(), Some(n));
-            }
+            ((apart > older.width() || has_risen) && clears && is_under).then_some((n, older))
+        };
+        let carriers_at = |place: [f64; 2]| {
+            beneath.near(place).into_iter().filter_map(move |n| may_carry(n, place))
+        };
+        let tops = carriers_at(segment.middle()).map(|(_, older)| older.top());
+        let base = tops.fold(0.0, f64::max);
+        if base == 0.0 {
+            return Segment { base, below: Carriers::default(), ..segment };
         }
-        settled
+        // Of several at one place, the one whose centre line is nearest.
+        let carrier = |place: [f64; 2]| {
+            let away = |older: &Segment| older.distance(place);
+            carriers_at(place)
+                .filter(|(_, older)| (older.top() - base).abs() <= LEVEL * older.height())
+                .min_by(|(_, a), (_, b)| away(a).total_cmp(&away(b)))
+                .map(|(n, _)| n)
+        };
+        Segment { base, below: Carriers::of(segment.places().filter_map(carrier)), ..segment }
     }
 }
 

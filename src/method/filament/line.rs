@@ -141,7 +141,7 @@ impl Line {
             true => [Vec::new(), Vec::new()],
             false => [0.0, 1.0].map(|part| around.surface.free(part, duration)),
         };
-        let (covered, on_top) = self.coverage(strand, feet);
+        let [on_plate, on_top] = self.coverage(strand, feet);
         for n in 0..strand.len() {
             let mut segment = strand.segment(n);
             let from = segment.born.max(begin);
@@ -149,61 +149,68 @@ impl Line {
             if time <= 0.0 {
                 continue;
             }
-            let below = match segment.below {
-                Some(lower) => Below::Segment(strand.segment(lower)),
-                None => {
-                    let parts = [(from - begin) / duration, 1.0];
-                    let foot = (&*feet[n], segment.area());
-                    self.below_on_plate((around.surface, &free), foot, &covered, parts)
-                }
+            let below = if segment.below.is_empty() {
+                let parts = [(from - begin) / duration, 1.0];
+                let foot = (&*feet[n], segment.area());
+                self.below_on_plate((around.surface, &free), foot, &on_plate, parts)
+            } else {
+                let carriers = segment.below.iter();
+                Below::Segments(
+                    carriers.map(|(lower, share)| (strand.segment(lower), share)).collect(),
+                )
             };
             let step = SegmentStep {
                 line: self,
                 below: &below,
                 ages: [from - segment.born, strand.time - segment.born],
-                covered: on_top[n],
+                covered: on_top[n].min(1.0),
                 air: around.air,
             };
             let [given, lost] = step.advance(&mut segment);
             strand.set(n, &segment);
             strand.lost += lost;
-            match segment.below {
-                Some(lower) => {
-                    let mut lower_segment = strand.segment(lower);
-                    lower_segment.heats[LAYERS - 1] += given;
-                    strand.set(lower, &lower_segment);
+            if segment.below.is_empty() {
+                strand.given += given;
+                let inside = feet[n].inside();
+                let [_, free] = &free;
+                let mean = feet[n].mean(|cell| free[cell]).unwrap_or(0.0);
+                let conductance = step.conductance(&segment, time);
+                for &(cell, weight) in &feet[n].cells {
+                    // Warm cells take less than cold ones below the same segment.
+                    let more = conductance * time * (mean - free[cell]);
+                    strand.cell_heat[cell] += (given + more) * weight / inside;
                 }
-                None => {
-                    strand.given += given;
-                    let inside = feet[n].inside();
-                    let [_, free] = &free;
-                    let mean = feet[n].mean(|cell| free[cell]).unwrap_or(0.0);
-                    let conductance = step.conductance(&segment, time);
-                    for &(cell, weight) in &feet[n].cells {
-                        // Warm cells take less than cold ones below the same segment.
-                        let more = conductance * time * (mean - free[cell]);
-                        strand.cell_heat[cell] += (given + more) * weight / inside;
-                    }
+            } else {
+                let links = step.links(segment.area(), time);
+                let interface = Link::all(&links);
+                for ((lower, _), link) in segment.below.iter().zip(&links) {
+                    // As much as parallel links take from one temperature above them.
+                    let part = link.conductance / interface.conductance;
+                    let more = link.conductance * time * (interface.below - link.below);
+                    let mut carrier = strand.segment(lower);
+                    carrier.heats[LAYERS - 1] += given * part + more;
+                    strand.set(lower, &carrier);
                 }
             }
         }
     }
 
-    /// Covered part of each cell of the plate, and whether a segment lies on each segment.
-    fn coverage(&self, strand: &Strand, feet: &[Arc<Footprint>]) -> (Vec<f64>, Vec<bool>) {
-        let mut covered = vec![0.0; self.areas.len()];
-        let mut on_top = vec![false; strand.len()];
+    /// Covered part of each cell of the plate, and of the upper side of each segment.
+    fn coverage(&self, strand: &Strand, feet: &[Arc<Footprint>]) -> [Vec<f64>; 2] {
+        let mut on_plate = vec![0.0; self.areas.len()];
+        let mut on_top = vec![0.0; strand.len()];
         for (segment, foot) in strand.segments().zip(feet) {
-            match segment.below {
-                Some(below) => on_top[below] = true,
-                None => {
-                    for &(cell, weight) in &foot.cells {
-                        covered[cell] += weight * segment.area() / self.areas[cell];
-                    }
+            let area = segment.area();
+            for (lower, share) in segment.below.iter() {
+                on_top[lower] += share * area / strand.segment(lower).area();
+            }
+            if segment.below.is_empty() {
+                for &(cell, weight) in &foot.cells {
+                    on_plate[cell] += weight * area / self.areas[cell];
                 }
             }
         }
-        (covered, on_top)
+        [on_plate, on_top]
     }
 
     fn below_on_plate<'a>(
@@ -239,13 +246,12 @@ impl Line {
         }
         for n in (0..strand.len()).rev() {
             let load = loads[n];
-            match strand.segment(n).below {
-                Some(lower) => add(&mut loads[lower], load, 1.0),
-                None => {
-                    add(&mut strand.impulse, load, 1.0);
-                    for &(cell, part) in &feet[n].cells {
-                        add(&mut strand.cell_impulse[cell], load, part);
-                    }
+            let below = strand.segment(n).below;
+            below.iter().for_each(|(lower, share)| add(&mut loads[lower], load, share));
+            if below.is_empty() {
+                add(&mut strand.impulse, load, 1.0);
+                for &(cell, part) in &feet[n].cells {
+                    add(&mut strand.cell_impulse[cell], load, part);
                 }
             }
         }
@@ -305,8 +311,8 @@ impl Line {
         let mut largest = 0.0_f64;
         for n in (0..strand.len()).rev() {
             let segment = strand.segment(n);
-            if let Some(below) = segment.below {
-                tops[below] = tops[below].max(tops[n]);
+            for (lower, _) in segment.below.iter() {
+                tops[lower] = tops[lower].max(tops[n]);
             }
             if self.frozen(&segment) < PACKED && is_chosen(tops[n] - segment.top()) {
                 let curve = fluid.viscosity.at(self.temperature(&segment));
@@ -360,7 +366,8 @@ enum Below<'a> {
         /// Part of the segment above the plate.
         inside: f64,
     },
-    Segment(Segment),
+    /// Segments that carry it, with their shares of its lower side.
+    Segments(Vec<(Segment, f64)>),
 }
 
 /// A step of one segment.
@@ -369,8 +376,8 @@ struct SegmentStep<'a> {
     below: &'a Below<'a>,
     /// Ages of the segment at its beginning and end [s].
     ages: [f64; 2],
-    /// True if another segment lies on it.
-    covered: bool,
+    /// Part of its upper side on which other segments lie.
+    covered: f64,
     /// [K]
     air: f64,
 }
@@ -446,7 +453,7 @@ impl SegmentStep<'_> {
 
     /// Areas of the upper side and of the others that face the air [m²].
     fn exposed(&self, segment: &Segment) -> [f64; 2] {
-        let above = if self.covered { 0.0 } else { segment.area() };
+        let above = (1.0 - self.covered) * segment.area();
         [above, 2.0 * segment.height() * segment.length()]
     }
 
@@ -471,7 +478,7 @@ impl SegmentStep<'_> {
         match self.below {
             Below::Nothing => 0.0,
             Below::Plate { inside, .. } => segment.area() * inside,
-            Below::Segment(_) => segment.area(),
+            Below::Segments(_) => segment.area(),
         }
     }
 
@@ -488,7 +495,6 @@ impl SegmentStep<'_> {
 
     /// Temperature below [K], and the resistance to it, with the rise that the heat of this inner step causes [K/W].
     fn below(&self, segment: &Segment, ages: [f64; 2], before: f64) -> (f64, f64) {
-        let heat = &self.line.heat;
         let duration = ages[1] - ages[0];
         match self.below {
             Below::Nothing => (self.air, f64::INFINITY),
@@ -501,15 +507,53 @@ impl SegmentStep<'_> {
                 let contact = self.line.plan.conductance.map_or(0.0, |value| 1.0 / (value * area));
                 (free + rise * before, contact + rise * duration)
             }
-            Below::Segment(lower) => {
-                let top = LAYERS - 1;
-                let content = self.line.contents(lower)[top];
-                let least = heat.phases.map_or(1.0, |phases| phases.heat.min(1.0));
-                let capacity = least * SHARES[top] * heat.capacity(lower.volume);
-                let own = heat.half_resistance(top, lower.height(), content) / segment.area();
-                (heat.temperature(content) + before / capacity, own + duration / capacity)
+            Below::Segments(_) => {
+                let mut links = self.links(segment.area(), duration);
+                let all = Link::all(&links).conductance;
+                for link in &mut links {
+                    link.below += before * link.conductance / all / link.capacity;
+                }
+                let Link { below, conductance, .. } = Link::all(&links);
+                (below, 1.0 / conductance)
             }
         }
+    }
+
+    /// Links to the highest layers of the segments that carry an area of this one [m²], whose temperatures follow the
+    /// heat of an inner step.
+    fn links(&self, area: f64, duration: f64) -> Vec<Link> {
+        let Below::Segments(carriers) = self.below else { return Vec::new() };
+        let heat = &self.line.heat;
+        let link = |(lower, share): &(Segment, f64)| {
+            let top = LAYERS - 1;
+            let content = self.line.contents(lower)[top];
+            let least = heat.phases.map_or(1.0, |phases| phases.heat.min(1.0));
+            let capacity = least * SHARES[top] * heat.capacity(lower.volume);
+            let own = heat.half_resistance(top, lower.height(), content) / (share * area);
+            let conductance = 1.0 / (own + duration / capacity);
+            Link { below: heat.temperature(content), capacity, conductance }
+        };
+        carriers.iter().map(link).collect()
+    }
+}
+
+/// A link from the lower side of a segment to a layer below.
+#[derive(Debug, Clone, Copy)]
+struct Link {
+    /// Temperature of that layer [K], and its heat capacity [J/K].
+    below: f64,
+    capacity: f64,
+    /// [W/K]
+    conductance: f64,
+}
+
+impl Link {
+    /// Returns the link that takes as much heat as some parallel ones.
+    fn all(links: &[Link]) -> Link {
+        let sum = |of: fn(&Link) -> f64| links.iter().map(of).sum::<f64>();
+        let conductance = sum(|link| link.conductance);
+        let below = sum(|link| link.conductance * link.below) / conductance;
+        Link { below, capacity: sum(|link| link.capacity), conductance }
     }
 }
 

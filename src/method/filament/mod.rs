@@ -7,6 +7,7 @@
 //! from a wanted line.
 
 mod beneath;
+mod carriers;
 mod cooling;
 mod failure;
 mod footprint;

@@ -1,6 +1,10 @@
 //! A segment of a strand.
 
+use super::carriers::Carriers;
 use super::cooling::LAYERS;
+
+/// Numbers of places along a segment and across it, odd.
+const PLACES: [usize; 2] = [9, 3];
 
 /// A piece of the strand between two places of its centre line.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -24,8 +28,8 @@ pub struct Segment {
     pub outlet: f64,
     /// True for a heap, which the nozzle piles up while it hardly moves.
     pub is_heap: bool,
-    /// The segment on which it lies; `None` on the plate.
-    pub below: Option<usize>,
+    /// The segments on which it lies; none on the plate.
+    pub below: Carriers,
 }
 
 impl Segment {
@@ -72,6 +76,19 @@ impl Segment {
         let along = [0, 1].map(|axis| self.end[axis] - self.start[axis]);
         let length = along[0].hypot(along[1]);
         if length > 0.0 { along.map(|part| part / length) } else { [1.0, 0.0] }
+    }
+
+    /// Places spread evenly over its lower side, its middle among them.
+    pub fn places(&self) -> impl Iterator<Item = [f64; 2]> + use<> {
+        let chord = (self.end[0] - self.start[0]).hypot(self.end[1] - self.start[1]);
+        let length = if self.is_heap { chord.max(self.width()) } else { chord };
+        let (middle, along, width) = (self.middle(), self.direction(), self.width());
+        let part = |n: usize, count: usize| (n as f64 + 0.5) / count as f64 - 0.5;
+        (0..PLACES[0] * PLACES[1]).map(move |n| {
+            let s = length * part(n % PLACES[0], PLACES[0]);
+            let t = width * part(n / PLACES[0], PLACES[1]);
+            [middle[0] + s * along[0] - t * along[1], middle[1] + s * along[1] + t * along[0]]
+        })
     }
 
     /// Distance of a place from its centre line [m].

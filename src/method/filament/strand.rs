@@ -3,6 +3,7 @@
 use std::slice::from_mut;
 
 use super::Segment;
+use super::carriers::{Carriers, MOST_CARRIERS};
 use super::cooling::LAYERS;
 use crate::state::{Field, Fields, Layout, Per};
 
@@ -46,8 +47,9 @@ pub struct Strand {
     outlet: Vec<f64>,
     /// 1 for heaps, 0 otherwise.
     heap: Vec<f64>,
-    /// Place of the segment below, plus one; 0 on the plate.
-    below: Vec<f64>,
+    /// Numbers of the segments below, from 1, and their shares; 0 where there is none.
+    below: Vec<[f64; MOST_CARRIERS]>,
+    share: Vec<[f64; MOST_CARRIERS]>,
 }
 
 impl Strand {
@@ -63,7 +65,7 @@ impl Strand {
     }
 
     /// Numbers of a segment in the state.
-    pub const PER_SEGMENT: usize = 2 + 2 + 1 + 1 + LAYERS + 6;
+    pub const PER_SEGMENT: usize = 2 + 2 + 1 + 1 + LAYERS + 5 + 2 * MOST_CARRIERS;
 
     /// An empty strand with room for the segments of a state of this length; `None` if no strand above the same cells
     /// has it.
@@ -87,8 +89,9 @@ impl Strand {
             born: numbers.clone(),
             path: numbers.clone(),
             outlet: numbers.clone(),
-            heap: numbers.clone(),
-            below: numbers,
+            heap: numbers,
+            below: vec![[0.0; MOST_CARRIERS]; count],
+            share: vec![[0.0; MOST_CARRIERS]; count],
             ..self
         }
     }
@@ -103,7 +106,7 @@ impl Strand {
     }
 
     pub fn segment(&self, n: usize) -> Segment {
-        let below = self.below[n];
+        let segments = self.below[n].map(|number| (number as usize).saturating_sub(1));
         Segment {
             start: self.start[n],
             end: self.end[n],
@@ -115,7 +118,7 @@ impl Strand {
             path: self.path[n],
             outlet: self.outlet[n],
             is_heap: self.heap[n] != 0.0,
-            below: (below > 0.0).then(|| below as usize - 1),
+            below: Carriers { segments, shares: self.share[n] },
         }
     }
 
@@ -124,6 +127,8 @@ impl Strand {
         self.start.push(segment.start);
         self.end.push(segment.end);
         self.heats.push(segment.heats);
+        self.below.push([0.0; MOST_CARRIERS]);
+        self.share.push([0.0; MOST_CARRIERS]);
         let numbers = [
             &mut self.base,
             &mut self.volumes,
@@ -132,7 +137,6 @@ impl Strand {
             &mut self.path,
             &mut self.outlet,
             &mut self.heap,
-            &mut self.below,
         ];
         numbers.into_iter().for_each(|list| list.push(0.0));
         self.set(self.len() - 1, segment);
@@ -149,7 +153,10 @@ impl Strand {
         self.path[n] = segment.path;
         self.outlet[n] = segment.outlet;
         self.heap[n] = if segment.is_heap { 1.0 } else { 0.0 };
-        self.below[n] = segment.below.map_or(0.0, |below| (below + 1) as f64);
+        let Carriers { segments, shares } = segment.below;
+        self.below[n] =
+            std::array::from_fn(|k| if shares[k] > 0.0 { (segments[k] + 1) as f64 } else { 0.0 });
+        self.share[n] = shares;
     }
 
     pub fn segments(&self) -> impl DoubleEndedIterator<Item = Segment> + ExactSizeIterator + '_ {
@@ -174,9 +181,17 @@ impl Strand {
 
     fn check_segment(&self, n: usize) -> Result<(), String> {
         let segment = self.segment(n);
-        let below = self.below[n];
-        if below < 0.0 || below.fract() != 0.0 || below as usize > n {
-            return Err(format!("segment {n} lies on segment {}", below - 1.0));
+        let carriers = self.below[n].into_iter().zip(self.share[n]);
+        for (number, share) in carriers {
+            let is_older = (0.0..=n as f64).contains(&number) && number.fract() == 0.0;
+            let is_carrier = (0.0..=1.0).contains(&share) && (number > 0.0) == (share > 0.0);
+            if !(is_older && is_carrier) {
+                return Err(format!("segment {n} lies on number {number} by a share of {share}"));
+            }
+        }
+        let all: f64 = self.share[n].iter().sum();
+        if all != 0.0 && (all - 1.0).abs() > 1e-9 {
+            return Err(format!("segment {n} lies on others by {all} of its lower side"));
         }
         if !(segment.volume > 0.0 && segment.half_width > 0.0) {
             return Err(format!("segment {n} has no volume or no width"));
@@ -239,7 +254,14 @@ impl Fields for Strand {
                 &mut self.outlet,
             ),
             (segment("heap", "1 for heaps", 1), &mut self.heap),
-            (segment("below", "number of the segment below, from 1; 0: plate", 1), &mut self.below),
+            (
+                segment("below", "numbers of the segments below, from 1; 0: none", MOST_CARRIERS),
+                self.below.as_flattened_mut(),
+            ),
+            (
+                segment("share", "shares of the lower side on these [1]", MOST_CARRIERS),
+                self.share.as_flattened_mut(),
+            ),
         ]
     }
 }
