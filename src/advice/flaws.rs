@@ -29,6 +29,11 @@ pub fn review(reviewer: &mut Reviewer) {
                 peak(reviewer, &path, (flaw, depth), solid);
             }
             deep(reviewer, &path, (flaw, depth), solid);
+            if let Some((face, lengths)) = flaw.beside(solid) {
+                let [distance, free] = lengths.map(number);
+                let warning = warning::flaw_near_face(face.as_str(), distance, free);
+                reviewer.warn(&path.key("at"), warning);
+            }
         }
     }
 }

@@ -90,7 +90,7 @@ impl Model {
         Some(finding.at(name).of_subject(format!("{name} beyond {substance}")))
     }
 
-    /// Returns the outputs whose values may give rise to warnings, by name: totals of bodies, and probes.
+    /// Returns the outputs whose values may give rise to warnings, by name: totals of bodies, probes and flaws.
     pub fn watched_outputs(&self) -> impl Iterator<Item = (String, Output)> {
         let watched = |variable: Variable| match variable.slot {
             Slot::Output(output) => is_watched(&output.reading).then_some((variable.name, output)),
@@ -126,5 +126,5 @@ impl Model {
 }
 
 fn is_watched(reading: &Reading) -> bool {
-    matches!(reading, Reading::Total(_) | Reading::Point { alone: true, .. })
+    matches!(reading, Reading::Total(_) | Reading::Point { alone: true, .. } | Reading::Flaw { .. })
 }

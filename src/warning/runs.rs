@@ -99,6 +99,10 @@ rules! {
     "the mesh has {elements} elements over the depth of `{flaw}`, too few for the stress along it";
     "set a `mesh.depth_spacing` of {finer} m or less"
 
+    Step flaw_worst_is_deep(flaw, part, most)
+    "the worst depth of `{flaw}` is {part} of what is behind its mouth, and its stress intensity is that of a half plane, \
+     which is too low there"; "do not rely on it beyond {most}"
+
     Step flaw_has_grown(flaw, part, most)
     "`{flaw}` has grown through {part} of what was behind its mouth, and its stress intensity is that of a half plane";
     "do not rely on it beyond {most}"

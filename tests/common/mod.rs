@@ -70,7 +70,7 @@ impl Trial {
         self.model.output(&self.state, &mut self.cache, &output).unwrap()
     }
 
-    /// Ids of the warnings that values of bodies and probes give rise to.
+    /// Ids of the warnings that values of bodies, probes and flaws give rise to.
     pub fn warnings_on_values(&mut self) -> Vec<&'static str> {
         let watched: Vec<_> = self.model.watched_outputs().collect();
         let warning = |(name, output): &(String, Output)| {

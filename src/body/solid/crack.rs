@@ -225,6 +225,12 @@ impl Crack {
         Some(Growing { name, start: *start, line, trials, law: *law, toughness })
     }
 
+    /// Returns the name of a crack whose depth is searched, and the largest depth [m].
+    pub fn searched(&self) -> Option<(&str, f64)> {
+        let Extent::Searched { line, .. } = &self.extent else { return None };
+        Some((&self.name, line.end()))
+    }
+
     /// Stress intensity of one that grows, at a depth [m] that it has reached.
     pub fn at_depth(&self, reader: &mut SolidReader, depth: f64) -> Result<Intensity, BodyError> {
         let Some(Growing { line, .. }) = self.growing() else {

@@ -90,6 +90,11 @@ pub fn flaw_quantities(flaw: &Flaw) -> Vec<(usize, Descriptor)> {
     all.map(|(place, quantity)| (place, quantity.descriptor)).collect()
 }
 
+/// Returns true if a quantity is the depth that was searched.
+pub(super) fn is_worst_depth(quantity: usize) -> bool {
+    matches!(QUANTITIES[quantity].of, Offered::Searched)
+}
+
 impl SolidBody {
     /// A flaw, by its place among the scene's.
     pub(super) fn crack(&self, flaw: usize) -> Result<&Crack, BodyError> {

@@ -404,6 +404,7 @@ fn shear_modulus(solid: &Solid) -> Option<f64> {
 impl Advice for SolidBody {
     fn warning_on_value(&self, reading: &Reading, value: f64) -> Option<Warning> {
         warnings::of_large_strain(self, reading, value)
+            .or_else(|| warnings::of_worst_depth(self, reading, value))
     }
 
     fn resolved_from(&self) -> f64 {

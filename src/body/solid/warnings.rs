@@ -2,7 +2,7 @@
 
 use super::crack::Coarse;
 use super::cracking::DamageAway;
-use super::{SolidBody, point_quantities, totals};
+use super::{SolidBody, flaw_reading, point_quantities, totals};
 use crate::body::Reading;
 use crate::limits::number;
 use crate::quantity::percent;
@@ -74,6 +74,17 @@ pub fn of_large_strain(body: &SolidBody, reading: &Reading, value: f64) -> Optio
         _ => None,
     };
     large.map(|what| warning::strain_is_large(what).at(&body.name))
+}
+
+/// Warns of a worst depth of a flaw that its formula does not hold for.
+pub fn of_worst_depth(body: &SolidBody, reading: &Reading, value: f64) -> Option<Warning> {
+    let Reading::Flaw { flaw, quantity } = *reading else { return None };
+    let (name, reach) = body.crack(flaw).ok()?.searched()?;
+    let part = value / reach;
+    (flaw_reading::is_worst_depth(quantity) && part > Flaw::SHALLOW).then(|| {
+        let finding = warning::flaw_worst_is_deep(name, percent(part), percent(Flaw::SHALLOW));
+        finding.at(&body.name).of_subject(format!("{name} is deep"))
+    })
 }
 
 /// Returns `None` unless all of the body but its cracks is damaged alike, and that damage counts beside theirs.
