@@ -71,6 +71,13 @@ pub enum Halt {
         /// A feasible step length [s], if known.
         fits: Option<f64>,
     },
+    #[error(
+        "{what} have taken more than a communication step may take (allowed: {MOST_UPDATES:.0e} updates of unknowns and \
+         {:.0e} rounds in all): take shorter communication steps in which loads change less, or look for an extreme \
+         value",
+        MOST_UPDATES / ROUND
+    )]
+    UsedUp { rounds: f64, what: &'static str, size: usize },
 }
 
 /// Proposes a step length [s], in words.
@@ -85,7 +92,9 @@ impl Halt {
     /// Fraction of a too long step that takes about so many updates; `None` if the step ended for another reason.
     pub fn part_within(&self, updates: f64) -> Option<f64> {
         match *self {
-            Halt::TooLong { rounds, size, .. } => Some((updates / cost(rounds, size)).min(1.0)),
+            Halt::TooLong { rounds, size, .. } | Halt::UsedUp { rounds, size, .. } => {
+                Some((updates / cost(rounds, size)).min(1.0))
+            }
             Halt::Interrupted => None,
         }
     }
@@ -138,9 +147,13 @@ impl Allowance {
         if self.interrupt.0.load(Ordering::Relaxed) == INTERRUPTED {
             return Err(Halt::Interrupted);
         }
-        self.foresee(rounds, what, size)?;
-        self.left.store((self.left() - cost(rounds, size)).to_bits(), Ordering::Relaxed);
-        Ok(())
+        let left = self.left() - cost(rounds, size);
+        // NaN also counts as too many.
+        if left >= 0.0 {
+            self.left.store(left.to_bits(), Ordering::Relaxed);
+            return Ok(());
+        }
+        Err(Halt::UsedUp { rounds, what, size })
     }
 }
 

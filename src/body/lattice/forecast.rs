@@ -90,6 +90,7 @@ pub fn notes(lattice: &Lattice) -> Vec<String> {
     ];
     notes.extend(coarse(lattice, &plan));
     notes.extend(stability(&plan));
+    notes.extend(sudden(lattice, &plan));
     notes
 }
 
@@ -130,6 +131,25 @@ fn energy(lattice: &Lattice, plan: &LatticePlan) -> String {
         tenths(energy),
         tenths(share_of_crack(lattice.arrangement) * energy)
     )
+}
+
+/// Part of the energy of a crack that a pulled strip may store at its strength without breaking at once: all of it where
+/// stress falls evenly with the opening, less where it falls steeply at first.
+const STORED: f64 = 0.5;
+
+/// Notes pulled strips that break suddenly, as they store more energy than their crack takes.
+fn sudden(lattice: &Lattice, plan: &LatticePlan) -> Option<String> {
+    let is_pulled = matches!(lattice.support, LatticeSupport::Ends) && !lattice.inertia;
+    let (strength, energy) = plan.strength_and_energy();
+    let stored = 0.5 * strength * strength * lattice.length / lattice.material.young;
+    let crack = share_of_crack(lattice.arrangement) * energy;
+    (is_pulled && stored > STORED * crack).then(|| {
+        format!(
+            "pulled to its strength the strip stores {stored:.0} J/m², and a crack takes {crack:.0}: it breaks suddenly, \
+             which takes minutes that the forecast leaves out; approach the strength in small steps of the input, or set \
+             `inertia = true`"
+        )
+    })
 }
 
 /// Particles over the depth of a bent strip, above its notch, from which on peaks are within a tenth.

@@ -188,7 +188,7 @@ impl Part<'_> {
 }
 
 fn is_too_long(error: &ModelError) -> bool {
-    matches!(error.halt(), Some(Halt::TooLong { .. }))
+    matches!(error.halt(), Some(Halt::TooLong { .. } | Halt::UsedUp { .. }))
 }
 
 #[cfg(test)]

@@ -41,13 +41,13 @@ pub enum LatticeError {
     )]
     NoMouth,
     #[error(
-        "links break suddenly, and after {relaxations} relaxations the forces do not balance (allowed: shorter \
-         communication steps, a smaller `spacing`, or `control = \"opening\"`)"
+        "links break suddenly, and after {relaxations} relaxations the forces do not balance (allowed: an input that \
+         rises in small steps, a smaller `spacing`, or `control = \"opening\"`)"
     )]
     NoEquilibrium { relaxations: usize },
     #[error(
-        "links break suddenly, and after {steps} time steps the strip still moves (allowed: shorter communication \
-         steps, a smaller `spacing`, or `inertia = true`)"
+        "links break suddenly, and after {steps} time steps the strip still moves (allowed: an input that rises \
+         in small steps, a smaller `spacing`, or `inertia = true`)"
     )]
     NotSettled { steps: usize },
     #[error(
