@@ -152,8 +152,9 @@ rules! {
      more than 6 %"; "a depth of {most} m or less is accurate"
 
     Check flaw_near_face(face, distance, free)
-    "the crack is {distance} m from `{face}`, and its stress intensity is that of a body that goes on there: it is off by \
-     more than 6 %, with a free face too low"; "from {free} m on it is accurate, and in a plane of symmetry (`roller`)"
+    "the crack is {distance} m from `{face}`, and its stress intensity is that of a body that goes on there: it may be \
+     off by more than 6 %, and is too low beside a free face";
+    "from {free} m on it is accurate, and in a plane of symmetry (`roller`)"
 
     Check flaw_in_yielding_body()
     "the body yields, and the stress intensity of its flaws is that of linear elasticity, with the stress of the \
