@@ -116,27 +116,35 @@ fn sudden_breaks_release_energy() {
     }
 }
 
-/// A break that ends in an equilibrium to which it does not lead seems to take energy.
+/// A break that ends in an equilibrium to which it does not lead seems to take energy. It happens in few samples.
 #[test]
 fn breaks_that_take_energy_are_warned_of() {
-    let keys = "control = \"opening\"\narrangement = \"random\"\nseed = 0";
-    let text = beam(keys)
-        .replace("length = 0.25", "length = 0.25908")
-        .replace("spacing = 9.5e-3", "spacing = 7.62e-3")
-        .replace("depth = 19e-3, width = 2e-3", "depth = 25.4e-3");
-    let mut trial = Trial::new(&text);
-    for n in 1..=52 {
-        let fine = f64::from(n.min(28)) * 2e-6;
-        let coarse = f64::from((n - 28).max(0)) / 24.0 * (0.6e-3 - 56e-6);
-        trial.set("beam.opening", fine + coarse);
-        trial.step(0.1);
-        let [released, dissipated] =
-            ["released_energy", "dissipated_energy"].map(|key| trial.get(&format!("beam.{key}")));
-        let found = trial.model.warnings(&trial.state);
-        let is_warned = found.iter().any(|warning| warning.finding().id == "breaks_take_energy");
-        assert_eq!(is_warned, released < -0.02 * dissipated, "{n}: {released:e} {dissipated:e}");
-    }
-    assert!(trial.get("beam.released_energy") < 0.0);
+    let takes_energy = |seed: usize| {
+        let keys = format!("control = \"opening\"\narrangement = \"random\"\nseed = {seed}");
+        let text = beam(&keys)
+            .replace("length = 0.25", "length = 0.25908")
+            .replace("spacing = 9.5e-3", "spacing = 7.62e-3")
+            .replace("depth = 19e-3, width = 2e-3", "depth = 25.4e-3");
+        let mut trial = Trial::new(&text);
+        let mut is_warned = false;
+        for n in 1..=52 {
+            let fine = f64::from(n.min(28)) * 2e-6;
+            let coarse = f64::from((n - 28).max(0)) / 24.0 * (0.6e-3 - 56e-6);
+            trial.set("beam.opening", fine + coarse);
+            trial.step(0.1);
+            let [released, dissipated] = ["released_energy", "dissipated_energy"]
+                .map(|key| trial.get(&format!("beam.{key}")));
+            let found = trial.model.warnings(&trial.state);
+            is_warned = found.iter().any(|warning| warning.finding().id == "breaks_take_energy");
+            assert_eq!(
+                is_warned,
+                released < -0.02 * dissipated,
+                "{n}: {released:e} {dissipated:e}"
+            );
+        }
+        is_warned
+    };
+    assert!((0..32).any(takes_energy));
 }
 
 /// Loads do not depend on the number of communication steps.
@@ -147,7 +155,7 @@ fn communication_steps_do_not_matter() {
         open(&mut trial, "beam.opening", 9e-5, steps);
         (trial.get("beam.force"), trial.get("beam.dissipated_energy"))
     });
-    assert!((few.0 / many.0 - 1.0).abs() < 1e-5, "{few:?} {many:?}");
+    assert!((few.0 / many.0 - 1.0).abs() < 1e-4, "{few:?} {many:?}");
     assert!((few.1 / many.1 - 1.0).abs() < 1e-2, "{few:?} {many:?}");
 }
 
@@ -339,16 +347,24 @@ fn torn_strips_of_all_samples_are_bridged() {
     }
 }
 
-/// A strip torn by motion dissipates what one does that breaks in equilibrium.
+/// Strips torn by motion dissipate the same in all samples, and what those do that break in equilibrium, half of which
+/// jump to another one.
 #[test]
 fn cracks_of_motion_dissipate_as_those_of_equilibrium() {
-    let [resting, moving] = ["", "inertia = true\ndamping = 2e3"].map(|keys| {
-        let mut trial = Trial::new(&pulled(CONCRETE, &format!("spacing = 1e-2\n{keys}")));
-        move_over(&mut trial, "strip.displacement", (4e-4, 1e-3), 8);
-        assert_eq!(trial.get("strip.max_damage"), 1.0);
-        trial.get("strip.dissipated_energy")
+    let [mut resting, moving] = ["", "inertia = true\ndamping = 2e3"].map(|keys| {
+        let of_sample = |seed: usize| {
+            let keys = format!("spacing = 1e-2\nseed = {seed}\n{keys}");
+            let mut trial = Trial::new(&pulled(CONCRETE, &keys));
+            move_over(&mut trial, "strip.displacement", (4e-4, 1e-3), 8);
+            assert_eq!(trial.get("strip.max_damage"), 1.0);
+            trial.get("strip.dissipated_energy")
+        };
+        (0..7).map(of_sample).collect::<Vec<_>>()
     });
-    assert!((moving / resting - 1.0).abs() < 0.05, "{moving} J for {resting} J");
+    let mean = moving.iter().sum::<f64>() / moving.len() as f64;
+    assert!(moving.iter().all(|own| (own / mean - 1.0).abs() < 0.03), "{moving:?}");
+    resting.sort_by(f64::total_cmp);
+    assert!((resting[3] / mean - 1.0).abs() < 0.12, "{resting:?} J for {mean} J");
 }
 
 /// Constants of the library that links have replace those of a table.
