@@ -64,6 +64,8 @@ const FIRST_STEPS: f64 = 12.0;
 const LEAST_APART: f64 = 0.1;
 /// The same below which it exchanges no heat [K].
 const ASLEEP: f64 = 1e-2;
+/// Conductance of fluids that do not conduct, so that temperatures below still have a mean [W/K].
+const LEAST_CONDUCTANCE: f64 = 1e-200;
 /// Relative error of the heat balance of a state that runs never reach.
 const BALANCE: f64 = 1e-6;
 
@@ -530,7 +532,7 @@ impl SegmentStep<'_> {
             let least = heat.phases.map_or(1.0, |phases| phases.heat.min(1.0));
             let capacity = least * SHARES[top] * heat.capacity(lower.volume);
             let own = heat.half_resistance(top, lower.height(), content) / (share * area);
-            let conductance = 1.0 / (own + duration / capacity);
+            let conductance = (1.0 / (own + duration / capacity)).max(LEAST_CONDUCTANCE);
             Link { below: heat.temperature(content), capacity, conductance }
         };
         carriers.iter().map(link).collect()

@@ -245,10 +245,12 @@ fn stacks_load_their_lowest_layer() {
 /// A wall laid there and back bears its own height wherever segments end, with the flow stopped at turns or not.
 #[test]
 fn walls_of_any_length_bear_their_height() {
-    let line = Line::new(LinePlan { most: 2e-2, ..plan(CONCRETE, 0.02) });
     let around = Around { surface: &Surface::default(), air: 300.0 };
-    let flow = 0.1 * line.plan().outlet();
-    for duration in [3.0, 3.7, 4.1, 4.43, 5.3] {
+    for (duration, conductivity) in [(3.0, 1.5), (3.7, 0.0), (4.1, 1.5), (4.43, 0.0), (5.3, 1.5)] {
+        let fluid =
+            CONCRETE.replace("conductivity = 1.5", &format!("conductivity = {conductivity}"));
+        let line = Line::new(LinePlan { most: 2e-2, ..plan(&fluid, 0.02) });
+        let flow = 0.1 * line.plan().outlet();
         let mut strand = line.start([0.0, 0.0, 0.012]);
         for layer in 0..4 {
             let height = 0.012 * f64::from(layer + 1);
