@@ -88,6 +88,15 @@ impl<const D: usize> Grid<D> {
         })
     }
 
+    /// Nodes within one layer of others, these included.
+    pub fn dilated(&self, inside: &[bool]) -> Vec<bool> {
+        let mut wider = vec![false; inside.len()];
+        for node in (0..inside.len()).filter(|&node| inside[node]) {
+            self.around(node).for_each(|other| wider[other] = true);
+        }
+        wider
+    }
+
     /// Nodes before the first one and behind the last one that the stencil reaches.
     fn margin(&self) -> usize {
         (0..D).map(|axis| self.stride(axis)).sum()

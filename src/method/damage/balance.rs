@@ -98,7 +98,7 @@ pub struct Balance<'a, const D: usize, const C: usize, const V: usize> {
     pub allowance: &'a Allowance,
     stiffness: GridMatrix<D, D>,
     /// Stiffness without damage, and the forces of temperatures there [N], once known.
-    intact: GridMatrix<D, D>,
+    intact: &'a GridMatrix<D, D>,
     thermal: Option<Vec<f64>>,
     /// Elements whose stiffness differs from the intact one.
     damaged: Damaged<D>,
@@ -118,14 +118,16 @@ where
     Point<D, C>: Kinematics<D, C, V>,
 {
     pub fn new(
-        elements: &'a Elements<D, C, V>,
-        unknowns: &'a Unknowns<D>,
+        (elements, intact, unknowns): (
+            &'a Elements<D, C, V>,
+            &'a GridMatrix<D, D>,
+            &'a Unknowns<D>,
+        ),
         team: &'a Team,
         allowance: &'a Allowance,
     ) -> Self {
-        let intact = elements.intact_stiffness(team);
         let mut stiffness = GridMatrix::zeros(unknowns.grid);
-        stiffness.copy_from(&intact);
+        stiffness.copy_from(intact);
         Self {
             elements,
             unknowns,
@@ -154,7 +156,7 @@ where
         load: &[f64],
         tolerance: f64,
     ) -> Result<Released<C>, DamageError> {
-        self.damaged.restore(self.elements, &mut self.stiffness, &self.intact);
+        self.damaged.restore(self.elements, &mut self.stiffness, self.intact);
         self.damaged = Damaged::of(self.elements, damage);
         let released = |elements: &Elements<D, C, V>, displacement: &[f64], team: &Team| {
             elements.released(&Nodal { displacement, damage, rise }, team)
@@ -193,7 +195,7 @@ where
 
     /// Assembles the stiffness.
     fn assemble(&mut self, nodal: &Nodal) {
-        self.damaged.restore(self.elements, &mut self.stiffness, &self.intact);
+        self.damaged.restore(self.elements, &mut self.stiffness, self.intact);
         self.damaged.correct_stiffness(self.elements, nodal, &mut self.stiffness, self.team);
     }
 

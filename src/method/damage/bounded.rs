@@ -14,21 +14,23 @@ const MOST_ITERATIONS: usize = 2000;
 const REDUCTION: f64 = 1e-3;
 
 /// Minimises `½ d·A d − b·d` over `low ≤ d ≤ 1` from the values of `damage`, until no value would move by more than
-/// `tolerance`. Returns the gradient at the values before.
+/// `tolerance`; only `nodes` change. Returns the gradient there at the values before, and zero elsewhere.
 pub fn minimise<const D: usize>(
-    matrix: &GridMatrix<D, 1>,
-    load: &[f64],
+    (matrix, load): (&GridMatrix<D, 1>, &[f64]),
+    nodes: &[u32],
     low: &[f64],
     damage: &mut Padded<1>,
     tolerance: f64,
     team: &Team,
 ) -> Vec<f64> {
-    let nodes = matrix.grid().nodes();
-    let all: Vec<u32> = (0..nodes as u32).collect();
     let gradient_of = |damage: &Padded<1>| -> Vec<f64> {
-        let mut product = vec![0.0; nodes];
-        matrix.product_of(&all, damage, &mut product, team);
-        product.iter().zip(load).map(|(p, b)| p - b).collect()
+        let mut product = vec![0.0; nodes.len()];
+        matrix.product_of(nodes, damage, &mut product, team);
+        let mut gradient = vec![0.0; load.len()];
+        for (&n, product) in nodes.iter().zip(&product) {
+            gradient[n as usize] = product - load[n as usize];
+        }
+        gradient
     };
     let first = gradient_of(damage);
     let mut gradient = first.clone();
@@ -39,7 +41,7 @@ pub fn minimise<const D: usize>(
             let is_held = d[n] <= low[n] && gradient[n] > 0.0 || d[n] >= 1.0 && gradient[n] < 0.0;
             !is_held
         };
-        let free: Vec<u32> = all.iter().copied().filter(is_free).collect();
+        let free: Vec<u32> = nodes.iter().copied().filter(is_free).collect();
         let step = newton_step(matrix, &free, &gradient, team);
         let moved = project(matrix, &free, &step, &gradient, low, damage, team);
         if moved <= tolerance {

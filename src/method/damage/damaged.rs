@@ -4,12 +4,9 @@
 //! less those of a few elements.
 
 use super::domain::{Kinematics, Point};
-use super::elements::{Elements, Nodal, dot};
+use super::elements::{AT_A_TIME, Elements, Nodal, dot};
 use crate::math::grid_matrix::GridMatrix;
 use crate::runtime::parallel::Team;
-
-/// Elements whose matrices are held at a time.
-const AT_A_TIME: usize = 1 << 12;
 
 /// Elements with a damaged corner, in ascending order.
 #[derive(Debug)]

@@ -151,15 +151,7 @@ impl<const D: usize> Domain<D> {
         let start = self.axes[0][element[0]];
         let area: f64 = size.iter().map(|size| 0.5 * size).product();
         std::array::from_fn(|q| {
-            let at: [f64; D] = std::array::from_fn(|axis| GAUSS[q >> axis & 1]);
-            // Values and derivatives of the functions of a corner along each axis.
-            let along: [[(f64, f64); D]; C] = std::array::from_fn(|a| {
-                std::array::from_fn(|axis| match a >> axis & 1 {
-                    1 => (at[axis], per_length[axis]),
-                    _ => (1.0 - at[axis], -per_length[axis]),
-                })
-            });
-            let radius = start + at[0] * size[0];
+            let radius = start + GAUSS[q & 1] * size[0];
             let (depth, curvature) = match self.form {
                 Form::PlaneStrain { thickness } | Form::PlaneStress { thickness } => {
                     (thickness, 0.0)
@@ -169,16 +161,50 @@ impl<const D: usize> Domain<D> {
             };
             Point {
                 volume: area * depth,
-                shape: along.map(|own| own.iter().map(|(value, _)| value).product()),
+                shape: Unit::<D, C>::SHAPE[q],
                 slopes: std::array::from_fn(|axis| {
-                    along.map(|own| {
-                        let factor =
-                            |(other, (value, slope))| if other == axis { slope } else { value };
-                        own.into_iter().enumerate().map(factor).product()
-                    })
+                    Unit::<D, C>::SLOPES[q][axis].map(|slope| per_length[axis] * slope)
                 }),
                 curvature,
             }
         })
+    }
+}
+
+/// The element whose edges have the length 1.
+struct Unit<const D: usize, const C: usize>;
+
+impl<const D: usize, const C: usize> Unit<D, C> {
+    /// Values of the functions of all corners at each point, and their derivatives along each axis.
+    const SHAPE: [[f64; C]; C] = {
+        let mut shape = [[1.0; C]; C];
+        let mut place = 0;
+        while place < C * C * D {
+            let (q, a, axis) = (place / (C * D), place / D % C, place % D);
+            shape[q][a] *= Self::along(q, a, axis);
+            place += 1;
+        }
+        shape
+    };
+    const SLOPES: [[[f64; C]; D]; C] = {
+        let mut slopes = [[[1.0; C]; D]; C];
+        let mut place = 0;
+        while place < C * C * D * D {
+            let (q, a) = (place / (C * D * D), place / (D * D) % C);
+            let (axis, other) = (place / D % D, place % D);
+            slopes[q][axis][a] *= match (axis == other, a >> axis & 1) {
+                (false, _) => Self::along(q, a, other),
+                (true, 1) => 1.0,
+                (true, _) => -1.0,
+            };
+            place += 1;
+        }
+        slopes
+    };
+
+    /// Value of the function of a corner along an axis, at a point.
+    const fn along(point: usize, corner: usize, axis: usize) -> f64 {
+        let at = GAUSS[point >> axis & 1];
+        if corner >> axis & 1 == 1 { at } else { 1.0 - at }
     }
 }

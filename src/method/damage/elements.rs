@@ -1,12 +1,13 @@
 //! Loops over the elements of a domain: forces, stiffness, the energy that drives damage, and sums.
 
 use super::domain::{Domain, Kinematics, Point};
-use crate::laws::fracture::{DEGRADED, GradientDamage, PointResponse, degradation};
+use crate::laws::fracture::{DEGRADED, Dissipation, GradientDamage, PointResponse, degradation};
 use crate::math::grid_matrix::{Grid, GridMatrix};
 use crate::runtime::parallel::Team;
 
-/// Rows of elements whose matrices are held at a time.
+/// Rows of elements, and elements, whose matrices are held at a time.
 const ROWS: usize = 16;
+pub(super) const AT_A_TIME: usize = 1 << 12;
 
 /// A domain of one material, in elements of `C` corners, with strains of `V` components.
 #[derive(Debug, Clone)]
@@ -223,58 +224,94 @@ where
         released
     }
 
-    /// Assembles the conditions on damage under given energies: `A d = b` where nothing bounds it.
+    /// Number of nodes across the damage beside a crack, which reaches 2ℓ with AT1.
+    pub fn reach_of_damage(&self) -> usize {
+        let size = self.domain.mean_size([0; D]);
+        (2.0 * self.law.length / size).ceil() as usize
+    }
+
+    /// Nodes whose damage may differ from zero, with a margin around: all but those around which nothing is damaged and
+    /// the energy that a crack releases is below that of damage.
+    pub fn endangered(&self, released: &Released<C>, damage: &[f64], margin: usize) -> Vec<bool> {
+        let columns = self.grid.elements()[0];
+        if self.law.dissipation == Dissipation::At2 {
+            return vec![true; self.grid.nodes()];
+        }
+        let mut endangered = vec![false; self.grid.nodes()];
+        for (n, energies) in released.iter().enumerate() {
+            let place = self.grid.element(n % columns, n / columns);
+            let corners = self.grid.corners::<C>(place);
+            let [local, _] = self.law.weights(self.domain.mean_size(place), place);
+            let is_quiet = energies.iter().all(|psi| 2.0 * DEGRADED * psi < local)
+                && corners.iter().all(|&node| damage[node] == 0.0);
+            if !is_quiet {
+                corners.iter().for_each(|&node| endangered[node] = true);
+            }
+        }
+        (0..margin).for_each(|_| endangered = self.grid.dilated(&endangered));
+        endangered
+    }
+
+    /// Assembles the conditions on damage of some nodes under given energies: `A d = b` where nothing bounds it.
     ///
     /// The energy `(1 − d)²ψ + G_c/c_w (w/ℓ + ℓ|∇d|²)` is quadratic in d.
     pub fn damage_system(
         &self,
         released: &Released<C>,
+        wanted: &[bool],
         matrix: &mut GridMatrix<D, 1>,
         team: &Team,
     ) -> Vec<f64> {
-        use crate::laws::fracture::Dissipation::{At1, At2};
-        let (columns, rows) = (self.grid.elements()[0], self.grid.rows());
+        let columns = self.grid.elements()[0];
+        let is_wanted = |&n: &usize| {
+            let corners = self.grid.corners::<C>(self.grid.element(n % columns, n / columns));
+            corners.iter().any(|&node| wanted[node])
+        };
+        let elements: Vec<usize> = (0..released.len()).filter(is_wanted).collect();
         matrix.clear();
         let mut load = vec![0.0; self.grid.nodes()];
-        for first in (0..rows).step_by(ROWS) {
-            let found = team.map((rows - first).min(ROWS), |row| {
-                let of_element = |i: usize| {
-                    let place = self.grid.element(i, first + row);
-                    let [local, spread] = self.law.weights(self.domain.mean_size(place), place);
-                    let (mut own, mut b) = ([[0.0; C]; C], [0.0; C]);
-                    let points: [Point<D, C>; C] = self.domain.points(place);
-                    for (point, psi) in points.iter().zip(released[i + columns * (first + row)]) {
-                        let psi = DEGRADED * psi;
-                        let (mass, pull) = match self.law.dissipation {
-                            At1 => (2.0 * psi, 2.0 * psi - local),
-                            At2 => (2.0 * (psi + local), 2.0 * psi),
-                        };
-                        for r in 0..C {
-                            b[r] += point.volume * pull * point.shape[r];
-                            for c in 0..C {
-                                let gradients: f64 =
-                                    point.slopes.iter().map(|slopes| slopes[r] * slopes[c]).sum();
-                                own[r][c] += point.volume
-                                    * (mass * point.shape[r] * point.shape[c]
-                                        + 2.0 * spread * gradients);
-                            }
-                        }
-                    }
-                    (own, b)
-                };
-                (0..columns).map(of_element).collect::<Vec<_>>()
+        for some in elements.chunks(AT_A_TIME) {
+            let found = team.map(some.len(), |k| {
+                let n = some[k];
+                self.damage_of_element(self.grid.element(n % columns, n / columns), &released[n])
             });
-            for (row, elements) in found.iter().enumerate() {
-                for (i, (own, b)) in elements.iter().enumerate() {
-                    let place = self.grid.element(i, first + row);
-                    matrix.add_element::<C>(place, own.as_flattened());
-                    for (node, b) in self.grid.corners::<C>(place).into_iter().zip(b) {
-                        load[node] += b;
-                    }
+            for (&n, (own, b)) in some.iter().zip(&found) {
+                let place = self.grid.element(n % columns, n / columns);
+                matrix.add_element::<C>(place, own.as_flattened());
+                for (node, b) in self.grid.corners::<C>(place).into_iter().zip(b) {
+                    load[node] += b;
                 }
             }
         }
         load
+    }
+
+    /// Part of an element in the conditions on damage.
+    fn damage_of_element(
+        &self,
+        place: [usize; D],
+        released: &[f64; C],
+    ) -> ([[f64; C]; C], [f64; C]) {
+        let [local, spread] = self.law.weights(self.domain.mean_size(place), place);
+        let (mut own, mut b) = ([[0.0; C]; C], [0.0; C]);
+        let points: [Point<D, C>; C] = self.domain.points(place);
+        for (point, psi) in points.iter().zip(released) {
+            let psi = DEGRADED * psi;
+            let (mass, pull) = match self.law.dissipation {
+                Dissipation::At1 => (2.0 * psi, 2.0 * psi - local),
+                Dissipation::At2 => (2.0 * (psi + local), 2.0 * psi),
+            };
+            for r in 0..C {
+                b[r] += point.volume * pull * point.shape[r];
+                for c in 0..C {
+                    let gradients: f64 =
+                        point.slopes.iter().map(|slopes| slopes[r] * slopes[c]).sum();
+                    own[r][c] += point.volume
+                        * (mass * point.shape[r] * point.shape[c] + 2.0 * spread * gradients);
+                }
+            }
+        }
+        (own, b)
     }
 
     /// Energies of a moment [J].

@@ -7,7 +7,7 @@
 
 use super::balance::Unknowns;
 use crate::math::cholesky::{Elimination, SolverError, SparseCholesky};
-use crate::math::grid_matrix::{Grid, GridMatrix, Padded};
+use crate::math::grid_matrix::{GridMatrix, Padded};
 use crate::runtime::parallel::Team;
 
 /// Relative change of a diagonal entry from which on a node belongs to the patch, in a section and in space, where a
@@ -55,7 +55,7 @@ impl Part {
         unknowns: &Unknowns<D>,
     ) -> Result<Self, SolverError> {
         let nodes = numbers(&inside);
-        let reached = numbers(&dilated(&inside, stiffness.grid()));
+        let reached = numbers(&stiffness.grid().dilated(&inside));
         let (places, number, order) = unknowns.within(&inside);
         let elimination = Elimination::new(&stiffness.lower_triangle(&number), &order)?;
         Ok(Self { inside, nodes, reached, places, number, elimination })
@@ -95,7 +95,7 @@ impl<const D: usize> Patch<D> {
         if !inside.contains(&true) {
             return Ok(Extent::Nothing);
         }
-        (0..OVERLAP).for_each(|_| inside = dilated(&inside, grid));
+        (0..OVERLAP).for_each(|_| inside = grid.dilated(&inside));
         let count = inside.iter().filter(|inside| **inside).count();
         let most = if D == 2 { LARGEST } else { LARGEST_IN_SPACE };
         if count as f64 > most * grid.nodes() as f64 {
@@ -158,15 +158,6 @@ fn subtract<const D: usize>(
         let own = (D * node as usize..).zip(product);
         own.filter(|(place, _)| !system.held[*place]).for_each(|(place, p)| force[place] -= p);
     }
-}
-
-/// Nodes within one layer of others, these included.
-fn dilated<const D: usize>(inside: &[bool], grid: Grid<D>) -> Vec<bool> {
-    let mut wider = vec![false; inside.len()];
-    for node in (0..inside.len()).filter(|&node| inside[node]) {
-        grid.around(node).for_each(|other| wider[other] = true);
-    }
-    wider
 }
 
 fn numbers(inside: &[bool]) -> Vec<u32> {

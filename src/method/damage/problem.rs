@@ -1,12 +1,14 @@
 //! Damage and displacement of a domain, from one state to the next.
 
+use std::sync::OnceLock;
+
 use super::DamageError;
 use super::acceleration::{Acceleration, Alternated};
 use super::balance::{Balance, Unknowns};
 use super::bounded::minimise;
 use super::breaking::BreakingOrder;
 use super::domain::{Kinematics, Point};
-use super::elements::{Elements, Energies, Nodal};
+use super::elements::{Elements, Energies, Nodal, Released};
 use crate::math::grid_matrix::{GridMatrix, Padded};
 use crate::math::separable::dot;
 use crate::runtime::allowance::Allowance;
@@ -26,6 +28,8 @@ const LARGEST_TOLERANCE: f64 = 1e-3;
 pub struct DamageProblem<const D: usize, const C: usize, const V: usize> {
     pub elements: Elements<D, C, V>,
     unknowns: Unknowns<D>,
+    /// Stiffness without damage, once known.
+    intact: OnceLock<GridMatrix<D, D>>,
     threads: usize,
 }
 
@@ -60,7 +64,7 @@ where
     /// `held` marks prescribed displacements, all components of a node together.
     pub fn new(elements: Elements<D, C, V>, held: Vec<bool>, threads: usize) -> Self {
         let unknowns = Unknowns::new(elements.grid, held);
-        Self { elements, unknowns, threads }
+        Self { elements, unknowns, intact: OnceLock::new(), threads }
     }
 
     pub fn initial_state(&self) -> DamageState {
@@ -95,7 +99,9 @@ where
     ) -> Result<Effort, DamageError> {
         let team = Team::new(self.threads);
         let before = state.clone();
-        let mut balance = Balance::new(&self.elements, &self.unknowns, &team, allowance);
+        let intact = self.intact.get_or_init(|| self.elements.intact_stiffness(&team));
+        let domain = (&self.elements, intact, &self.unknowns);
+        let mut balance = Balance::new(domain, &team, allowance);
         let effort = self.minimise(state, (rise, forces), &mut balance, order)?;
         state.rise.copy_from_slice(rise);
         state.work += self.work([&before, state], &team);
@@ -135,9 +141,8 @@ where
             let in_proportion = TOLERANCE_OF_FORCES * change / TOLERANCE;
             let tolerance = in_proportion.clamp(TOLERANCE_OF_FORCES, LARGEST_TOLERANCE);
             let released = balance.settle(&mut state.displacement, fields, forces, tolerance)?;
-            let load = self.elements.damage_system(&released, &mut matrix, team);
             let before = damage.inner().to_vec();
-            let gradient = minimise(&matrix, &load, &low, &mut damage, 0.1 * TOLERANCE, team);
+            let gradient = self.soften(&released, &low, &mut damage, &mut matrix, team);
             let after = damage.inner();
             order.note(alternation, after);
             change = after.iter().zip(&before).fold(0.0, |most, (a, b)| most.max((a - b).abs()));
@@ -154,6 +159,35 @@ where
             damage.inner_mut().copy_from_slice(&next);
         }
         Err(DamageError::NoMinimum { alternations: MOST_ALTERNATIONS, change })
+    }
+
+    /// Moves damage to the minimum of the energy under energies that cracks release; returns the gradient before.
+    fn soften(
+        &self,
+        released: &Released<C>,
+        low: &[f64],
+        damage: &mut Padded<1>,
+        matrix: &mut GridMatrix<D, 1>,
+        team: &Team,
+    ) -> Vec<f64> {
+        let before = damage.clone();
+        let mut margin = self.elements.reach_of_damage();
+        loop {
+            let wanted = self.elements.endangered(released, before.inner(), margin);
+            let load = self.elements.damage_system(released, &wanted, matrix, team);
+            let nodes: Vec<u32> =
+                (0..wanted.len() as u32).filter(|&n| wanted[n as usize]).collect();
+            let system = (&*matrix, &load[..]);
+            let gradient = minimise(system, &nodes, low, damage, 0.1 * TOLERANCE, team);
+            // Damage that comes near the others may spread to them.
+            let is_damaged: Vec<bool> = damage.inner().iter().map(|d| *d > 0.0).collect();
+            let around = self.elements.grid.dilated(&is_damaged);
+            if around.iter().zip(&wanted).all(|(around, wanted)| *wanted || !around) {
+                return gradient;
+            }
+            damage.clone_from(&before);
+            margin *= 4;
+        }
     }
 
     /// Energies of a state [J].
