@@ -185,8 +185,8 @@ impl Flaw {
         let distance = |face: FaceName| {
             let (away, along) = self.away(&solid.shape, face);
             let cosine: f64 = normal.iter().zip(along).map(|(n, a)| n * a).sum::<f64>().abs();
-            let is_held = solid.faces.get(&face).is_some_and(|face| face.roller);
-            let is_in_plane = is_held && away <= SLACK * size && (cosine - 1.0).abs() < SLACK;
+            let is_in_plane =
+                solid.face(face).roller && away <= SLACK * size && (cosine - 1.0).abs() < SLACK;
             let distance = if mouth.is_some() { away / cosine } else { away };
             (!is_in_plane).then_some(distance.max(0.0))
         };

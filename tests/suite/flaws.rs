@@ -252,8 +252,8 @@ fn worst_depths_beyond_the_half_plane_are_warned_of() {
     let text = plate(20.0, "", &scratch("s", "\"worst\""));
     let cooled = text.replace("bottom = { temperature = 573.15", "bottom = { temperature = 540.0");
     assert_ne!(text, cooled);
-    for (time, deep) in [(5e-4, false), (60.0, true)] {
-        let mut trial = Trial::new(&cooled);
+    for (scene, time, deep) in [(&text, 5e-4, false), (&cooled, 60.0, true)] {
+        let mut trial = Trial::new(scene);
         trial.step(time);
         let depth = trial.get("s.depth");
         let told = trial.warnings_on_values().contains(&"flaw_worst_is_deep");
