@@ -62,11 +62,14 @@ fn peak(reviewer: &mut Reviewer, path: &Path, (flaw, depth): (&Flaw, f64), solid
     }
 }
 
-/// Warns of edge cracks that are deep compared with the body.
+/// Warns of edge cracks that are deep compared with the body, and of those that begin on a plane of symmetry.
 fn deep(reviewer: &mut Reviewer, path: &Path, (flaw, depth): (&Flaw, f64), solid: &Solid) {
     let is_edge = flaw.shape == FlawShape::Edge;
     let Some(face) = flaw.face(&solid.shape).filter(|_| is_edge) else { return };
     let part = depth / flaw.reach(solid, face);
+    if solid.face(face).roller {
+        reviewer.warn(&path.key("at"), warning::flaw_on_symmetry(face.as_str()));
+    }
     if part > Flaw::SHALLOW {
         let most = number(Flaw::SHALLOW * flaw.reach(solid, face));
         reviewer.warn(&path.key("depth"), warning::flaw_deep(percent(part), most));

@@ -156,6 +156,10 @@ rules! {
      off by more than 6 %, and is too low beside a free face";
     "from {free} m on it is accurate, and in a plane of symmetry (`roller`)"
 
+    Check flaw_on_symmetry(face)
+    "the crack begins on `{face}`, whose rollers make it a plane of symmetry: it is half of a crack inside, and the stress \
+     intensity of an edge crack is 12 % above that under even tension"; "take a face without rollers"
+
     Check flaw_in_yielding_body()
     "the body yields, and the stress intensity of its flaws is that of linear elasticity, with the stress of the \
      yielding body"; "do not rely on it where the stress has reached the yield stress"

@@ -241,6 +241,13 @@ fn flaws_beside_faces_are_warned_of() {
     // Along a slanted normal the face is farther.
     assert_eq!(warned(&edge(1.4e-3, "[0.19, 1.0, 0.0]")).len(), 0);
     assert_eq!(warned(&edge(1.4e-3, "[0.25, 1.0, 0.0]")).len(), 1);
+    let text = plate(
+        20.0,
+        "",
+        &flaw("s", "at = [0.0, 0.0, -10e-3]\nnormal = [1.0, 0.0, 0.0]\ndepth = 1e-4"),
+    );
+    let (_, warnings) = parse_with_warnings(&text, "scene").unwrap();
+    assert!(warnings.iter().any(|warning| warning.finding().id == "flaw_on_symmetry"));
     let near = warned(&penny(-3e-4));
     assert!(near.len() == 1 && near[0].contains("3e-4 m from `top`"), "{near:?}");
     assert!(warned(&penny(-5e-4)).is_empty());

@@ -226,6 +226,7 @@ impl Advice for FilamentBody {
         let bearing = self.line.bearing_of_stacks(&strand);
         plan::nozzle_warnings([strand.jump, self.line.plan().spacing], strand.late == 1.0)
             .chain(beyond)
+            .chain(self.line.has_nested_heaps(&strand).then(warning::nozzle_is_slow))
             .chain((bearing >= 1.0).then(|| warning::stack_yields(format!("{bearing:.1}"))))
             .map(|finding| finding.at(&self.name))
             .collect()

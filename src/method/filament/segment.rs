@@ -4,7 +4,7 @@ use super::carriers::Carriers;
 use super::cooling::LAYERS;
 
 /// Numbers of places along a segment and across it, odd.
-const PLACES: [usize; 2] = [9, 3];
+const PLACES: [usize; 2] = [9, 9];
 
 /// A piece of the strand between two places of its centre line.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

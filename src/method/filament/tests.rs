@@ -118,6 +118,23 @@ fn a_nozzle_at_rest_makes_one_heap() {
     assert!((heap.length() - heap.width()).abs() < 1e-12);
     let volume: f64 = strand.segments().map(|segment| segment.volume).sum();
     assert!((volume / (3.0 * flow) - 1.0).abs() < 1e-12);
+    assert!(!line.has_nested_heaps(&strand));
+}
+
+/// Heaps of a nozzle that moves slowly lie inside each other, which is seen; those of a swifter one do not arise.
+#[test]
+fn heaps_of_a_slow_nozzle_are_seen() {
+    let line = Line::new(plan(CONCRETE, 0.02));
+    let around = Around { surface: &Surface::default(), air: 300.0 };
+    for (ratio, nested) in [(0.24, true), (0.26, false), (0.5, false), (1.0, false)] {
+        let mut strand = line.start([0.0, 0.0, 0.02]);
+        let flow = 0.1 / ratio * line.plan().outlet();
+        for n in 0..10 {
+            let motion = along(0.25, (0.025 * f64::from(n), 0.02), 0.1, flow);
+            line.advance(&mut strand, &[motion], &around).unwrap();
+        }
+        assert_eq!(line.has_nested_heaps(&strand), nested, "{ratio}");
+    }
 }
 
 /// A nozzle whose inputs jump from step to step lays the same volume along its path, in as many segments.
