@@ -151,9 +151,9 @@ material = {{ density = 2346.0, young = {young}, poisson = {poisson}, softening 
     }
 }
 
-/// Strips of 60 × 40 mm that are pulled until they are in two take a share of the area below the law of a link, f (s f/2E
-/// + (1 + α₁) w₂/2 + α₁ (w₃ − w₂)/2), that depends on the arrangement, and on the sample: cracks that begin at two places
-/// take more than straight ones. Of seven samples the least and the median are within limits.
+/// Strips of 60 × 40 mm that are pulled until they are in two take a share of the area below the law of a link,
+/// `f (s f/2E + (1 + α₁) w₂/2 + α₁ (w₃ − w₂)/2)`, that depends on the arrangement, and on the sample: cracks that begin at
+/// two places take more than straight ones. Of seven samples the least and the median are within limits.
 #[test]
 fn cracks_take_their_share_of_the_energy_of_links() {
     let (strength, young, spacing, share, [knee, end]) = (3e6, 18e9, 2.5e-3, 0.2, [12e-6, 150e-6]);
