@@ -24,16 +24,13 @@ pub fn review(reviewer: &mut Reviewer) {
             if solid.relaxes() && flaw.gives.contains(&FlawGives::EnergyReleaseRate) {
                 reviewer.warn(&path.key("gives"), warning::flaw_in_relaxing_body());
             }
+            on_symmetry(reviewer, &path, flaw, solid);
             let Some(depth) = flaw.depth.given() else { continue };
             if is_shocked(scene, (name, solid), depth) {
                 peak(reviewer, &path, (flaw, depth), solid);
             }
             deep(reviewer, &path, (flaw, depth), solid);
-            if let Some((face, lengths)) = flaw.beside(solid) {
-                let [distance, free] = lengths.map(number);
-                let warning = warning::flaw_near_face(face.as_str(), distance, free);
-                reviewer.warn(&path.key("at"), warning);
-            }
+            beside(reviewer, &path, flaw, solid);
         }
     }
 }
@@ -62,16 +59,29 @@ fn peak(reviewer: &mut Reviewer, path: &Path, (flaw, depth): (&Flaw, f64), solid
     }
 }
 
-/// Warns of edge cracks that are deep compared with the body, and of those that begin on a plane of symmetry.
+/// Warns of edge cracks that are deep compared with the body.
 fn deep(reviewer: &mut Reviewer, path: &Path, (flaw, depth): (&Flaw, f64), solid: &Solid) {
     let is_edge = flaw.shape == FlawShape::Edge;
     let Some(face) = flaw.face(&solid.shape).filter(|_| is_edge) else { return };
     let part = depth / flaw.reach(solid, face);
-    if solid.face(face).roller {
-        reviewer.warn(&path.key("at"), warning::flaw_on_symmetry(face.as_str()));
-    }
     if part > Flaw::SHALLOW {
         let most = number(Flaw::SHALLOW * flaw.reach(solid, face));
         reviewer.warn(&path.key("depth"), warning::flaw_deep(percent(part), most));
+    }
+}
+
+/// Warns of cracks near a face that is not the one of their mouth.
+fn beside(reviewer: &mut Reviewer, path: &Path, flaw: &Flaw, solid: &Solid) {
+    let Some((face, lengths)) = flaw.beside(solid) else { return };
+    let [distance, free] = lengths.map(number);
+    reviewer.warn(&path.key("at"), warning::flaw_near_face(face.as_str(), distance, free));
+}
+
+/// Warns of edge cracks that begin on a plane of symmetry.
+fn on_symmetry(reviewer: &mut Reviewer, path: &Path, flaw: &Flaw, solid: &Solid) {
+    let is_edge = flaw.shape == FlawShape::Edge;
+    let face = flaw.face(&solid.shape).filter(|face| is_edge && solid.face(*face).roller);
+    if let Some(face) = face {
+        reviewer.warn(&path.key("at"), warning::flaw_on_symmetry(face.as_str()));
     }
 }

@@ -185,6 +185,12 @@ mod tests {
             assert!(matches!(halt, Err(Halt::TooLong { .. })), "{rounds} {size}: {halt:?}");
         }
         assert!(allowance.foresee(f64::INFINITY, "rounds", 1).is_err());
+        // What was used up counts, not what the last round would have taken.
+        let halt = allowance.spend(1.1e6, "rounds", 0).unwrap_err();
+        assert!(
+            matches!(halt, Halt::UsedUp { .. })
+                && halt.to_string().starts_with("rounds have taken more")
+        );
     }
 
     #[test]

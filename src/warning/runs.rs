@@ -77,7 +77,7 @@ rules! {
      piece is laid across the jump at once"; "send places and derivatives of one motion"
 
     Step nozzle_is_slow()
-    "the nozzle moves at less than a quarter of the speed of its fluid, and heaps lie inside each other: their widths are \
+    "the nozzle has moved at less than a quarter of the speed of its fluid, and heaps lie inside each other: their widths are \
      wrong, and plate and air meet more of them than there is";
     "move the nozzle faster or let less fluid come, or set `method = \"particles\"`"
 

@@ -110,7 +110,7 @@ fn ligament(plan: &LatticePlan) -> String {
 }
 
 /// Energy of a crack over the area below the law of a link, in strips that are pulled until they are in two, at ν = 0 to
-/// 0.2, the middle of samples from 0.84 to 1.24, from 1.24 to 1.39 and from 0.91 to 1.37
+/// 0.2, about the middle of samples from 0.84 to 1.24, from 1.24 to 1.74 and from 0.91 to 1.37
 /// (`tests/verification/lattice.rs`): a crack that begins at two places takes more than a straight one. At ν = 1/3, where
 /// links do not bend, `along` takes half of that.
 fn share_of_crack(arrangement: LatticeArrangement) -> f64 {

@@ -142,7 +142,8 @@ where
             let tolerance = in_proportion.clamp(TOLERANCE_OF_FORCES, LARGEST_TOLERANCE);
             let released = balance.settle(&mut state.displacement, fields, forces, tolerance)?;
             let before = damage.inner().to_vec();
-            let gradient = self.soften(&released, &low, &mut damage, &mut matrix, team);
+            let margin = self.elements.reach_of_damage();
+            let gradient = self.soften((&released, margin), &low, &mut damage, &mut matrix, team);
             let after = damage.inner();
             order.note(alternation, after);
             change = after.iter().zip(&before).fold(0.0, |most, (a, b)| most.max((a - b).abs()));
@@ -161,17 +162,17 @@ where
         Err(DamageError::NoMinimum { alternations: MOST_ALTERNATIONS, change })
     }
 
-    /// Moves damage to the minimum of the energy under energies that cracks release; returns the gradient before.
-    fn soften(
+    /// Moves damage to the minimum of the energy under energies that cracks release; returns the gradient before. Only
+    /// nodes within a margin of those that may be damaged are moved at first, and more of them if damage spreads.
+    pub(super) fn soften(
         &self,
-        released: &Released<C>,
+        (released, mut margin): (&Released<C>, usize),
         low: &[f64],
         damage: &mut Padded<1>,
         matrix: &mut GridMatrix<D, 1>,
         team: &Team,
     ) -> Vec<f64> {
         let before = damage.clone();
-        let mut margin = self.elements.reach_of_damage();
         loop {
             let wanted = self.elements.endangered(released, before.inner(), margin);
             let load = self.elements.damage_system(released, &wanted, matrix, team);

@@ -3,7 +3,7 @@ use super::domain::{Kinematics, Point};
 use super::elements::Nodal;
 use super::*;
 use crate::laws::fracture::{Dissipation, GradientDamage, Principal, Split};
-use crate::math::grid_matrix::Padded;
+use crate::math::grid_matrix::{GridMatrix, Padded};
 use crate::runtime::allowance::Allowance;
 use crate::runtime::parallel::Team;
 
@@ -282,4 +282,41 @@ fn bar_in_space_breaks_at_its_strength_with_the_energy_of_its_section() {
     assert!((peak / law.strength() - 1.0).abs() < 0.02, "{}", peak / law.strength());
     let part = problem.energies(&state).dissipated / (ENERGY * h * h);
     assert!((part - 1.0).abs() < 0.02, "{part}");
+}
+
+/// Nodes that may be damaged have the damage of a minimum over all, from any margin around them on, with wide damage and
+/// scattered elements.
+#[test]
+fn damage_is_that_of_all_nodes() {
+    let law = GradientDamage { scatter: 0.2, ..law(Dissipation::At1, Split::NoTension) };
+    let even = |count: usize| (0..=count).map(|i| 0.01 * i as f64).collect::<Vec<_>>();
+    let domain = Domain { axes: [even(60), even(40)], form: Form::PlaneStress { thickness: 1.0 } };
+    let nodes = domain.grid().nodes();
+    let problem = SectionProblem::new(Elements::new(domain, law), vec![false; 2 * nodes], 1);
+    let team = Team::new(1);
+    // Above the threshold in a spot, and next to nothing elsewhere.
+    let threshold = ENERGY / (8.0 / 3.0 * DAMAGE_LENGTH);
+    let of_element = |n: usize| {
+        let [x, y] = [n % 60, n / 60].map(|i| 0.01 * (i as f64 + 0.5));
+        let square = (x - 0.2_f64).powi(2) + (y - 0.15_f64).powi(2);
+        [threshold * (0.01 + 40.0 * (-square / 0.03_f64.powi(2)).exp()); 4]
+    };
+    let released: Vec<[f64; 4]> = (0..60 * 40).map(of_element).collect();
+    let low = vec![0.0; nodes];
+    let softened = |margin: usize| {
+        let grid = problem.elements.grid;
+        let (mut damage, mut matrix) = (Padded::zeros(grid), GridMatrix::zeros(grid));
+        let given = (&released, margin);
+        let gradient = problem.soften(given, &low, &mut damage, &mut matrix, &team);
+        (damage.inner().to_vec(), gradient)
+    };
+    let (all, first) = softened(100);
+    let damaged = all.iter().filter(|d| **d > 0.0).count();
+    assert!(all.iter().any(|d| *d > 0.9) && damaged > 100 && damaged < nodes / 2, "{damaged}");
+    for margin in [1, 3, problem.elements.reach_of_damage()] {
+        let (some, gradient) = softened(margin);
+        assert!(some == all, "{margin}");
+        let moved = (0..nodes).filter(|&n| all[n] > 0.0);
+        assert!(moved.into_iter().all(|n| gradient[n] == first[n]), "{margin}");
+    }
 }

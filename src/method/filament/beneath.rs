@@ -46,12 +46,16 @@ impl Beneath {
         }
     }
 
-    /// Segments that may be under a place, the newest first.
-    pub fn near(&self, place: [f64; 2]) -> Vec<usize> {
-        let square = place.map(|at| self.number(at));
-        let lists = [square, EVERYWHERE].map(|square| self.squares.get(&square));
-        let mut near: Vec<usize> = lists.into_iter().flatten().flatten().copied().collect();
+    /// Segments that may be under one of some places, the newest first.
+    pub fn near(&self, places: impl IntoIterator<Item = [f64; 2]>) -> Vec<usize> {
+        let numbered = places.into_iter().map(|place| place.map(|at| self.number(at)));
+        let mut squares: Vec<[i64; 2]> = numbered.chain([EVERYWHERE]).collect();
+        squares.sort_unstable();
+        squares.dedup();
+        let lists = squares.iter().filter_map(|square| self.squares.get(square));
+        let mut near: Vec<usize> = lists.flatten().copied().collect();
         near.sort_unstable_by(|a, b| b.cmp(a));
+        near.dedup();
         near
     }
 
@@ -108,7 +112,7 @@ mod tests {
         let beneath = Beneath::of(&strand, 400);
         for _ in 0..300 {
             let place = [random(), random()];
-            let near = beneath.near(place);
+            let near = beneath.near([place]);
             for (n, segment) in strand.segments().enumerate() {
                 let is_under = segment.distance(place) <= segment.half_width;
                 assert!(!is_under || near.contains(&n), "{n} {segment:?}");

@@ -211,16 +211,17 @@ impl Line {
     ) -> Segment {
         beneath.extend(strand, older);
         let clearance = CLEARANCE * self.plan.diameter;
-        let may_carry = |n: usize, place: [f64; 2]| {
+        let may_carry = |n: usize| {
             let older = strand.segment(n);
-            let apart = beneath.apart(n, (strand, segment.start));
-            let clears = outlet - older.top() > clearance;
+            let is_apart = beneath.apart(n, (strand, segment.start)) > older.width();
             let has_risen = outlet - older.outlet > clearance;
-            let is_under = older.distance(place) <= older.half_width;
-            ((apart > older.width() || has_risen) && clears && is_under).then_some((n, older))
+            let clears = outlet - older.top() > clearance;
+            ((is_apart || has_risen) && clears).then_some((n, older))
         };
+        let near = beneath.near(segment.places()).into_iter();
+        let carriers: Vec<(usize, Segment)> = near.filter_map(may_carry).collect();
         let carriers_at = |place: [f64; 2]| {
-            beneath.near(place).into_iter().filter_map(move |n| may_carry(n, place))
+            carriers.iter().filter(move |(_, older)| older.distance(place) <= older.half_width)
         };
         let tops = carriers_at(segment.middle()).map(|(_, older)| older.top());
         let base = tops.fold(0.0, f64::max);
@@ -233,7 +234,7 @@ impl Line {
             carriers_at(place)
                 .filter(|(_, older)| (older.top() - base).abs() <= LEVEL * older.height())
                 .min_by(|(_, a), (_, b)| away(a).total_cmp(&away(b)))
-                .map(|(n, _)| n)
+                .map(|(n, _)| *n)
         };
         Segment { base, below: Carriers::of(segment.places().filter_map(carrier)), ..segment }
     }

@@ -186,11 +186,11 @@ impl Line {
                 }
             } else {
                 let links = step.links(segment.area(), time);
-                let interface = Link::all(&links);
+                let (mean, all) = joined(&links);
                 for ((lower, _), link) in segment.below.iter().zip(&links) {
                     // As much as parallel links take from one temperature above them.
-                    let part = link.conductance / interface.conductance;
-                    let more = link.conductance * time * (interface.below - link.below);
+                    let part = link.conductance / all;
+                    let more = link.conductance * time * (mean - link.below);
                     let mut carrier = strand.segment(lower);
                     carrier.heats[LAYERS - 1] += given * part + more;
                     strand.set(lower, &carrier);
@@ -523,11 +523,11 @@ impl SegmentStep<'_> {
             }
             Below::Segments(_) => {
                 let mut links = self.links(segment.area(), duration);
-                let all = Link::all(&links).conductance;
+                let (_, all) = joined(&links);
                 for link in &mut links {
                     link.below += before * link.conductance / all / link.capacity;
                 }
-                let Link { below, conductance, .. } = Link::all(&links);
+                let (below, conductance) = joined(&links);
                 (below, 1.0 / conductance)
             }
         }
@@ -561,14 +561,11 @@ struct Link {
     conductance: f64,
 }
 
-impl Link {
-    /// Returns the link that takes as much heat as some parallel ones.
-    fn all(links: &[Link]) -> Link {
-        let sum = |of: fn(&Link) -> f64| links.iter().map(of).sum::<f64>();
-        let conductance = sum(|link| link.conductance);
-        let below = sum(|link| link.conductance * link.below) / conductance;
-        Link { below, capacity: sum(|link| link.capacity), conductance }
-    }
+/// The temperature [K] and the conductance [W/K] of one link that takes as much heat as some parallel ones.
+fn joined(links: &[Link]) -> (f64, f64) {
+    let conductance = links.iter().map(|link| link.conductance).sum::<f64>();
+    let weighted = links.iter().map(|link| link.conductance * link.below);
+    (weighted.sum::<f64>() / conductance, conductance)
 }
 
 /// Mean over the volume of a segment.

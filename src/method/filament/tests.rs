@@ -326,6 +326,41 @@ fn covered_layers_lose_heat_through_their_sides() {
     }
 }
 
+/// Layers that cross at right angles cover each other with segments down to a quarter of the width.
+#[test]
+fn crossing_layers_cover_each_other() {
+    let fluid = CONCRETE.replace("yield_stress = 800.0", "yield_stress = 8000.0");
+    let own = LinePlan { most: 2e-2, air: 0.01, ..plan(&fluid, 0.02) };
+    let flow = 0.1 * own.outlet();
+    // Lines of the width of a strand side by side, as many along as across.
+    let (lines, pitch) = (4, own.outlet() / 0.012);
+    let length = f64::from(lines) * pitch;
+    let open = [0.02, 0.01, 0.0065].map(|spacing| {
+        let line = Line::new(LinePlan { spacing, ..own.clone() });
+        let around = Around { surface: &Surface::default(), air: 300.0 };
+        let mut strand = line.start([0.0, 0.0, 0.012]);
+        for layer in 0..2_usize {
+            let height = 0.012 * (layer + 1) as f64;
+            for n in 0..lines {
+                let mut pass = along(length / 0.1, (-0.5 * length, height), 0.1, flow);
+                pass.place[0][1] = (f64::from(n) - 0.5 * f64::from(lines - 1)) * pitch;
+                (0..2).filter(|_| layer == 1).for_each(|order| pass.place[order].swap(0, 1));
+                let lifted = Motion { flow: [0.0; 3], duration: 0.1, ..pass };
+                line.advance(&mut strand, &[lifted, pass], &around).unwrap();
+            }
+        }
+        let before = strand.lost;
+        let rest = Motion { flow: [0.0; 3], ..along(10.0, (0.0, 0.1), 0.0, 0.0) };
+        line.advance(&mut strand, &[rest], &around).unwrap();
+        line.check(&strand).unwrap();
+        (strand.lost - before) / (0.01 * 40.0 * 10.0)
+    });
+    let expected = length * length + 4.0 * f64::from(lines) * length * 0.012;
+    for (open, spacing) in open.iter().zip([0.02, 0.01, 0.0065]) {
+        assert!((open / expected - 1.0).abs() < 0.05, "{spacing} m: {open} of {expected} m²");
+    }
+}
+
 /// Heat that leaves the segments reaches the plate or the air, and the plate's cells get all of it.
 #[test]
 fn heat_and_volume_balance() {
