@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import shutil
 import signal
 import stat
 import struct
@@ -369,6 +370,32 @@ def test_a_folder_is_used_as_long_as_a_forked_process_lives(unit, tmp_path):
         assert time.monotonic() < limit
         temporary.sweep(tmp_path)
         time.sleep(0.05)
+
+
+SHARED = """
+import os, shutil, sys, zipfile
+from impinge.unit import open_package
+first, second = sys.argv[1], sys.argv[1] + ".other.fmu"
+open_package(first)
+# The other holds the same and a comment, so that its content is another.
+shutil.copy(first, second)
+with zipfile.ZipFile(second, "a") as archive:
+    archive.comment = b"another"
+for _ in range(2):
+    if (child := os.fork()) == 0:
+        os._exit(0 if open_package(second).name == open_package(first).name else 1)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+assert open_package(second).folder.is_dir()
+"""
+
+
+def test_forked_processes_open_the_same_unit(unit, tmp_path):
+    """The parent has opened another one, whose folder all of them share."""
+    environment = {**os.environ, "TMPDIR": str(tmp_path)}
+    copy = shutil.copy(unit, tmp_path / "unit.fmu")
+    command = [sys.executable, "-c", SHARED, str(copy)]
+    ran = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    assert ran.returncode == 0, ran.stderr
 
 
 def _parent(path):

@@ -7,6 +7,7 @@ import hashlib
 import os
 import re
 import shutil
+import tempfile
 from codecs import getincrementaldecoder
 from collections.abc import Mapping
 from dataclasses import replace
@@ -204,13 +205,19 @@ def _digest_of_file(path: Path) -> str:
 
 
 def _unzip(path: Path, digest: str) -> Path:
+    """The folder of a unit's content. Threads and forked processes share it: the first names it."""
     folder = temporary_folder().path / digest[:16]
-    with open_archive(path, path) as archive:
+    if folder.is_dir():
+        return folder
+    with tempfile.TemporaryDirectory(dir=folder.parent) as own:
+        made = Path(own, "unit")
+        with open_archive(path, path) as archive:
+            unpack(archive, made)
         try:
-            unpack(archive, folder)
-        except BaseException:
-            shutil.rmtree(folder, ignore_errors=True)
-            raise
+            made.rename(folder)
+        except OSError:
+            if not folder.is_dir():
+                raise
     return folder
 
 
