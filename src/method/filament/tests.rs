@@ -259,69 +259,68 @@ fn stacks_load_their_lowest_layer() {
     }
 }
 
+/// Lays a wall of four layers of 12 mm, each for a time [s], in one direction or there and back.
+fn wall(line: &Line, duration: f64, there_and_back: bool) -> Strand {
+    let around = Around { surface: &Surface::default(), air: 300.0 };
+    let flow = 0.1 * line.plan().outlet();
+    let mut strand = line.start([0.0, 0.0, 0.012]);
+    for layer in 0..4 {
+        let height = 0.012 * f64::from(layer + 1);
+        let back = there_and_back && layer % 2 == 1;
+        let (from, speed) = if back { (0.1 * duration, -0.1) } else { (0.0, 0.1) };
+        let pass = along(duration, (from, height), speed, flow);
+        let travel =
+            Motion { flow: [0.0; 3], ..along(0.1, (from + speed * duration, height), 0.0, 0.0) };
+        line.advance(&mut strand, &[pass, travel], &around).unwrap();
+    }
+    strand
+}
+
 /// A wall laid there and back bears its own height wherever segments end, with the flow stopped at turns or not.
 #[test]
 fn walls_of_any_length_bear_their_height() {
-    let around = Around { surface: &Surface::default(), air: 300.0 };
     for (duration, conductivity) in [(3.0, 1.5), (3.7, 0.0), (4.1, 1.5), (4.43, 0.0), (5.3, 1.5)] {
         let fluid =
             CONCRETE.replace("conductivity = 1.5", &format!("conductivity = {conductivity}"));
         let line = Line::new(LinePlan { most: 2e-2, ..plan(&fluid, 0.02) });
-        let flow = 0.1 * line.plan().outlet();
-        let mut strand = line.start([0.0, 0.0, 0.012]);
-        for layer in 0..4 {
-            let height = 0.012 * f64::from(layer + 1);
-            let back = layer % 2 == 1;
-            let (from, speed) = if back { (0.1 * duration, -0.1) } else { (0.0, 0.1) };
-            let pass = along(duration, (from, height), speed, flow);
-            let rise = Motion {
-                flow: [0.0; 3],
-                ..along(0.1, (from + speed * duration, height), 0.0, 0.0)
-            };
-            line.advance(&mut strand, &[pass, rise], &around).unwrap();
-        }
         let expected = 2300.0 * 9.81 * 0.048 / (3.0_f64.sqrt() * 800.0);
-        let found = line.totals(&strand).bearing;
+        let found = line.totals(&wall(&line, duration, true)).bearing;
         assert!((found / expected - 1.0).abs() < 1e-6, "{duration} s: {found} {expected}");
     }
+}
+
+/// Concrete that keeps its shape, in air that hardly cools it.
+fn stiff(spacing: f64) -> Line {
+    let fluid = CONCRETE.replace("yield_stress = 800.0", "yield_stress = 8000.0");
+    Line::new(LinePlan { spacing, most: 2e-2, air: 0.01, ..plan(&fluid, 0.02) })
+}
+
+/// Area of such a strand that gives heat to the air [m²].
+fn open_area(line: &Line, mut strand: Strand) -> f64 {
+    let around = Around { surface: &Surface::default(), air: 300.0 };
+    let before = strand.lost;
+    let rest = Motion { flow: [0.0; 3], ..along(10.0, (0.0, 0.1), 0.0, 0.0) };
+    line.advance(&mut strand, &[rest], &around).unwrap();
+    line.check(&strand).unwrap();
+    (strand.lost - before) / (0.01 * 40.0 * 10.0)
 }
 
 /// A wall gives heat to the air through the sides of all layers and the top of the highest, wherever segments end, and
 /// each layer below carries the whole of the next.
 #[test]
 fn covered_layers_lose_heat_through_their_sides() {
-    let fluid = CONCRETE.replace("yield_stress = 800.0", "yield_stress = 8000.0");
-    let own = LinePlan { most: 2e-2, air: 0.01, ..plan(&fluid, 0.02) };
-    let flow = 0.1 * own.outlet();
     for (spacing, duration) in [(0.01, 4.0), (0.013, 4.43), (0.007, 3.7), (0.03, 5.3)] {
         for there_and_back in [true, false] {
-            let line = Line::new(LinePlan { spacing, ..own.clone() });
-            let around = Around { surface: &Surface::default(), air: 300.0 };
-            let mut strand = line.start([0.0, 0.0, 0.012]);
-            for layer in 0..4 {
-                let height = 0.012 * f64::from(layer + 1);
-                let back = there_and_back && layer % 2 == 1;
-                let (from, speed) = if back { (0.1 * duration, -0.1) } else { (0.0, 0.1) };
-                let pass = along(duration, (from, height), speed, flow);
-                let travel = Motion {
-                    flow: [0.0; 3],
-                    ..along(0.1, (from + speed * duration, height), 0.0, 0.0)
-                };
-                line.advance(&mut strand, &[pass, travel], &around).unwrap();
-            }
-            let before = strand.lost;
-            let rest = Motion { flow: [0.0; 3], ..along(10.0, (0.0, 0.1), 0.0, 0.0) };
-            line.advance(&mut strand, &[rest], &around).unwrap();
+            let line = stiff(spacing);
+            let strand = wall(&line, duration, there_and_back);
             let [sides, top] = segments(&strand).iter().fold([0.0; 2], |[sides, top], own| {
                 let is_highest = own.base > 0.033;
                 let own_top = if is_highest { own.area() } else { 0.0 };
                 [sides + 2.0 * own.height() * own.length(), top + own_top]
             });
-            let expected = 0.01 * 40.0 * 10.0 * (sides + top);
-            let found = (strand.lost - before) / expected;
+            let found = open_area(&line, strand) / (sides + top);
             // Ends of layers do not meet exactly.
             assert!((0.995..1.02).contains(&found), "{spacing} m, {duration} s: {found}");
-            line.check(&strand).unwrap();
         }
     }
 }
@@ -329,35 +328,27 @@ fn covered_layers_lose_heat_through_their_sides() {
 /// Layers that cross at right angles cover each other with segments down to a quarter of the width.
 #[test]
 fn crossing_layers_cover_each_other() {
-    let fluid = CONCRETE.replace("yield_stress = 800.0", "yield_stress = 8000.0");
-    let own = LinePlan { most: 2e-2, air: 0.01, ..plan(&fluid, 0.02) };
-    let flow = 0.1 * own.outlet();
-    // Lines of the width of a strand side by side, as many along as across.
-    let (lines, pitch) = (4, own.outlet() / 0.012);
-    let length = f64::from(lines) * pitch;
-    let open = [0.02, 0.01, 0.0065].map(|spacing| {
-        let line = Line::new(LinePlan { spacing, ..own.clone() });
+    for spacing in [0.02, 0.01, 0.0065] {
+        let line = stiff(spacing);
+        let (outlet, lines) = (line.plan().outlet(), 4);
+        // Lines of the width of a strand side by side, as many along as across.
+        let pitch = outlet / 0.012;
+        let length = f64::from(lines) * pitch;
         let around = Around { surface: &Surface::default(), air: 300.0 };
         let mut strand = line.start([0.0, 0.0, 0.012]);
         for layer in 0..2_usize {
             let height = 0.012 * (layer + 1) as f64;
             for n in 0..lines {
-                let mut pass = along(length / 0.1, (-0.5 * length, height), 0.1, flow);
+                let mut pass = along(length / 0.1, (-0.5 * length, height), 0.1, 0.1 * outlet);
                 pass.place[0][1] = (f64::from(n) - 0.5 * f64::from(lines - 1)) * pitch;
                 (0..2).filter(|_| layer == 1).for_each(|order| pass.place[order].swap(0, 1));
                 let lifted = Motion { flow: [0.0; 3], duration: 0.1, ..pass };
                 line.advance(&mut strand, &[lifted, pass], &around).unwrap();
             }
         }
-        let before = strand.lost;
-        let rest = Motion { flow: [0.0; 3], ..along(10.0, (0.0, 0.1), 0.0, 0.0) };
-        line.advance(&mut strand, &[rest], &around).unwrap();
-        line.check(&strand).unwrap();
-        (strand.lost - before) / (0.01 * 40.0 * 10.0)
-    });
-    let expected = length * length + 4.0 * f64::from(lines) * length * 0.012;
-    for (open, spacing) in open.iter().zip([0.02, 0.01, 0.0065]) {
-        assert!((open / expected - 1.0).abs() < 0.05, "{spacing} m: {open} of {expected} m²");
+        let expected = length * length + 4.0 * f64::from(lines) * length * 0.012;
+        let found = open_area(&line, strand) / expected;
+        assert!((found - 1.0).abs() < 0.05, "{spacing} m: {found}");
     }
 }
 
