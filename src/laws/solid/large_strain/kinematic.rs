@@ -18,7 +18,9 @@
 
 use nalgebra::{Matrix6, Vector6};
 
-use super::plastic::{Changes, Plastic, deviator, elastic, of_kirchhoff, pack, unpacked};
+use super::plastic::{
+    Changes, Plastic, ROOT, deviator, elastic, norm, of_kirchhoff, pack, trace, unpacked,
+};
 use super::{Deformed, Isochoric, Tangent};
 use crate::math::matrix3::{
     Matrix3, contraction, eigen, full, inverse, packed, product, transposed,
@@ -52,8 +54,6 @@ struct Flow {
 }
 
 const THIRD: f64 = 1.0 / 3.0;
-/// `√⅔`
-const ROOT: f64 = 0.816_496_580_927_726;
 const ITERATIONS: usize = 60;
 /// Halvings of an iteration, after which the residual falls no more.
 const HALVINGS: usize = 12;
@@ -316,14 +316,6 @@ fn turned(axes: &Matrix3, m: &Matrix3) -> Matrix3 {
 
 fn add(sum: &mut Matrix3, other: &Matrix3) {
     sum.iter_mut().flatten().zip(other.as_flattened()).for_each(|(sum, other)| *sum += other);
-}
-
-fn trace(m: &Matrix3) -> f64 {
-    m[0][0] + m[1][1] + m[2][2]
-}
-
-fn norm(v: [f64; 3]) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// Symmetric matrix of a component, shears twice.

@@ -118,7 +118,11 @@ impl LargeStrainLaw {
 
     /// Returns false if the tangent is not symmetric.
     pub fn is_symmetric(&self) -> bool {
-        matches!(self.deviator, Deviator::Relaxing(_))
+        match &self.deviator {
+            Deviator::Relaxing(_) => true,
+            Deviator::Plastic(metal) => metal.kinematic == 0.0,
+            Deviator::Concrete(_) => false,
+        }
     }
 
     /// Returns true if the bulk modulus is more than ten times that of shear: at a Poisson's ratio above 0.45.

@@ -2,18 +2,18 @@
 //!
 //! The elastic left Cauchy–Green tensor of the change of shape, `b̄ = J^(−2/3) F C_p⁻¹ Fᵀ`, has the energy `½ µ (tr b̄
 //! − 3)` and the Kirchhoff stress `s = µ dev b̄`, with the plastic right tensor C_p. The body yields at `‖s‖ = √⅔
-//! σ_y(α)`, `σ_y = σ₀ + H α + (σ_∞ − σ₀)(1 − e^(−δα))` (E. Voce 1955). A step returns radially with `µ̄ = ⅓ µ tr b̄`:
+//! σ_y(α)`, `σ_y = σ₀ + H α + (σ_∞ − σ₀)(1 − e^(−δα))` (E. Voce 1955). A step of flow is exponential (G. Weber and L.
+//! Anand 1990, doi 10.1016/0045-7825(90)90131-5; J. C. Simo 1992, doi 10.1016/0045-7825(92)90123-2): with `b̄_tr` that
+//! of a step without flow, along whose axes all tensors are,
 //!
-//! `s = s_tr − 2 µ̄ Δγ n`, `‖s_tr‖ − 2 µ̄ Δγ = √⅔ σ_y(α + √⅔ Δγ)`
+//! `b̄ = e^(−2N) b̄_tr`, `s = µ dev b̄ = √⅔ σ_y(α + √⅔ ‖N‖) N/‖N‖`.
 //!
-//! (J. C. Simo 1988, doi 10.1016/0045-7825(88)90076-X; Simo and Hughes 1998, box 9.1). The spherical part of b̄ after
-//! the return follows from `det b̄ = 1`, so that flow keeps the volume and the energy is elastic. The tangent is the
-//! derivative of this step, which is not symmetric. With kinematic hardening a step is that of [`kinematic`].
+//! Flow keeps the volume, and the step is exact, however long, where the axes of the flow stay. N minimises the energy
+//! that is stored and dissipated, which is convex; so the step has one, the stress is the derivative of that energy by F,
+//! and its tangent is symmetric. With kinematic hardening a step is that of [`kinematic`].
 
 use super::{Deformed, Isochoric, Tangent, kinematic};
-use crate::math::matrix3::{
-    IDENTITY, Matrix3, contraction, eigen, full, inverse, packed, product, transposed,
-};
+use crate::math::matrix3::{IDENTITY, Matrix3, eigen, full, inverse, packed, product, transposed};
 
 /// Yield stress over the equivalent plastic strain, and the modulus of the back stress.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,26 +30,35 @@ pub struct Plastic {
     pub kinematic: f64,
 }
 
-/// A step of a point.
+/// A step of a point, in the axes of `b̄_tr`.
 struct Step {
-    /// `b̄` if nothing flowed.
-    trial: Matrix3,
-    /// `s_tr`, its norm, and `n`.
-    stress: Matrix3,
-    norm: f64,
-    direction: Matrix3,
-    /// µ̄ and Δγ.
-    modulus: f64,
-    flow: f64,
-    /// Slope of σ_y at the end of the step.
-    slope: f64,
+    /// Axes as columns, and the principal values of `b̄_tr`.
+    axes: Matrix3,
+    trial: [f64; 3],
+    /// µ [Pa].
+    shear: f64,
+    /// Principal values of N; `None` without flow.
+    flow: Option<Flow>,
+}
+
+/// Flow of a step, by its principal values.
+struct Flow {
+    logarithms: [f64; 3],
+    /// `s − √⅔ σ_y N/‖N‖` [Pa], and its derivative by N.
+    residual: [f64; 3],
+    slope: Matrix3,
 }
 
 const THIRD: f64 = 1.0 / 3.0;
-/// Iterations of the return, which converges from below: the yield stress is concave.
+/// `√⅔`
+pub(super) const ROOT: f64 = 0.816_496_580_927_726;
 const ITERATIONS: usize = 60;
-/// Flow over the yield strain at which the return has converged.
-const CONVERGED: f64 = 1e-15;
+/// Halvings of an iteration, after which the residual falls no more.
+const HALVINGS: usize = 12;
+/// Residual over the modulus at which N has converged.
+const CONVERGED: f64 = 4.0 * f64::EPSILON;
+/// Difference of principal values, relative to the largest, below which they count as equal.
+const EQUAL: f64 = 1e-7;
 
 impl Plastic {
     /// `C_p⁻¹ − 1` (xx, yy, zz, xy, yz, xz) and α.
@@ -87,53 +96,82 @@ impl Plastic {
         std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)))
     }
 
-    fn step(&self, shear: f64, at: &Deformed, before: &[f64]) -> Step {
-        let trial = elastic(at, &unpacked(before));
-        let trace = trial[0][0] + trial[1][1] + trial[2][2];
-        let stress = deviator(&trial.map(|row| row.map(|value| shear * value)));
-        let norm = contraction(&stress, &stress).sqrt();
-        let modulus = shear * trace * THIRD;
-        let root = (2.0 * THIRD).sqrt();
-        let (mut flow, mut slope) = (0.0, 0.0);
-        if norm > root * self.yield_stress(before[Self::STRAIN])[0] {
-            for _ in 0..ITERATIONS {
-                let [now, rise] = self.yield_stress(before[Self::STRAIN] + root * flow);
-                slope = rise;
-                let excess = norm - 2.0 * modulus * flow - root * now;
-                let change = excess / (2.0 * modulus + 2.0 * THIRD * rise);
-                flow += change;
-                if change.abs() <= CONVERGED * norm / modulus {
-                    break;
-                }
-            }
+    fn step(&self, shear: f64, trial: &Matrix3, before: &[f64]) -> Step {
+        let (trial, axes) = eigen(trial);
+        let stress = deviatoric(trial.map(|value| shear * value));
+        let size = norm(stress);
+        let alpha = before[Self::STRAIN];
+        let [radius, rise] = self.yield_stress(alpha);
+        if size <= ROOT * radius {
+            return Step { axes, trial, shear, flow: None };
         }
-        let direction = stress.map(|row| row.map(|value| value / norm.max(f64::MIN_POSITIVE)));
-        Step { trial, stress, norm, direction, modulus, flow, slope }
+        // The radial return of small strain.
+        let modulus = shear * THIRD * trial.iter().sum::<f64>();
+        let first = (size - ROOT * radius) / (2.0 * modulus + 2.0 * THIRD * rise);
+        let mut now = self.flow(shear, trial, alpha, stress.map(|own| first / size * own));
+        for _ in 0..ITERATIONS {
+            let excess = norm(now.residual);
+            if excess <= CONVERGED * modulus {
+                break;
+            }
+            let change = now.improvement();
+            let parts = (0..HALVINGS).map(|halvings| 0.5_f64.powi(halvings as i32));
+            let trials = parts.map(|part| {
+                let to = std::array::from_fn(|a| now.logarithms[a] + part * change[a]);
+                self.flow(shear, trial, alpha, to)
+            });
+            // Rounding alone is left where no part of an iteration is better.
+            let Some(next) = trials.into_iter().find(|next| norm(next.residual) < excess) else {
+                break;
+            };
+            now = next;
+        }
+        Step { axes, trial, shear, flow: Some(now) }
+    }
+
+    /// Residual at an N, from an α.
+    fn flow(&self, shear: f64, trial: [f64; 3], alpha: f64, logarithms: [f64; 3]) -> Flow {
+        let elastic: [f64; 3] =
+            std::array::from_fn(|a| shear * trial[a] * (-2.0 * logarithms[a]).exp());
+        let size = norm(logarithms);
+        let direction = logarithms.map(|own| own / size);
+        let [radius, rise] = self.yield_stress(alpha + ROOT * size);
+        let stress = deviatoric(elastic);
+        let residual = std::array::from_fn(|a| stress[a] - ROOT * radius * direction[a]);
+        let turning = ROOT * radius / size;
+        let entry = |a: usize, b: usize| {
+            let along = direction[a] * direction[b];
+            // N has no trace: the mean of a residual is none of its changes.
+            let of_radius = turning * (IDENTITY[a][b] - along) + 2.0 * THIRD * rise * along;
+            -2.0 * elastic[b] * (IDENTITY[a][b] - THIRD) - of_radius - 2.0 * THIRD * shear
+        };
+        let slope = std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)));
+        Flow { logarithms, residual, slope }
     }
 
     pub fn respond(&self, shear: f64, at: &Deformed, history: &mut [f64]) -> Isochoric {
         if self.kinematic > 0.0 {
             return kinematic::respond(self, shear, at, history);
         }
-        let step = self.step(shear, at, history);
-        let kept = kirchhoff(&step);
-        let mut trace = step.trial[0][0] + step.trial[1][1] + step.trial[2][2];
-        if step.flow > 0.0 {
-            let mean = spherical(&kept.map(|row| row.map(|value| value / shear)));
-            trace = 3.0 * mean;
-            // b̄ = s/µ + ⅓ (tr b̄) 1, pulled back.
-            let entry = |a: usize, b: usize| kept[a][b] / shear + mean * IDENTITY[a][b];
-            let b = std::array::from_fn(|a| std::array::from_fn(|c| entry(a, c)));
-            let back = transposed(&at.inverse_transposed);
-            let j = at.dilatation.powf(2.0 * THIRD);
-            let plastic = product(&product(&back, &b), &at.inverse_transposed);
-            pack(&plastic.map(|row| row.map(|value| j * value)), history);
-            history[Self::STRAIN] += (2.0 * THIRD).sqrt() * step.flow;
-        }
-        let stiffness = 4.0 * THIRD * step.modulus.max(shear);
+        let trial = elastic(at, &unpacked(history));
+        let stiffness = 4.0 * THIRD * (shear * THIRD * trace(&trial)).max(shear);
+        let step = self.step(shear, &trial, history);
+        let b = match &step.flow {
+            None => trial,
+            Some(flow) => {
+                let b = turned(&step.axes, step.elastic());
+                let back = transposed(&at.inverse_transposed);
+                let j = at.dilatation.powf(2.0 * THIRD);
+                let plastic = product(&product(&back, &b), &at.inverse_transposed);
+                pack(&plastic.map(|row| row.map(|value| j * value)), history);
+                history[Self::STRAIN] += ROOT * norm(flow.logarithms);
+                b
+            }
+        };
+        let stress = deviator(&b.map(|row| row.map(|value| shear * value)));
         Isochoric {
-            stress: product(&kept, &at.inverse_transposed),
-            energy: 0.5 * shear * (trace - 3.0),
+            stress: product(&stress, &at.inverse_transposed),
+            energy: 0.5 * shear * (trace(&b) - 3.0),
             wave: stiffness * at.steepest() * at.dilatation.max(1.0),
         }
     }
@@ -142,29 +180,76 @@ impl Plastic {
         if self.kinematic > 0.0 {
             return kinematic::tangent(self, shear, at, before);
         }
-        let step = self.step(shear, at, before);
-        let changes = Changes::new(at, &unpacked(before), &step.trial);
-        let moved = |k: usize, l: usize| self.change(shear, &step, &changes.of(k, l));
-        of_kirchhoff(at, &kirchhoff(&step), moved)
+        let plastic = unpacked(before);
+        let trial = elastic(at, &plastic);
+        let step = self.step(shear, &trial, before);
+        let kept = turned(&step.axes, deviatoric(step.elastic().map(|own| shear * own)));
+        let changes = Changes::new(at, &plastic, &trial);
+        let slopes = step.slopes();
+        of_kirchhoff(at, &kept, |k, l| {
+            let change = step.change(&slopes, &changes.of(k, l));
+            deviator(&change.map(|row| row.map(|value| shear * value)))
+        })
+    }
+}
+
+impl Flow {
+    /// Change of N by which Newton's method improves it.
+    fn improvement(&self) -> [f64; 3] {
+        let (inverse, _) = inverse(&self.slope);
+        std::array::from_fn(|a| -(0..3).map(|b| inverse[a][b] * self.residual[b]).sum::<f64>())
+    }
+}
+
+impl Step {
+    /// Principal values of b̄ after the step.
+    fn elastic(&self) -> [f64; 3] {
+        match &self.flow {
+            None => self.trial,
+            Some(Flow { logarithms, .. }) => {
+                std::array::from_fn(|a| self.trial[a] * (-2.0 * logarithms[a]).exp())
+            }
+        }
     }
 
-    /// Change of s for a change of b̄.
-    fn change(&self, shear: f64, step: &Step, change: &Matrix3) -> Matrix3 {
-        let trial = deviator(&change.map(|row| row.map(|value| shear * value)));
-        if step.flow == 0.0 {
-            return trial;
-        }
-        let Step { norm, direction, modulus, flow, slope, .. } = step;
-        let along = contraction(direction, &trial);
-        let of_modulus = shear * THIRD * (change[0][0] + change[1][1] + change[2][2]);
-        let of_flow = (along - 2.0 * flow * of_modulus) / (2.0 * modulus + 2.0 * THIRD * slope);
+    /// Derivatives of the principal values of b̄ by those of `b̄_tr`.
+    fn slopes(&self) -> Matrix3 {
+        let Some(flow) = &self.flow else { return IDENTITY };
+        // The residual stays zero: ∂r/∂N · δN = −∂r/∂b̄_tr · δb̄_tr.
+        let decay = flow.logarithms.map(|own| (-2.0 * own).exp());
+        let (inverse, _) = inverse(&flow.slope);
+        let elastic = self.elastic();
+        let by_trial = |a: usize, b: usize| -> f64 {
+            (0..3).map(|c| inverse[a][c] * (IDENTITY[c][b] - THIRD)).sum::<f64>() * decay[b]
+        };
         let entry = |a: usize, b: usize| {
-            let turned = (trial[a][b] - direction[a][b] * along) / norm;
-            trial[a][b]
-                - 2.0 * (flow * of_modulus + modulus * of_flow) * direction[a][b]
-                - 2.0 * modulus * flow * turned
+            decay[a] * IDENTITY[a][b] + 2.0 * elastic[a] * by_trial(a, b) * self.shear
         };
         std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)))
+    }
+
+    /// Change of b̄ for a change of `b̄_tr`.
+    fn change(&self, slopes: &Matrix3, change: &Matrix3) -> Matrix3 {
+        if self.flow.is_none() {
+            return *change;
+        }
+        let own = product(&product(&transposed(&self.axes), change), &self.axes);
+        let elastic = self.elastic();
+        let largest = self.trial.iter().copied().fold(0.0, f64::max);
+        let entry = |a: usize, b: usize| {
+            if a == b {
+                return (0..3).map(|c| slopes[a][c] * own[c][c]).sum();
+            }
+            let apart = self.trial[a] - self.trial[b];
+            // An isotropic function turns with its argument.
+            let ratio = match apart.abs() > EQUAL * largest {
+                true => (elastic[a] - elastic[b]) / apart,
+                false => slopes[a][a] - slopes[a][b],
+            };
+            ratio * own[a][b]
+        };
+        let moved = std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)));
+        product(&product(&self.axes, &moved), &transposed(&self.axes))
     }
 }
 
@@ -239,27 +324,23 @@ pub(super) fn of_kirchhoff(
     tangent
 }
 
-/// Multiple of the identity that makes the determinant of a deviator 1, by Newton's method from above.
-fn spherical(deviator: &Matrix3) -> f64 {
-    let half = 0.5 * contraction(deviator, deviator);
-    let (_, determinant) = inverse(deviator);
-    // The cubic rises and is convex from the larger of its extrema on, and above 1 at this start.
-    let mut mean = 1.0 + half.sqrt();
-    for _ in 0..ITERATIONS {
-        let excess = mean * (mean * mean - half) + determinant - 1.0;
-        let change = excess / (3.0 * mean * mean - half);
-        mean -= change;
-        if change.abs() <= CONVERGED * mean {
-            break;
-        }
-    }
-    mean
+/// Matrix of principal values along axes, the columns of a matrix.
+fn turned(axes: &Matrix3, values: [f64; 3]) -> Matrix3 {
+    let entry = |a: usize, b: usize| (0..3).map(|n| axes[a][n] * values[n] * axes[b][n]).sum();
+    std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)))
 }
 
-fn kirchhoff(step: &Step) -> Matrix3 {
-    let by = 2.0 * step.modulus * step.flow;
-    let entry = |a: usize, b: usize| step.stress[a][b] - by * step.direction[a][b];
-    std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)))
+fn deviatoric(values: [f64; 3]) -> [f64; 3] {
+    let mean = THIRD * values.iter().sum::<f64>();
+    values.map(|value| value - mean)
+}
+
+pub(super) fn norm(values: [f64; 3]) -> f64 {
+    values.iter().map(|value| value * value).sum::<f64>().sqrt()
+}
+
+pub(super) fn trace(m: &Matrix3) -> f64 {
+    m[0][0] + m[1][1] + m[2][2]
 }
 
 pub(super) fn deviator(m: &Matrix3) -> Matrix3 {

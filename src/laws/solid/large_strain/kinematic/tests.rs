@@ -48,8 +48,9 @@ fn root(of: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
 /// one step or many.
 #[test]
 fn bars_follow_their_closed_form_through_cycles() {
-    let (metal, back) = (METAL, METAL.kinematic / 3.0);
-    for parts in [1, 7] {
+    let isotropic = Plastic { kinematic: 0.0, ..METAL };
+    for (metal, parts) in [(METAL, 1), (METAL, 7), (isotropic, 1), (isotropic, 7)] {
+        let back = metal.kinematic / 3.0;
         let law = law(SHEAR, metal);
         let mut history = vec![0.0; law.history()];
         let (mut plastic, mut accumulated, mut before) = (1.0_f64, 0.0, 1.0);
@@ -260,4 +261,25 @@ fn returns_are_found_from_far_away() {
             }
         }
     }
+}
+
+/// Without a back stress the step of isotropic hardening is the same, by other means.
+#[test]
+fn vanishing_back_stress_is_isotropic_hardening() {
+    let [isotropic, vanishing] = [0.0, 1e-13].map(|kinematic| Plastic { kinematic, ..METAL });
+    let first = [[1.1, 0.1, 0.0], [0.0, 0.9, 0.0], [0.2, 0.0, 1.0]];
+    let second = [[1.6, 0.3, -0.1], [0.05, 0.7, 0.2], [-0.2, 0.1, 1.1]];
+    let of = |metal: Plastic| {
+        let law = law(SHEAR, metal);
+        let mut history = vec![0.0; law.history()];
+        step(&law, &first, &mut history);
+        let tangent = law.tangent(&Deformed::of(second), 0.0, &history, 0.0);
+        let (stress, _) = step(&law, &second, &mut history);
+        (stress, tangent, history)
+    };
+    let (found, wanted) = (of(isotropic), of(vanishing));
+    let near = |a: &f64, b: &f64| assert!((a - b).abs() < 1e-10, "{a} {b}");
+    found.0.as_flattened().iter().zip(wanted.0.as_flattened()).for_each(|(a, b)| near(a, b));
+    found.1.as_flattened().iter().zip(wanted.1.as_flattened()).for_each(|(a, b)| near(a, b));
+    found.2.iter().zip(&wanted.2).for_each(|(a, b)| near(a, b));
 }
