@@ -163,7 +163,8 @@ fn drawn_blocks_follow_the_closed_form() {
         ] {
             let mut trial =
                 Trial::new(&block(&format!("faces = {{ {ends}{comma} {faces} }}"), keys));
-            for stretch in [1.1, 2.0, 0.6] {
+            // The last two are so long that a first trial passes through the planes of symmetry.
+            for stretch in [1.1, 2.0, 0.6, 5.0, 0.8] {
                 trial.set("gel.top.displacement_z", 12e-3 * (stretch - 1.0));
                 trial.step(1.0);
                 let expected = 10e-3 * 8e-3 * rubber.force(stretch, sides);
@@ -225,7 +226,7 @@ fn metals_dissipate_what_they_do_not_store() {
         r#"model = "neo_hookean", density = 1000.0"#,
         r#"model = "elastoplastic", yield_stress = 100.0, isotropic_hardening = 200.0, density = 1000.0"#,
     );
-    for count in [20, 200] {
+    for count in [1, 4, 20, 200] {
         let mut trial = Trial::new(&text);
         for n in 1..=count {
             trial.set("gel.top.displacement_z", 5e-3 * f64::from(n) / f64::from(count));
@@ -236,7 +237,7 @@ fn metals_dissipate_what_they_do_not_store() {
         let plastic = plastic - (100.0 + 200.0 * plastic) / 5600.0;
         let expected = volume * (100.0 * plastic + 100.0 * plastic * plastic);
         let found = trial.get("gel.dissipated");
-        assert!(off(found, expected) < 0.03, "{count}: {found} {expected}");
+        assert!(off(found, expected) < 0.01, "{count}: {found} {expected}");
         let elastic = volume * (100.0_f64 + 200.0 * plastic).powi(2) / (2.0 * 5600.0);
         assert!(
             off(trial.get("gel.stored"), elastic) < 0.05,

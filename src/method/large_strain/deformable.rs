@@ -20,6 +20,8 @@ pub struct Deformable {
     pub mass: Vec<f64>,
     /// Axes along which each node is at rest: those that a model lacks, and normals of its planes of symmetry.
     pub fixed: Vec<[bool; 3]>,
+    /// True for x and y if the body is one half, on the positive side, of what a plane of symmetry or an axis mirrors.
+    mirrored: [bool; 2],
     /// For each node its functions at all points.
     uses: Vec<Vec<Use>>,
     /// Number of threads of its loops.
@@ -134,7 +136,8 @@ impl Deformable {
             let own = group.len() * layers[layer].law.history();
             histories.push(histories[histories.len() - 1] + own);
         }
-        let fixed = space.nodes.iter().map(|at| fixed(space.form, mirrors, *at)).collect();
+        let mirrored = [mirrors[0] || space.form == Form::Axisymmetric, mirrors[1]];
+        let fixed = space.nodes.iter().map(|at| fixed(space.form, mirrored, *at)).collect();
         let mut uses = vec![Vec::new(); space.nodes.len()];
         for point in 0..space.volume.len() {
             let r = space.volume.at[point][0];
@@ -144,8 +147,18 @@ impl Deformable {
                 uses[value.node as usize].push(Use { point: point as u32, gradient, hoop });
             }
         }
-        let is_sheet = false;
-        Self { space, layers, layer_of_group, histories, mass, fixed, uses, threads, is_sheet }
+        Self {
+            space,
+            layers,
+            layer_of_group,
+            histories,
+            mass,
+            fixed,
+            mirrored,
+            uses,
+            threads,
+            is_sheet: false,
+        }
     }
 
     /// Starts the threads of its loops, which end with the value.
@@ -324,6 +337,16 @@ impl Deformable {
         let all = team.map(self.space.groups.len(), of_group);
         let (points, dilatations): (Vec<_>, Vec<_>) = all.into_iter().unzip();
         (points.concat(), dilatations)
+    }
+
+    /// Refuses displacements u that take a node through a plane of symmetry or an axis: two stretches that change their
+    /// signs leave the dilatation positive.
+    pub fn stay_beside_mirrors(&self, u: &[[f64; 3]]) -> Result<(), Failure> {
+        let is_through = |at: &[f64; 3], u: &[f64; 3]| {
+            (0..2).any(|a| self.mirrored[a] && at[a] > 0.0 && at[a] + u[a] < THROUGH * at[a])
+        };
+        let through = self.space.nodes.iter().zip(u).find(|(at, u)| is_through(at, u));
+        through.map_or(Ok(()), |(&at, _)| Err(Failure::Mirrored { at }))
     }
 
     /// Advances the history to displacements u at the end of a step, by the course of each group; returns the stresses
@@ -572,11 +595,14 @@ fn lumped(space: &Space, layer_of_group: &[usize], of_layers: &[f64]) -> Vec<f64
     sums
 }
 
-fn fixed(form: Form, mirrors: [bool; 2], at: [f64; 3]) -> [bool; 3] {
-    let at_axis = at[0] == 0.0 && (mirrors[0] || form == Form::Axisymmetric);
-    [at_axis, form != Form::Solid || (mirrors[1] && at[1] == 0.0), false]
+fn fixed(form: Form, mirrored: [bool; 2], at: [f64; 3]) -> [bool; 3] {
+    let in_plane = |axis: usize| mirrored[axis] && at[axis] == 0.0;
+    [in_plane(0), form != Form::Solid || in_plane(1), false]
 }
 
+/// Place of a node on the other side of a mirror, over its own, at which it is through. Coefficients of nodes whose
+/// functions overlap differ a little from displacements.
+const THROUGH: f64 = -0.1;
 /// Iterations after which the highest frequency is known to a few per cent, from below.
 const ITERATIONS: usize = 60;
 /// Displacements over the extent of a body at which it responds linearly.

@@ -13,6 +13,12 @@ pub enum Failure {
     )]
     Inverted { at: [f64; 3], dilatation: f64 },
     #[error(
+        "the body would pass through its own plane of symmetry, or its axis, at x = {:.3e}, y = {:.3e}, z = {:.3e} m of its \
+         reference shape (allowed: shorter communication steps, or inputs that change less in a step)",
+        .at[0], .at[1], .at[2]
+    )]
+    Mirrored { at: [f64; 3] },
+    #[error(
         "at {temperature} K the body would shrink to {stretch:.3} of its length (allowed: temperatures at which `expansion` \
          leaves it one)"
     )]

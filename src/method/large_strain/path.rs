@@ -41,6 +41,7 @@ struct Station {
 
 /// Returns F at all points for displacements u of the nodes; refuses a body that is turned inside out.
 pub fn gradients(body: &Deformable, u: &[[f64; 3]], team: &Team) -> Result<Vec<Matrix3>, Failure> {
+    body.stay_beside_mirrors(u)?;
     let volume = &body.space.volume;
     let all = team.map(volume.len(), |point| body.gradient(volume, point, u));
     for (point, gradient) in all.iter().enumerate() {
@@ -72,18 +73,48 @@ impl Path<'_> {
         team.map(groups.len(), of_group).concat()
     }
 
-    /// Work of the stresses at the thermal stretches [J]: `ϑ³` times that per elastic volume.
+    /// Work of the stresses at the thermal stretches [J]: `ϑ³` times that per elastic volume. That of the pressure is the
+    /// change of its energy, which no path errs in: on a long one volumes change by far more than between its ends.
     pub fn work(&self, team: &Team) -> f64 {
-        let loads = self.loads(team);
-        let of_group = |(group, points): (usize, &std::ops::Range<usize>)| -> f64 {
-            let of_point = |point: usize| {
-                let (from, to) = (&self.start[point], &self.end[point]);
-                contraction(&loads[point], to) - contraction(&loads[point], from)
-            };
-            self.over.at(self.body, group).stretch.powi(3)
-                * points.clone().map(of_point).sum::<f64>()
+        let of_group = |group: usize| {
+            let stretch = self.over.at(self.body, group).stretch;
+            stretch.powi(3) * (self.work_of_shape(group) + self.work_of_pressure(group))
         };
-        self.body.space.groups.iter().enumerate().map(of_group).sum()
+        team.map(self.body.space.groups.len(), of_group).into_iter().sum()
+    }
+
+    /// Work of the stresses of a group without the pressure, of sheets with it [J].
+    fn work_of_shape(&self, group: usize) -> f64 {
+        let points = self.body.space.groups[group].clone();
+        let stations = STATIONS.map(|s| match self.body.is_sheet {
+            true => self.station(group, s).stresses,
+            false => self.stresses(group, s, &self.deformed(group, s), 0.0),
+        });
+        let of_point = |(place, point): (usize, usize)| {
+            let mut mean = [[0.0; 3]; 3];
+            stations.iter().for_each(|stresses| add(&mut mean, WEIGHT, &stresses[place]));
+            let (from, to) = (&self.start[point], &self.end[point]);
+            let stress = product(&self.middle(point), &mean);
+            let work = contraction(&stress, to) - contraction(&stress, from);
+            self.body.space.volume.weights[point] * work
+        };
+        points.enumerate().map(of_point).sum()
+    }
+
+    /// Change of the energy of the dilatation of a group [J]; of sheets it is part of the other work.
+    fn work_of_pressure(&self, group: usize) -> f64 {
+        if self.body.is_sheet {
+            return 0.0;
+        }
+        let weights = &self.body.space.volume.weights;
+        let points = || self.body.space.groups[group].clone();
+        let whole: f64 = points().map(|point| weights[point]).sum();
+        let energy = |gradients: &[Matrix3]| {
+            let dilatation = |point: usize| Deformed::of(gradients[point]).dilatation;
+            let swollen: f64 = points().map(|point| weights[point] * dilatation(point)).sum();
+            whole * self.body.law_of(group).energy_of_dilatation(swollen / whole)
+        };
+        energy(&self.end) - energy(self.start)
     }
 
     /// Derivatives of P of a group by F₁.
@@ -155,26 +186,38 @@ impl Path<'_> {
     }
 
     fn station(&self, group: usize, s: f64) -> Station {
+        let weights = &self.body.space.volume.weights[self.body.space.groups[group].clone()];
+        let deformed = self.deformed(group, s);
+        let swollen: f64 = weights.iter().zip(&deformed).map(|(w, at)| w * at.dilatation).sum();
+        let pressure = self.body.law_of(group).pressure(swollen / weights.iter().sum::<f64>());
+        let stresses = self.stresses(group, s, &deformed, pressure[0]);
+        Station { deformed, pressure, stresses }
+    }
+
+    /// Points of a group at a place s of the path.
+    fn deformed(&self, group: usize, s: f64) -> Vec<Deformed> {
         let body = self.body;
         let (law, duration) = (body.law_of(group), self.over.at(body, group).time);
-        let (length, history) = (law.history(), &self.before[body.history_of(group)]);
-        let points = body.space.groups[group].clone();
-        let weights = &body.space.volume.weights[points.clone()];
+        let history = &self.before[body.history_of(group)];
         let of_point = |point: usize| {
             let at = self.stretched(point, s);
             if body.is_sheet { law.thinned(at.gradient, s * duration, history) } else { at }
         };
-        let deformed: Vec<Deformed> = points.map(of_point).collect();
-        let swollen: f64 = weights.iter().zip(&deformed).map(|(w, at)| w * at.dilatation).sum();
-        let pressure = law.pressure(swollen / weights.iter().sum::<f64>());
+        body.space.groups[group].clone().map(of_point).collect()
+    }
+
+    /// S of these [Pa], at a pressure of the dilatation.
+    fn stresses(&self, group: usize, s: f64, deformed: &[Deformed], pressure: f64) -> Vec<Matrix3> {
+        let body = self.body;
+        let (law, duration) = (body.law_of(group), self.over.at(body, group).time);
+        let (length, history) = (law.history(), &self.before[body.history_of(group)]);
         let stress = |(place, at): (usize, &Deformed)| {
             let mut own = history[length * place..length * (place + 1)].to_vec();
             let mut stress = law.respond(at, s * duration, &mut own).stress;
-            add(&mut stress, pressure[0] * at.dilatation, &at.inverse_transposed);
+            add(&mut stress, pressure * at.dilatation, &at.inverse_transposed);
             product(&transposed(&at.inverse_transposed), &stress)
         };
-        let stresses = deformed.iter().enumerate().map(stress).collect();
-        Station { deformed, pressure, stresses }
+        deformed.iter().enumerate().map(stress).collect()
     }
 
     /// U of a point at a place s of the path.

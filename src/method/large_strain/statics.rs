@@ -272,6 +272,7 @@ impl Equilibrium {
     fn at<'s>(&self, step: &Step<'s>, u: &[[f64; 3]]) -> Result<Trial<'s>, Failure> {
         let body = &self.body;
         step.allowance.spend(1.0, STEPS, WORK * body.space.volume.len())?;
+        body.stay_beside_mirrors(u)?;
         let mut history = step.from.history.clone();
         let stresses = body.respond(u, step.over, &mut history, step.team)?;
         let course = (step.over, &step.from.history[..]);
