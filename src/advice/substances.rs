@@ -8,7 +8,8 @@ use crate::scene::schema::Schema;
 use crate::scene::{Droplet, NamedSubstance, Scene};
 use crate::warning;
 
-/// Difference of temperatures [K], and of constants relative to them, below which those of another temperature will do.
+/// Difference of temperatures [K], and of constants relative to them, below which those of another temperature will do;
+/// and distance from a range up to which its constants hold.
 const CLOSE: f64 = 1.0;
 const ALIKE: f64 = 0.02;
 
@@ -18,10 +19,12 @@ pub fn review(reviewer: &mut Reviewer, schema: &Schema) {
     let scene = reviewer.scene;
     for named in &scene.substances {
         let [low, high] = named.valid;
-        let at = named.at.filter(|at| !(low..=high).contains(at));
+        // Ends of ranges are rounded.
+        let holds = |value: f64| (low - CLOSE..=high + CLOSE).contains(&value);
+        let at = named.at.filter(|at| !holds(*at));
         let mut outside = at.map(|at| (named.table.clone(), at));
         schema.numbers(reviewer.source, &mut |place, limits, value| {
-            if limits.noun != Some(TEMPERATURE) || (low..=high).contains(&value) {
+            if limits.noun != Some(TEMPERATURE) || holds(value) {
                 return;
             }
             let path = place.path();
@@ -34,7 +37,11 @@ pub fn review(reviewer: &mut Reviewer, schema: &Schema) {
         if let Some((path, value)) = outside {
             let [low, high, value] = [low, high, value].map(number);
             let name = named.substance.name;
-            reviewer.warn(&path, warning::substance_out_of_range(name, low, high, value));
+            let finding = match named.at.filter(|at| holds(*at)).map(number) {
+                Some(at) => warning::substance_away_from_its_constants(name, low, high, value, at),
+                None => warning::substance_out_of_range(name, low, high, value),
+            };
+            reviewer.warn(&path, finding);
         }
     }
     for (name, droplet) in scene.droplets() {

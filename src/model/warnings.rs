@@ -86,7 +86,12 @@ impl Model {
         });
         let (temperature, substance) = (format!("{value:.0}"), beyond.substance);
         let high = beyond.highest;
-        let finding = warning::solid_beyond_substance(temperature, substance, high, melting);
+        let needed = match beyond.unmelted {
+            Some(_) => "constants that hold there, and with `melting`,",
+            None => "constants that hold there",
+        };
+        let finding =
+            warning::solid_beyond_substance(temperature, substance, high, melting, needed);
         Some(finding.at(name).of_subject(format!("{name} beyond {substance}")))
     }
 

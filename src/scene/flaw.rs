@@ -38,6 +38,12 @@ pub struct Flaw {
     /// Shape of the crack.
     #[serde(default)]
     pub shape: FlawShape,
+    /// Distance of equal edge cracks on both sides, which shield each other [m].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = length("the distance of cracks in a row")
+        .condition("of edge cracks")
+        .otherwise("alone"))]
+    pub spacing: Option<f64>,
     /// Slow growth of an edge crack, with the depth after it as an output.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend(
@@ -175,7 +181,9 @@ impl Flaw {
     /// The nearest face beside the crack, its distance and the one from which on the formulas hold [m]: for an edge crack
     /// along its normal, for a penny all around. A crack in a plane of symmetry is not beside it.
     pub fn beside(&self, solid: &Solid) -> Option<(FaceName, [f64; 2])> {
-        let size = self.depth.given()?;
+        let depth = self.depth.given()?;
+        // Equal cracks in a row shield each other: what is farther away than the next one is hardly met.
+        let size = self.spacing.map_or(depth, |spacing| depth.min(spacing));
         let [of_edge, of_penny] = Self::FREE;
         let (free, mouth) = match self.shape {
             FlawShape::Edge => (of_edge * size, Some(self.face(&solid.shape)?)),

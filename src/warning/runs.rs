@@ -46,19 +46,18 @@ rules! {
      its viscosity ends: it keeps the viscosity of this end";
     "extend the table to the temperatures of the fluid"
 
-    Step solid_beyond_substance(temperature, name, high, melting)
+    Step solid_beyond_substance(temperature, name, high, melting, needed)
     "{temperature} K is above the {high} K up to which the library's constants of `{name}` hold{melting}";
-    "do not rely on temperatures and stresses from here on; a material with constants that hold there, and with \
-     `melting`, has them"
+    "do not rely on temperatures and stresses from here on; a material with {needed} has them"
 
     Step fluid_beyond_edge()
     "fluid lies beyond the edge of the solid: it transfers no heat there, and its force, which does not act on the \
      solid, is counted apart as `force_outside`"; "enlarge the solid if its edge is not meant to be hit"
 
-    Build mesh_below_strand_is_large(strand, nodes, spacing)
+    Build mesh_below_strand_is_large(strand, nodes, spacing, linear)
     "the mesh below the strand of `{strand}` has {nodes} nodes: a run takes minutes or hours";
-    "limit where the strand is laid by a `[[target]]` or the `radius` of the coupling, or set a `mesh.spacing` of \
-     {spacing} m"
+    "{linear}limit where the strand is laid by a `[[target]]` or the `radius` of the coupling, or set a `mesh.spacing` \
+     of {spacing} m"
 
     Build mesh_below_strand_is_coarse(strand, error, spacing)
     "the mesh is coarse below the strand of `{strand}`: its heat may be {error} % too high";

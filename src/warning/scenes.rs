@@ -23,6 +23,10 @@ rules! {
     "the library's constants of `{name}` hold from {low} to {high} K, and this is {value} K; beyond, the values at the \
      end are used"; "give constants that hold there, as tables over the temperature"
 
+    Check substance_away_from_its_constants(name, low, high, value, at)
+    "the library knows `{name}` from {low} to {high} K, and this is {value} K: its constants stay those of `at`, {at} K";
+    "make sure that they hold there, or give constants of your own"
+
     Check constants_of_other_temperature(name, taken, there)
     "constants of `{name}` were taken at {taken} K, the temperature in the scene; here they would be {there}";
     "set these, too, or change the temperature in the scene"

@@ -46,9 +46,12 @@ pub fn warnings_on_strands(scene: &Scene) -> Vec<Warning> {
         let plan = solid_plan(scene, name, solid);
         let [nodes, _] = plan.unknowns();
         let many = (nodes > MANY_NODES).then(|| {
-            let finest = number(4.0 * spacing(&plan));
-            warning::mesh_below_strand_is_large(&coupling.from, format!("{nodes:.1e}"), finest)
-                .at(name)
+            let (nodes, finest) = (format!("{nodes:.1e}"), format!("{:.1e}", 4.0 * spacing(&plan)));
+            let linear = match plan.newton {
+                Some(_) => "give the solid constants of one temperature (`at` of a substance), with which heat is linear; ",
+                None => "",
+            };
+            warning::mesh_below_strand_is_large(&coupling.from, nodes, finest, linear).at(name)
         });
         let coarse =
             heat_error(filament, solid, &plan).filter(|&error| error > LARGE).map(|error| {

@@ -136,7 +136,7 @@ impl LargeStrainForecast {
         let is_concrete = layers.iter().any(|own| own.law.concrete().is_some());
         let of_step = if is_concrete && !explicit { OF_CONCRETE * of_step } else { of_step };
         let of_point = POINT + FUNCTION * functions + 8.0 * history as f64;
-        let is_symmetric = !solid.inertia && !yields;
+        let is_symmetric = !solid.inertia && layers.iter().all(|own| own.law.is_symmetric());
         let solver = if explicit { 0.0 } else { size.solver_memory(is_symmetric) };
         let memory = OF_BODY + of_point * points as f64 + solver;
         let set_up = SET_UP[match solid.mechanics {

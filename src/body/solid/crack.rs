@@ -4,7 +4,8 @@
 //! plane (H. Tada, P. C. Paris and G. R. Irwin, *The Stress Analysis of Cracks Handbook*, Del Research 1973: point
 //! forces on an edge crack of a half plane). A penny of radius a has the mean along its front,
 //! `K = 2√(a/π) ∫ σ̄(a sin θ) sin θ dθ` with the mean σ̄ over circles (I. N. Sneddon 1946, doi 10.1098/rspa.1946.0077).
-//! Both are sums over points with fixed weights, so one influence row has a whole flaw.
+//! One in a row of equal edge cracks has the sum of [`crack_row`]. All are sums over points with fixed weights, so one
+//! influence row has a whole flaw.
 //!
 //! Stress is a polynomial between neighbouring nodes, so edge cracks take it at the nodes along their line. A closed
 //! crack, K < 0, has K = 0.
@@ -14,7 +15,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use super::reader::SolidReader;
 use crate::body::BodyError;
 use crate::laws::Constants;
-use crate::laws::fracture::CrackGrowth;
+use crate::laws::fracture::{CrackGrowth, crack_row};
 use crate::math::gauss::gauss_on;
 use crate::math::lagrange::interpolation_weights;
 use crate::method::fem::{Component, Functional, Geometry, Mesh, NodalSum, Plan, SolidFem};
@@ -79,6 +80,8 @@ pub struct Line {
     ends: Vec<f64>,
     /// Points of an element, its ends included.
     order: usize,
+    /// Distance of equal cracks beside it [m], of one in a row.
+    spacing: Option<f64>,
 }
 
 /// A flaw that the mesh does not resolve.
@@ -101,7 +104,7 @@ impl Line {
     /// The line through these ends of elements [m], ascending from zero.
     #[cfg(test)]
     pub fn new(ends: Vec<f64>, order: usize) -> Self {
-        Self { ends, order }
+        Self { ends, order, spacing: None }
     }
 
     /// Its depth [m].
@@ -114,13 +117,13 @@ impl Line {
         self.order * (self.ends.len() - 1) + 1
     }
 
-    /// The line from the mouth to a depth [m].
-    fn of(mesh: &Mesh, at: [f64; 3], inward: [f64; 3], depth: f64) -> Self {
+    /// The line from the mouth of a flaw to a depth [m].
+    fn of(mesh: &Mesh, flaw: &Flaw, inward: [f64; 3], depth: f64) -> Self {
         let mut ends = vec![0.0];
-        let all = element_ends(mesh, at, inward).into_iter();
+        let all = element_ends(mesh, flaw.at, inward).into_iter();
         ends.extend(all.filter(|&end| end < depth * (1.0 - ROUNDING)));
         ends.push(depth);
-        Self { ends, order: mesh.order() }
+        Self { ends, order: mesh.order(), spacing: flaw.spacing }
     }
 
     /// Distances of all points.
@@ -138,19 +141,28 @@ impl Line {
     pub fn weights(&self, depth: f64) -> Vec<f64> {
         let distances = self.distances();
         let mut weights = vec![0.0; distances.len()];
+        let mut add = |element: usize, place: f64, weight: f64| {
+            let first = element * self.order;
+            let shares = interpolation_weights(&distances[first..=first + self.order], place);
+            let own = weights[first..].iter_mut().zip(shares);
+            own.for_each(|(sum, share)| *sum += weight * share);
+        };
+        if let Some(spacing) = self.spacing {
+            let inner = &self.ends[1..self.ends.len() - 1];
+            let points = crack_row(depth, spacing).into_iter();
+            let element = |place: f64| inner.partition_point(|&end| end <= place);
+            points.for_each(|(place, weight)| add(element(place), place, weight));
+            return weights;
+        }
         for (element, pair) in self.ends.windows(2).enumerate() {
             let angle = |distance: f64| (distance / depth).min(1.0).asin();
-            let first = element * self.order;
-            let nodes = &distances[first..=first + self.order];
             if pair[0] >= depth {
                 break;
             }
             for (angle, part) in gauss_on(POINTS, angle(pair[0]), angle(pair[1])) {
                 let x = angle.sin();
                 let weight = 2.0 * (depth / PI).sqrt() * (1.3 - 0.3 * x.powf(1.25)) * part;
-                let shares = interpolation_weights(nodes, x * depth);
-                let own = weights[first..].iter_mut().zip(shares);
-                own.for_each(|(sum, share)| *sum += weight * share);
+                add(element, x * depth, weight);
             }
         }
         weights
@@ -343,7 +355,7 @@ fn edge(
     let given = flaw.depth.given();
     let reach = given.filter(|_| flaw.growth.is_none());
     let reach = reach.unwrap_or_else(|| flaw.reach(solid, face));
-    let line = Line::of(&plan.mesh, flaw.at, inward, reach);
+    let line = Line::of(&plan.mesh, flaw, inward, reach);
     // On an interface the layer above counts, so the deepest point stays within its own.
     let inside = 1.0 - 1e-12;
     let points = line
@@ -429,7 +441,7 @@ mod tests {
 
     #[test]
     fn weights_integrate_parabolas_over_the_crack() {
-        let line = Line { ends: vec![0.0, 0.2, 0.5, 1.1, 2.0], order: 2 };
+        let line = Line::new(vec![0.0, 0.2, 0.5, 1.1, 2.0], 2);
         let distances = line.distances();
         for depth in [0.1, 0.5, 0.77, 2.0] {
             let stresses: Vec<f64> = distances.iter().map(|z| 3.0 - z + 0.4 * z * z).collect();

@@ -2,6 +2,7 @@
 //! and links that soften.
 
 mod crack_growth;
+mod crack_row;
 mod cracking;
 mod damage;
 mod normal_average;
@@ -14,6 +15,7 @@ mod split;
 mod weibull;
 
 pub use crack_growth::CrackGrowth;
+pub use crack_row::crack_row;
 pub use cracking::Cracking;
 pub use damage::{DEGRADED, Dissipation, GradientDamage, PointResponse, degradation};
 pub use principal_axes::{InPlane, InSpace, PrincipalAxes};

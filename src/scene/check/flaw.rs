@@ -92,6 +92,8 @@ fn penny(checker: &mut Checker, path: &Path, flaw: &Flaw, solid: &Solid) {
         let [_, _, z] = point;
         probe::contains(&solid.shape, point) && z >= bottom - slack && z <= top + slack
     });
+    let message = "equal pennies in a row are not modelled";
+    checker.require(flaw.spacing.is_none(), &path.at("spacing"), message, "`shape = \"edge\"`");
     let message = format!("the crack reaches out of `{}`, or of its layer", flaw.body);
     checker.require(is_inside, &path.at("at"), message, probe::inside(&solid.shape));
 }
