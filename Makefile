@@ -101,7 +101,7 @@ verify: build $(VENV)/ready-verify $(MASTERS)/ready ## slow: closed forms, and a
 	$(BIN)/python tests/verification/strands.py
 	$(BIN)/python tests/verification/lattice.py
 	$(BIN)/python tests/verification/cracks_beside_faces.py
-	$(BIN)/python tests/verification/cracks_beside_faces.py
+	$(BIN)/python tests/verification/cracks_in_rows.py
 	$(BIN)/python tests/verification/robin_split.py out/verification/robin_split.png
 	@$(MAKE) --no-print-directory wheel-test
 
