@@ -65,6 +65,41 @@ fn shocked_edge_cracks_have_the_intensity_of_the_half_plane() {
     assert!(off(trial.get("worst.depth"), 1.1305 * diffusion()) < 0.05);
 }
 
+/// Cracks of a row that are far apart are alone; those of a dense one have the energy `pσ²/(2E′)` of the stress at their
+/// tip, and worst depths are less deep.
+#[test]
+fn cracks_of_a_row_shield_each_other() {
+    let depth = 2.0 * diffusion();
+    let row = |name: &str, depth: &str, spacing: f64| {
+        scratch(name, depth).replace("depth =", &format!("spacing = {spacing:e}\ndepth ="))
+    };
+    let given = format!("{depth:e}");
+    let flaws = [
+        scratch("alone", &given),
+        row("far", &given, 200.0 * depth),
+        row("beside", &given, depth),
+        row("dense", &given, 0.02 * depth),
+        scratch("worst", "\"worst\""),
+        row("worst_of_row", "\"worst\"", 2.0 * depth),
+    ];
+    let accurate = "[fidelity]\ntolerance = 1e-3\n";
+    let mut trial = Trial::new(&plate(1.0, "", &(flaws.concat() + accurate)));
+    trial.step(0.01);
+    let mut intensity = |name: &str| trial.get(&format!("{name}.stress_intensity"));
+    let [alone, far, beside, dense] = ["alone", "far", "beside", "dense"].map(&mut intensity);
+    assert!(off(far, alone) < 2e-3, "{far} {alone}");
+    assert!(dense < beside && beside < alone, "{dense} {beside} {alone}");
+    // The stress at the tip, and its slope over a part of the distance.
+    let at_tip = 36.9 * PER_KELVIN * libm::erfc(0.5 * depth / diffusion());
+    let wanted = at_tip * (0.01 * depth).sqrt();
+    assert!((1.0..1.01).contains(&(dense / wanted)), "{dense} {wanted}");
+    let [worst, of_row] = ["worst", "worst_of_row"].map(&mut intensity);
+    assert!(of_row < worst, "{of_row} {worst}");
+    let [worst, of_row] =
+        ["worst", "worst_of_row"].map(|name| trial.get(&format!("{name}.depth")));
+    assert!(0.0 < of_row && of_row < worst, "{of_row} {worst}");
+}
+
 #[test]
 fn shocks_tell_when_flaws_can_grow_at_the_earliest() {
     // l_c = (3.8/128.7)² m, 0.5529 l_c, and the time in which heat goes that far.
