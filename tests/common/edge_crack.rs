@@ -47,6 +47,7 @@ impl Cracked {
             elastic: Principal { young: YOUNG, poisson: POISSON, is_plane_stress: false },
             expansion: EXPANSION,
             split: Split::NoTension,
+            pressed: 1.0,
             dissipation: Dissipation::At1,
             energy: 1.0,
             length: 1.0,

@@ -66,6 +66,31 @@ fn bar_in_space_breaks_at_its_strength_across_its_section() {
     assert!(off(trial.get("plate.dissipated_energy"), ENERGY * area) < 1e-12);
 }
 
+/// With `star_convex` a bar breaks under tension at its strength, and under compression at the other one.
+#[test]
+fn bars_break_under_compression_at_the_strength_that_is_asked_for() {
+    for ratio in [2.0, 6.0] {
+        let split = format!(
+            "energy = 45.0, split = \"star_convex\", compressive_strength = {:e}",
+            ratio * STRENGTH
+        );
+        let scene = bar_scene(&AT1.replace("energy = 45.0", &split), "");
+        for (sign, ratio) in [(1.0, 1.0), (-1.0, ratio)] {
+            let mut trial = Trial::new(&scene.replace("600.0", "6000.0"));
+            let mut cool = |part: f64| {
+                let at = 6000.0 - sign * drop(part * ratio);
+                trial.set("plate.top.temperature", at);
+                trial.set("plate.bottom.temperature", at);
+                trial.step(1.0);
+                trial.get("plate.max_damage")
+            };
+            // Rollers hold it across at three faces, so that its stress is even.
+            assert_eq!(cool(0.98), 0.0, "{sign} {ratio}");
+            assert!(cool(1.03) > 0.0, "{sign} {ratio}");
+        }
+    }
+}
+
 const STRONG: &str = ", fracture = { model = \"at1\", length = 60e-6, energy = 15e3 }";
 const PROBE: &str = "[[probe]]\nname = \"p\"\nin = \"plate\"\nat = [1e-4, 0.6e-4, -1e-4]\n\
                      gives = [\"stress\", \"displacement\", \"temperature\"]";

@@ -25,6 +25,7 @@ fn penny_in_space_starts_at_its_stress() {
         elastic: Principal { young: YOUNG, poisson: POISSON, is_plane_stress: false },
         expansion: 0.0,
         split: Split::NoTension,
+        pressed: 1.0,
         dissipation: Dissipation::At1,
         energy: 1.0,
         length: 1.0,

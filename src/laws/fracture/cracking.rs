@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::damage::{Dissipation, GradientDamage};
-use super::split::{Principal, Split};
+use super::split::{Principal, Split, pressed_of};
 use crate::laws::Thermoelastic;
 use crate::limits::{length, plausible, positive, within};
 
@@ -35,6 +35,12 @@ pub struct Cracking {
     /// Part of the elastic energy that cracks release.
     #[serde(default)]
     pub split: Split,
+    /// Strength under uniaxial compression [Pa].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = positive("Pa", "the compressive strength")
+        .condition("with `split = \"star_convex\"`, and at least the tensile strength")
+        .otherwise("from the split"))]
+    pub compressive_strength: Option<f64>,
     /// Half the width of the range, over its middle, in which the energy of cracks is distributed evenly from element
     /// to element [1].
     #[serde(default, skip_serializing_if = "is_zero")]
@@ -70,18 +76,20 @@ impl Cracking {
             elastic: Principal { young, poisson, is_plane_stress },
             expansion,
             split: self.split,
+            pressed: 1.0,
             dissipation: self.model,
             energy,
             length: self.length.unwrap_or(1.0),
             scatter: self.scatter,
             seed: self.seed,
         };
-        match (self.length, self.strength) {
-            (Some(_), _) => Some(law),
-            (None, Some(strength)) => {
-                Some(GradientDamage { length: law.length_of(strength), ..law })
-            }
-            (None, None) => None,
-        }
+        let law = match (self.length, self.strength) {
+            (Some(_), _) => law,
+            (None, Some(strength)) => GradientDamage { length: law.length_of(strength), ..law },
+            (None, None) => return None,
+        };
+        let ratio = self.compressive_strength.map(|own| own / law.strength());
+        let pressed = ratio.map_or(1.0, |ratio| pressed_of(poisson, ratio));
+        Some(GradientDamage { pressed, ..law })
     }
 }

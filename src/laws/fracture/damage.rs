@@ -47,6 +47,8 @@ pub struct GradientDamage {
     /// Coefficient of thermal expansion [1/K].
     pub expansion: f64,
     pub split: Split,
+    /// Bulk modulus that a crack leaves under pressure, over that of the material, for [`Split::StarConvex`].
+    pub pressed: f64,
     pub dissipation: Dissipation,
     /// Energy of cracks per area G_c [J/m²].
     pub energy: f64,
@@ -127,14 +129,15 @@ impl GradientDamage {
         let third = if self.elastic.is_plane_stress { 0.0 } else { lateral };
         let strain = [1.0, lateral, third];
         let intact = self.elastic.intact(strain).energy;
-        1.0 - self.split.remaining(&self.elastic, strain).energy / intact
+        1.0 - self.split.remaining(&self.elastic, self.pressed, strain).energy / intact
     }
 
-    /// Energy that a crack releases at the elastic strain of a point [J/m³].
+    /// Energy that a crack releases at the elastic strain of a point, if any [J/m³]: where pressure makes it negative,
+    /// nothing drives damage.
     pub fn released<A: PrincipalAxes<V>, const V: usize>(&self, strain: [f64; V]) -> f64 {
         let (_, principal) = A::of(strain);
-        let intact = self.elastic.intact(principal).energy;
-        intact - self.split.remaining(&self.elastic, principal).energy
+        let [intact, left] = self.energies(principal);
+        (intact.energy - left.energy).max(0.0)
     }
 
     /// Response to the elastic strain of a point.
@@ -167,7 +170,10 @@ impl GradientDamage {
 
     /// Energy of the intact material, and the part of it that cracks leave.
     fn energies(&self, principal: [f64; 3]) -> [Remaining; 2] {
-        [self.elastic.intact(principal), self.split.remaining(&self.elastic, principal)]
+        [
+            self.elastic.intact(principal),
+            self.split.remaining(&self.elastic, self.pressed, principal),
+        ]
     }
 }
 
@@ -182,11 +188,15 @@ mod tests {
     use super::super::principal_axes::{InPlane, InSpace};
     use super::*;
 
+    const SPLITS: [Split; 5] =
+        [Split::None, Split::NoTension, Split::Spectral, Split::Volumetric, Split::StarConvex];
+
     fn law(split: Split) -> GradientDamage {
         GradientDamage {
             elastic: Principal { young: 2.0, poisson: 0.3, is_plane_stress: false },
             expansion: 0.0,
             split,
+            pressed: 4.0,
             dissipation: Dissipation::At1,
             energy: 1.0,
             length: 0.1,
@@ -198,7 +208,7 @@ mod tests {
     /// Asserts that stress and tangent are derivatives of the energy at some strains.
     fn derivatives<A: PrincipalAxes<V>, const V: usize>(strains: &[[f64; V]]) {
         const H: f64 = 1e-6;
-        for split in [Split::None, Split::NoTension, Split::Spectral, Split::Volumetric] {
+        for split in SPLITS {
             let law = law(split);
             let respond = |strain| law.respond::<A, V>(strain, 0.6);
             for strain in strains {
@@ -244,7 +254,7 @@ mod tests {
 
     #[test]
     fn response_in_space_is_that_of_a_section_whose_normal_is_y() {
-        for split in [Split::None, Split::NoTension, Split::Spectral, Split::Volumetric] {
+        for split in SPLITS {
             let law = law(split);
             for [xx, zz, yy, xz] in [[0.4, -0.2, 0.1, 0.7], [-0.3, 0.2, -0.5, 0.01]] {
                 let plane = law.respond::<InPlane, 4>([xx, zz, yy, xz], 0.3);

@@ -22,6 +22,9 @@ pub enum Split {
     /// The energy of shear and of a positive change of volume (H. Amor, J.-J. Marigo & C. Maurini 2009, doi
     /// 10.1016/j.jmps.2009.04.011).
     Volumetric,
+    /// The same, less a multiple of the energy of a negative change of volume that follows from `compressive_strength`
+    /// (F. Vicentini, C. Zolesi, P. Carrara, C. Maurini & L. De Lorenzis 2024, doi 10.1007/s10704-024-00763-w).
+    StarConvex,
 }
 
 /// Isotropic elasticity in principal axes.
@@ -104,15 +107,17 @@ impl Principal {
 }
 
 impl Split {
-    /// Energy that a crack leaves at the principal elastic strains.
-    pub fn remaining(self, elastic: &Principal, strain: [f64; 3]) -> Remaining {
+    /// Energy that a crack leaves at the principal elastic strains. Under pressure it leaves a multiple of the bulk
+    /// modulus; that of [`Split::StarConvex`] is [`pressed_of`].
+    pub fn remaining(self, elastic: &Principal, pressed: f64, strain: [f64; 3]) -> Remaining {
         match self {
             Split::None => Remaining::default(),
             Split::NoTension => no_tension(elastic, strain),
             Split::Spectral => spectral(elastic, strain),
-            Split::Volumetric => {
+            Split::Volumetric | Split::StarConvex => {
                 let is_compressed = strain.iter().sum::<f64>() < 0.0;
-                let bulk = elastic.lame_first() + elastic.shear_twice() / 3.0;
+                let multiple = if self == Split::StarConvex { pressed } else { 1.0 };
+                let bulk = multiple * (elastic.lame_first() + elastic.shear_twice() / 3.0);
                 let tangent = if is_compressed { [[bulk; 3]; 3] } else { [[0.0; 3]; 3] };
                 Remaining::quadratic(tangent, strain)
             }
@@ -123,6 +128,15 @@ impl Split {
     pub fn suits_plane_stress(self) -> bool {
         matches!(self, Split::None | Split::NoTension)
     }
+}
+
+/// Bulk modulus under pressure that a crack leaves, over that of the material, with which the strength under uniaxial
+/// compression is a multiple of that under tension: `1 + γ` with `γ = (2 (1 + ν) − 3/ratio²)/(1 − 2ν)`.
+///
+/// Damage begins where the released energy `½ κ (⟨tr ε⟩₊² − γ ⟨tr ε⟩₋²) + µ |dev ε|²` reaches a value, which uniaxial
+/// tension does at `σ²/(2E)`.
+pub fn pressed_of(poisson: f64, ratio: f64) -> f64 {
+    1.0 + (2.0 * (1.0 + poisson) - 3.0 / (ratio * ratio)) / (1.0 - 2.0 * poisson)
 }
 
 /// Energy of a material that bears no tension: it opens along as many axes as it must for no stress to be positive.
@@ -167,7 +181,8 @@ fn spectral(elastic: &Principal, strain: [f64; 3]) -> Remaining {
 mod tests {
     use super::*;
 
-    const SPLITS: [Split; 4] = [Split::None, Split::NoTension, Split::Spectral, Split::Volumetric];
+    const SPLITS: [Split; 5] =
+        [Split::None, Split::NoTension, Split::Spectral, Split::Volumetric, Split::StarConvex];
 
     fn states() -> Vec<[f64; 3]> {
         let values = [-1.3, -0.4, -0.05, 0.02, 0.7];
@@ -189,12 +204,12 @@ mod tests {
                 }
                 let elastic = elastic(plane);
                 for strain in states() {
-                    let own = split.remaining(&elastic, strain);
+                    let own = split.remaining(&elastic, 4.0, strain);
                     for axis in 0..if plane { 2 } else { 3 } {
                         let at = |h: f64| {
                             let mut moved = strain;
                             moved[axis] += h;
-                            split.remaining(&elastic, moved)
+                            split.remaining(&elastic, 4.0, moved)
                         };
                         let slope = (at(H).energy - at(-H).energy) / (2.0 * H);
                         assert!((slope - own.stress[axis]).abs() < 1e-6, "{split:?} {strain:?}");
@@ -233,13 +248,33 @@ mod tests {
     }
 
     #[test]
-    fn released_energy_is_never_negative() {
-        for split in SPLITS {
+    fn released_energy_is_never_negative_without_a_compressive_strength() {
+        for split in SPLITS.into_iter().filter(|split| *split != Split::StarConvex) {
             for strain in states() {
                 let elastic = elastic(false);
                 let released =
-                    elastic.intact(strain).energy - split.remaining(&elastic, strain).energy;
+                    elastic.intact(strain).energy - split.remaining(&elastic, 1.0, strain).energy;
                 assert!(released >= -1e-12, "{split:?} {strain:?} {released}");
+            }
+        }
+    }
+
+    /// Uniaxial tension and compression release the same energy at strengths of the given ratio.
+    #[test]
+    fn strengths_have_their_ratio() {
+        for poisson in [-0.3, 0.0, 0.22, 0.45] {
+            let elastic = Principal { young: 2.0, poisson, is_plane_stress: false };
+            for ratio in [1.0, 3.0, 10.0, 1e3] {
+                let pressed = pressed_of(poisson, ratio);
+                let released = |stress: f64| {
+                    let strain = [1.0, -poisson, -poisson].map(|part| part * stress / 2.0);
+                    let left = Split::StarConvex.remaining(&elastic, pressed, strain).energy;
+                    elastic.intact(strain).energy - left
+                };
+                let (tension, compression) = (released(0.7), released(-0.7 * ratio));
+                // Near the largest ratios energies cancel.
+                let off = (compression / tension - 1.0).abs();
+                assert!(off < 1e-13 * ratio * ratio + 1e-12, "{poisson} {ratio}: {off:e}");
             }
         }
     }

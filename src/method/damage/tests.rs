@@ -16,6 +16,7 @@ fn law(dissipation: Dissipation, split: Split) -> GradientDamage {
         elastic: Principal { young: 100.0, poisson: 0.2, is_plane_stress: true },
         expansion: 1e-3,
         split,
+        pressed: 3.0,
         dissipation,
         energy: ENERGY,
         length: DAMAGE_LENGTH,
@@ -168,7 +169,9 @@ fn derivative<const D: usize, const C: usize, const V: usize>(
 #[test]
 fn stiffness_is_the_derivative_of_forces() {
     let [x, y, z] = [vec![0.1, 0.3, 0.6], vec![0.0, 0.25, 0.35], vec![-0.2, 0.0, 0.1]];
-    for split in [Split::None, Split::NoTension, Split::Spectral, Split::Volumetric] {
+    for split in
+        [Split::None, Split::NoTension, Split::Spectral, Split::Volumetric, Split::StarConvex]
+    {
         let mut law = law(Dissipation::At1, split);
         law.elastic.is_plane_stress = false;
         for form in [Form::Axisymmetric, Form::PlaneStrain { thickness: 0.5 }] {

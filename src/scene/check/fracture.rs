@@ -2,7 +2,7 @@
 
 use super::{Checker, notches, number};
 use crate::laws::Material;
-use crate::laws::fracture::{Cracking, Dissipation};
+use crate::laws::fracture::{Cracking, Dissipation, Split};
 use crate::laws::solid::Elasticity;
 use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
@@ -58,6 +58,7 @@ fn constants(checker: &mut Checker, path: &Path, material: &Material, solid: &So
     let fine = is_plane || cracking.split.suits_plane_stress();
     let message = "this split is not defined in plane stress";
     checker.require(fine, &own.at("split"), message, "none, no_tension, or plane_strain");
+    compression(checker, &own, &cracking, solid);
     let law = material.law.deformation();
     let is_linear = law.is_linear();
     let message = "a body that cracks is thermoelastic with constants: nothing yields, relaxes or depends on the \
@@ -74,6 +75,28 @@ fn constants(checker: &mut Checker, path: &Path, material: &Material, solid: &So
     let message = "cracks take the place of a probability of failure";
     let fine = material.fracture.weibull.is_none();
     checker.require(fine, &path.key("weibull"), message, "either `weibull` or `fracture`");
+}
+
+/// Requires a compressive strength where the split follows from it, above that under tension.
+fn compression(checker: &mut Checker, path: &Path, cracking: &Cracking, solid: &Solid) {
+    let is_star_convex = cracking.split == Split::StarConvex;
+    let Some(own) = cracking.compressive_strength else {
+        let message = "this split follows from the strength under compression, which is not known";
+        let allowed = "`compressive_strength = …` (Pa), or another split";
+        checker.require(!is_star_convex, &path.at("split"), message, allowed);
+        return;
+    };
+    let path = path.key("compressive_strength");
+    let message = "the strength under compression is that of the split";
+    let allowed = "`split = \"star_convex\"`, or no `compressive_strength`";
+    if !checker.require(is_star_convex, &path, message, allowed) {
+        return;
+    }
+    let tensile = solid.damage().map(|law| law.strength());
+    if let Some(tensile) = tensile.filter(|tensile| own < *tensile) {
+        let message = "the material is weaker under compression than under tension";
+        checker.refuse(&path, message, format!("{} Pa or more", number(tensile)));
+    }
 }
 
 /// Requires one of strength and length.
