@@ -75,10 +75,10 @@ rules! {
     "the nozzle jumps by {jump} m between two steps while fluid comes, more than a segment of {segment} m: a straight \
      piece is laid across the jump at once"; "send places and derivatives of one motion"
 
-    Step nozzle_is_slow()
-    "the nozzle has moved at less than a quarter of the speed of its fluid, and heaps lie inside each other: their widths are \
-     wrong, and plate and air meet more of them than there is";
-    "move the nozzle faster or let less fluid come, or set `method = \"particles\"`"
+    Step nozzle_is_slow(rise)
+    "the nozzle has moved at less than a quarter of the speed of its fluid, which stands {rise} m above the outlet around \
+     it: the width of the strand is that without a nozzle inside, and its rim and its heat are left out";
+    "move the nozzle faster, raise it or let less fluid come, or set `method = \"particles\"`"
 
     Step nozzle_is_late()
     "places of the nozzle came without derivatives: it moves evenly over each step to the place set at the beginning of \

@@ -125,6 +125,37 @@ most = 1e-3
     }
 }
 
+/// A strand of a slow nozzle holds the flow over the speed, heat balances, and its width and heat hardly follow the
+/// communication step; fluid that rises around the nozzle is warned of.
+#[test]
+fn slow_nozzles_lay_strands() {
+    let path = "{ time = [0.0, 0.5, 1.0], x = [-5e-3, 5e-3, 5e-3], y = [-2e-3, -2e-3, 3e-3] }";
+    for (fluid, temperature, ratio) in [(WAX, 343.0, 0.1), (SILICONE, 360.0, 0.05)] {
+        let text = line(fluid, temperature, "steel-304", "");
+        let slow = "{ time = [0.0, 1.0], x = [-2e-3, 2e-3], y = [0.0, 0.0] }";
+        let text = text.replace(path, slow).replace("most = 1e-8", "most = 1e-6");
+        let section = 0.25 * std::f64::consts::PI * 0.64e-6 / ratio;
+        let text = text.replace("flow = 8e-9", &format!("flow = {}", section * 4e-3));
+        let found = [1, 4, 20, 100].map(|steps| {
+            let mut trial = run(&text, steps);
+            let [width, height, heat, drift, warm] =
+                ["width", "height", "heat", "heat_drift", "heat_stored"]
+                    .map(|key| trial.get(&format!("ink.{key}")));
+            assert!((width * height / section - 1.0).abs() < 1e-9, "{fluid}: {width} {height}");
+            assert!(drift.abs() < 1e-10 * warm.abs(), "{fluid}: {drift} of {warm}");
+            let warnings = trial.model.warnings(&trial.state);
+            let is_warned = warnings.iter().any(|one| one.finding().id == "nozzle_is_slow");
+            assert!(is_warned || fluid == WAX, "{warnings:?}");
+            [width, heat]
+        });
+        for [width, heat] in found {
+            let [last_width, last_heat] = found[3];
+            assert!((width / last_width - 1.0).abs() < 0.03, "{fluid}: {found:?}");
+            assert!((heat / last_heat - 1.0).abs() < 0.06, "{fluid}: {found:?}");
+        }
+    }
+}
+
 /// On an insulated plane in air a strand cools as a lump, at its Biot number of 0.01: `T = T_a + (T_0 − T_a) exp(−h A
 /// t/(ρ c V))`.
 #[test]

@@ -128,7 +128,9 @@ pub fn notes(scene: &Scene, (name, filament): (&str, &Filament)) -> Vec<String> 
              temperature: mass and heat balance exactly, widths follow from the balance of gravity, surface tension, \
              viscosity and yield stress (docs/theory/filament.md)"
         ),
-        "strands side by side do not touch, no strand spans a gap, and heat does not pass along the strand".to_owned(),
+        "strands side by side do not touch, none spans a gap of more than half its width, and heat does not pass along the \
+         strand"
+            .to_owned(),
     ];
     notes.push(match contact(scene, name, filament) {
         Some((interval, _)) => link::note(interval),

@@ -223,10 +223,12 @@ impl Advice for FilamentBody {
         }
         let strand = self.structure(state);
         let beyond = self.line.reaches_beyond(&strand).then(warning::strand_beyond_edge);
+        let slow = self.line.rise_above_outlet(&strand);
+        let slow = slow.map(|rise| warning::nozzle_is_slow(format!("{rise:.1e}")));
         let bearing = self.line.bearing_of_stacks(&strand);
         plan::nozzle_warnings([strand.jump, self.line.plan().spacing], strand.late == 1.0)
             .chain(beyond)
-            .chain(self.line.has_nested_heaps(&strand).then(warning::nozzle_is_slow))
+            .chain(slow)
             .chain((bearing >= 1.0).then(|| warning::stack_yields(format!("{bearing:.1}"))))
             .map(|finding| finding.at(&self.name))
             .collect()

@@ -10,23 +10,22 @@ use super::beneath::Beneath;
 use super::carriers::Carriers;
 use super::cooling::{LAYERS, SHARES};
 use super::line::Line;
+use super::sections::{CLEARANCE, EDGE, SLACK, SLOW, floor};
 use super::{Failure, Segment, Strand};
 use crate::inputs::Motion;
 
 /// Number of pieces of a segment, each of which touches down at a place of its own.
 const PIECES: f64 = 4.0;
-/// Speed of the nozzle over that of the fluid in it below which fluid piles up in a heap, which is complete when it is
-/// as long as wide, or when it has the volume of a segment and the nozzle moves on.
-const SLOW: f64 = 0.25;
-/// Least gap above an older segment, over the diameter of the nozzle, with which a strand lies on that.
-const CLEARANCE: f64 = 0.1;
+/// Part of the section of a thick segment below which a strand leaves it behind.
+const LEAVES: f64 = 0.5;
+/// Exponent of the section in the volume of a thick segment, which is as long over its width as one at the limit.
+const THICKER: f64 = 1.5;
+/// Low gap over the diameter of the nozzle, for the width within which carriers of a new segment are looked for.
+const LOW: f64 = 0.3;
 /// Difference in height of the segments on which one lies, over their own height.
 const LEVEL: f64 = 0.5;
 /// Part of a segment's volume below which fluid belongs to the segment before: the rounding of a path's end.
 const SLIVER: f64 = 1e-6;
-/// Rounding that a comparison of volumes leaves room for.
-const SLACK: f64 = 1e-9;
-
 /// An amount of fluid that reached a segment.
 pub struct Arrival {
     pub segment: usize,
@@ -131,20 +130,28 @@ impl Line {
         let before = strand.segments().next_back();
         let is_sliver = |last: &Segment| last.end == strand.touch && piece.volume < SLIVER * whole;
         let last = before.filter(|last| strand.open == 1.0 || is_sliver(last));
-        let mut next = || {
-            let start = Segment { start: strand.touch, end: strand.touch, ..Segment::default() };
-            self.settled((strand, beneath), start, (strand.len(), begin[2]))
+        let way = [begin, end];
+        let open = match last {
+            Some(last) => last,
+            None => self.begun((strand, beneath), way, piece.volume),
         };
-        let open = last.unwrap_or_else(&mut next);
         let thickness = self.thickness(strand, velocity[0].hypot(velocity[1]), speed);
         let free = (end[2] - open.base - thickness).max(0.0);
         let touch = touchdown(strand.touch, [begin, end], (duration, 0.5 * free / speed));
         let path = (touch[0] - open.end[0]).hypot(touch[1] - open.end[1]);
-        let moves_on = path >= SLOW * speed * duration;
-        let is_new = last.is_none_or(|last| last.is_heap && last.volume >= whole && moves_on);
-        let mut segment = if is_new { next() } else { open };
-        let gap = end[2] - segment.base;
-        let laid_before = laid_width(&segment, gap);
+        let is_new = last.is_none_or(|last| {
+            let leaves = || self.thick().max(LEAVES * self.laid(strand, &last).section());
+            self.is_thick(&last) && last.volume >= whole && piece.volume <= leaves() * path
+        });
+        let mut segment = open;
+        if let (true, Some(last)) = (is_new, last) {
+            let index = strand.len() - 1;
+            let left = self.settled((strand, beneath), [last; 2], (index, last.outlet));
+            strand.set(index, &left);
+            segment = self.begun((strand, beneath), way, piece.volume);
+        }
+        let gap = end[2] - floor(strand, &segment);
+        let laid_before = self.laid_width(&segment, gap);
         segment.path += path;
         (segment.end, segment.outlet) = (touch, end[2]);
         let middle = strand.time + 0.5 * (piece.from + piece.to);
@@ -152,24 +159,25 @@ impl Line {
         segment.born += part * (middle - segment.born);
         let heat = self.heat.content_at(temperature) * self.heat.capacity(piece.volume);
         segment.volume += piece.volume;
-        segment.is_heap = segment.path * self.plan.outlet() < SLOW * segment.volume;
+        let index = strand.len() - usize::from(!is_new);
+        segment.longest = self.longest((strand, index), &segment, gap);
         (0..LAYERS).for_each(|n| segment.heats[n] += SHARES[n] * heat);
         strand.supplied += heat;
         strand.volume += piece.volume;
         strand.touch = touch;
         // What has spread so far stays beyond the width as laid, whichever pieces the fluid came in.
-        let laid = laid_width(&segment, gap);
+        let laid = self.laid_width(&segment, gap);
         let spread = segment.half_width + 0.5 * (laid - laid_before);
         segment.half_width = spread.max(0.5 * laid);
-        let is_long = !segment.is_heap || segment.path >= segment.width();
-        let is_complete = piece.is_full && is_long && segment.volume >= whole;
+        let thicker = (segment.volume / (self.thick() * segment.path)).max(1.0).powf(THICKER);
+        let is_full = piece.is_full && segment.volume >= whole * thicker;
+        let is_complete = is_full && !segment.is_heap();
         strand.open = if is_complete { 0.0 } else { 1.0 };
         if is_new {
             strand.push(&segment);
         }
-        let index = strand.len() - 1;
         if is_complete {
-            segment = self.settled((strand, beneath), segment, (index, end[2]));
+            segment = self.settled((strand, beneath), [segment; 2], (index, end[2]));
         }
         strand.set(index, &segment);
         let mass = self.plan.fluid.density * piece.volume;
@@ -177,12 +185,37 @@ impl Line {
         Ok(Arrival { segment: index, volume: piece.volume, time: middle, impulse })
     }
 
+    /// A segment that begins where the strand touches down, as the outlet moves from one place to another and some fluid
+    /// comes [m³].
+    fn begun(
+        &self,
+        (strand, beneath): (&Strand, &mut Beneath),
+        [from, to]: [[f64; 3]; 2],
+        volume: f64,
+    ) -> Segment {
+        let start = Segment { start: strand.touch, end: strand.touch, ..Segment::default() };
+        let way = [0, 1].map(|axis| to[axis] - from[axis]);
+        let path = way[0].hypot(way[1]).max(volume / self.thick());
+        let over = Segment {
+            end: [0, 1].map(|axis| strand.touch[axis] + way[axis]),
+            half_width: 0.5 * self.strand_width((volume, path), LOW * self.plan.diameter),
+            volume,
+            path,
+            ..start
+        };
+        self.settled((strand, beneath), [start, over], (strand.len(), from[2]))
+    }
+
     /// Height at which fluid touches down [m], at the speeds of the nozzle and of the fluid in it: that of a strand as
-    /// wide as high, or of the segment below a nozzle that hardly moves.
+    /// wide as high; of the segment below a slow nozzle, if that is not so high.
     fn thickness(&self, strand: &Strand, swift: f64, speed: f64) -> f64 {
+        let at_limit = (self.plan.outlet() * speed / swift.max(SLOW * speed)).sqrt();
         match strand.segments().next_back() {
-            Some(last) if swift < SLOW * speed => last.height(),
-            _ => (self.plan.outlet() * speed / swift.max(SLOW * speed)).sqrt(),
+            Some(last) if swift < SLOW * speed => {
+                let own = (self.plan.outlet() * speed / swift).sqrt();
+                own.min(at_limit.max(self.laid(strand, &last).height()))
+            }
+            _ => at_limit,
         }
     }
 
@@ -202,11 +235,12 @@ impl Line {
 
     /// Finds on what a segment lies: at the height of the highest of the `older` ones under its middle that the outlet
     /// clears, on all of about this height below it, or on the plate. Neighbours along the strand, closer than its
-    /// width, are not below it unless the outlet has risen since.
+    /// width, are not below it unless the outlet has risen since. Where none is under the middle, but some are on both
+    /// sides, below places of the second of the segments, it lies on these.
     fn settled(
         &self,
         (strand, beneath): (&Strand, &mut Beneath),
-        segment: Segment,
+        [segment, over]: [Segment; 2],
         (older, outlet): (usize, f64),
     ) -> Segment {
         beneath.extend(strand, older);
@@ -215,16 +249,34 @@ impl Line {
             let older = strand.segment(n);
             let is_apart = beneath.apart(n, (strand, segment.start)) > older.width();
             let has_risen = outlet - older.outlet > clearance;
-            let clears = outlet - older.top() > clearance;
+            // A nozzle in the fluid that has risen around it laid that from its own height.
+            let clears = outlet - older.top().min(older.outlet) > clearance;
             ((is_apart || has_risen) && clears).then_some((n, older))
         };
-        let near = beneath.near(segment.places()).into_iter();
+        let near = beneath.near(segment.places().chain(over.places())).into_iter();
         let carriers: Vec<(usize, Segment)> = near.filter_map(may_carry).collect();
         let carriers_at = |place: [f64; 2]| {
-            carriers.iter().filter(move |(_, older)| older.distance(place) <= older.half_width)
+            let reach = |older: &Segment| older.half_width * (1.0 + EDGE);
+            carriers.iter().filter(move |(_, older)| older.distance(place) <= reach(older))
         };
-        let tops = carriers_at(segment.middle()).map(|(_, older)| older.top());
-        let base = tops.fold(0.0, f64::max);
+        let top =
+            |place: [f64; 2]| carriers_at(place).map(|(_, older)| older.top()).fold(0.0, f64::max);
+        let is_level =
+            |older: &Segment, base: f64| (older.top() - base).abs() <= LEVEL * older.height();
+        let (mut base, mut lower) = (top(segment.middle()), segment);
+        if base == 0.0 && !carriers.is_empty() {
+            lower = over;
+            if segment.volume == 0.0 {
+                // As wide as it will be on the highest of them.
+                let tops = carriers.iter().map(|(_, older)| older.top().min(older.outlet));
+                let gap = outlet - tops.fold(0.0, f64::max);
+                lower.half_width = 0.5 * self.strand_width((over.volume, over.path), gap);
+            }
+            base = level(&lower.places().map(top).collect::<Vec<_>>());
+            let under = lower.places().flat_map(carriers_at).map(|(_, older)| older);
+            let at_level = under.filter(|older| base > 0.0 && is_level(older, base));
+            base = at_level.map(Segment::top).fold(base, f64::max);
+        }
         if base == 0.0 {
             return Segment { base, below: Carriers::default(), ..segment };
         }
@@ -232,26 +284,24 @@ impl Line {
         let carrier = |place: [f64; 2]| {
             let away = |older: &Segment| older.distance(place);
             carriers_at(place)
-                .filter(|(_, older)| (older.top() - base).abs() <= LEVEL * older.height())
+                .filter(|(_, older)| is_level(older, base))
                 .min_by(|(_, a), (_, b)| away(a).total_cmp(&away(b)))
                 .map(|(n, _)| *n)
         };
-        Segment { base, below: Carriers::of(segment.places().filter_map(carrier)), ..segment }
+        Segment { base, below: Carriers::of(lower.places().filter_map(carrier)), ..segment }
     }
 }
 
-/// Width with which a segment is laid [m]: as wide as high, or pressed to the gap below the outlet.
-fn laid_width(segment: &Segment, gap: f64) -> f64 {
-    let Segment { volume, path, is_heap, .. } = *segment;
-    if volume == 0.0 {
-        return 0.0;
+/// Height on which a lower side rests by the tops under its places [m], which lie opposite each other in the order from
+/// both ends: the greatest that is reached on both sides of the middle; 0 if fewer than half of the pairs are carried.
+fn level(tops: &[f64]) -> f64 {
+    let pairs = tops.len() / 2;
+    let opposite = (0..pairs).map(|n| tops[n].min(tops[tops.len() - 1 - n]));
+    let carried: Vec<f64> = opposite.filter(|&top| top > 0.0).collect();
+    match 2 * carried.len() >= pairs {
+        true => carried.into_iter().fold(0.0, f64::max),
+        false => 0.0,
     }
-    if is_heap {
-        // As long as wide, until the nozzle has gone further.
-        let free = volume.cbrt().min((volume / path).sqrt());
-        return free.max((volume / gap).sqrt().min(volume / (path * gap)));
-    }
-    (volume / path).sqrt().max(volume / (path * gap))
 }
 
 /// Place of touchdown after a duration in which the outlet moves evenly, with the relaxation time t_r [s].

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::cooling::{Column, Heat, LAYERS, SHARES, Surroundings};
 use super::footprint::{Footprint, Footprints};
 use super::laying::Arrival;
+use super::sections::CLEARANCE;
 use super::spreading::{PACKED, Spreading};
 use super::{Failure, LinePlan, Segment, Strand};
 use crate::inputs::Motion;
@@ -66,8 +67,6 @@ const LEAST_APART: f64 = 0.1;
 const ASLEEP: f64 = 1e-2;
 /// Conductance of fluids that do not conduct, so that temperatures below still have a mean [W/K].
 const LEAST_CONDUCTANCE: f64 = 1e-200;
-/// Distance of heaps over their width below which one lies inside the other.
-const NESTED: f64 = 0.5;
 /// Relative error of the heat balance of a state that runs never reach.
 const BALANCE: f64 = 1e-6;
 
@@ -327,14 +326,11 @@ impl Line {
         if largest.is_finite() { largest } else { 0.0 }
     }
 
-    /// Returns true if heaps that follow each other lie inside each other, as those of a nozzle that moves slowly do.
-    pub fn has_nested_heaps(&self, strand: &Strand) -> bool {
-        let heaps = || strand.segments().filter(|segment| segment.is_heap);
-        heaps().zip(heaps().skip(1)).any(|(first, second)| {
-            let width = first.width().max(second.width());
-            let is_beside = (first.base - second.base).abs() < 0.5 * first.height();
-            is_beside && second.distance(first.middle()) < NESTED * width
-        })
+    /// Largest height of slowly laid fluid above the outlet that laid it [m], if that is worth a warning.
+    pub fn rise_above_outlet(&self, strand: &Strand) -> Option<f64> {
+        let slow = strand.segments().filter(|segment| self.is_thick(segment));
+        let rise = slow.map(|segment| segment.top() - segment.outlet).fold(0.0, f64::max);
+        (rise > CLEARANCE * self.plan.diameter).then_some(rise)
     }
 
     /// Returns true if part of the last segment lies beyond the edge of the plate.

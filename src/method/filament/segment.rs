@@ -26,8 +26,8 @@ pub struct Segment {
     pub path: f64,
     /// Height of the outlet above the plate as its last fluid came [m].
     pub outlet: f64,
-    /// True for a heap, which the nozzle piles up while it hardly moves.
-    pub is_heap: bool,
+    /// Largest length of a heap, which the nozzle piles up while it hardly moves; 0 for a strand [m].
+    pub longest: f64,
     /// The segments on which it lies; none on the plate.
     pub below: Carriers,
 }
@@ -42,9 +42,19 @@ impl Segment {
         2.0 * self.half_width
     }
 
-    /// Length along the strand: that of the path; a heap is at least as long as wide [m].
+    /// Returns true for a heap.
+    pub fn is_heap(&self) -> bool {
+        self.longest > 0.0
+    }
+
+    /// Length along the strand: that of the path; a heap is as long as wide up to its largest length [m].
     pub fn length(&self) -> f64 {
-        if self.is_heap { self.path.max(self.width()) } else { self.path }
+        self.stretched(self.path, self.width())
+    }
+
+    /// A length of the centre line [m], or that of a heap of some width [m].
+    pub fn stretched(&self, length: f64, width: f64) -> f64 {
+        length.max(width.min(self.longest))
     }
 
     /// Section A: volume over length [m²].
@@ -81,8 +91,8 @@ impl Segment {
     /// Places spread evenly over its lower side, its middle among them.
     pub fn places(&self) -> impl Iterator<Item = [f64; 2]> + use<> {
         let chord = (self.end[0] - self.start[0]).hypot(self.end[1] - self.start[1]);
-        let length = if self.is_heap { chord.max(self.width()) } else { chord };
         let (middle, along, width) = (self.middle(), self.direction(), self.width());
+        let length = self.stretched(chord, width);
         let part = |n: usize, count: usize| (n as f64 + 0.5) / count as f64 - 0.5;
         (0..PLACES[0] * PLACES[1]).map(move |n| {
             let s = length * part(n % PLACES[0], PLACES[0]);

@@ -45,8 +45,8 @@ pub struct Strand {
     born: Vec<f64>,
     path: Vec<f64>,
     outlet: Vec<f64>,
-    /// 1 for heaps, 0 otherwise.
-    heap: Vec<f64>,
+    /// Largest length of heaps; 0 for strands [m].
+    longest: Vec<f64>,
     /// Numbers of the segments below, from 1, and their shares; 0 where there is none.
     below: Vec<[f64; MOST_CARRIERS]>,
     share: Vec<[f64; MOST_CARRIERS]>,
@@ -89,7 +89,7 @@ impl Strand {
             born: numbers.clone(),
             path: numbers.clone(),
             outlet: numbers.clone(),
-            heap: numbers,
+            longest: numbers,
             below: vec![[0.0; MOST_CARRIERS]; count],
             share: vec![[0.0; MOST_CARRIERS]; count],
             ..self
@@ -117,9 +117,14 @@ impl Strand {
             born: self.born[n],
             path: self.path[n],
             outlet: self.outlet[n],
-            is_heap: self.heap[n] != 0.0,
+            longest: self.longest[n],
             below: Carriers { segments, shares: self.share[n] },
         }
+    }
+
+    /// Height of the outlet above the plate as the last fluid of a segment came [m].
+    pub fn outlet_of(&self, n: usize) -> f64 {
+        self.outlet[n]
     }
 
     /// Adds a segment at the end.
@@ -136,7 +141,7 @@ impl Strand {
             &mut self.born,
             &mut self.path,
             &mut self.outlet,
-            &mut self.heap,
+            &mut self.longest,
         ];
         numbers.into_iter().for_each(|list| list.push(0.0));
         self.set(self.len() - 1, segment);
@@ -152,7 +157,7 @@ impl Strand {
         self.born[n] = segment.born;
         self.path[n] = segment.path;
         self.outlet[n] = segment.outlet;
-        self.heap[n] = if segment.is_heap { 1.0 } else { 0.0 };
+        self.longest[n] = segment.longest;
         let Carriers { segments, shares } = segment.below;
         self.below[n] =
             std::array::from_fn(|k| if shares[k] > 0.0 { (segments[k] + 1) as f64 } else { 0.0 });
@@ -196,10 +201,7 @@ impl Strand {
         if !(segment.volume > 0.0 && segment.half_width > 0.0) {
             return Err(format!("segment {n} has no volume or no width"));
         }
-        if segment.path == 0.0 && !segment.is_heap
-            || self.heap[n] > 1.0
-            || self.heap[n].fract() != 0.0
-        {
+        if segment.longest < 0.0 || segment.path == 0.0 && !segment.is_heap() {
             return Err(format!("segment {n} has no length"));
         }
         let born = 0.0 <= segment.born && segment.born <= self.time;
@@ -253,7 +255,10 @@ impl Fields for Strand {
                 segment("outlet", "height of the outlet as its last fluid came [m]", 1),
                 &mut self.outlet,
             ),
-            (segment("heap", "1 for heaps", 1), &mut self.heap),
+            (
+                segment("longest", "largest length of heaps; 0 for strands [m]", 1),
+                &mut self.longest,
+            ),
             (
                 segment("below", "numbers of the segments below, from 1; 0: none", MOST_CARRIERS),
                 self.below.as_flattened_mut(),

@@ -7,6 +7,8 @@ use crate::inputs::Motion;
 use crate::laws::Fluid;
 use crate::port::{Surface, SurfaceResponse, WallCells};
 
+mod slow;
+
 const WAX: &str = "density = 780.0\nviscosity = 4e-3\nspecific_heat = 2.2e3\nconductivity = 0.15\nmelting = { solidus = \
                    309.0, liquidus = 309.7, latent_heat = 2.47e5 }\nfrozen = { specific_heat = 1.9e3, conductivity = \
                    0.3 }";
@@ -118,23 +120,6 @@ fn a_nozzle_at_rest_makes_one_heap() {
     assert!((heap.length() - heap.width()).abs() < 1e-12);
     let volume: f64 = strand.segments().map(|segment| segment.volume).sum();
     assert!((volume / (3.0 * flow) - 1.0).abs() < 1e-12);
-    assert!(!line.has_nested_heaps(&strand));
-}
-
-/// Heaps of a nozzle that moves slowly lie inside each other, which is seen; those of a swifter one do not arise.
-#[test]
-fn heaps_of_a_slow_nozzle_are_seen() {
-    let line = Line::new(plan(CONCRETE, 0.02));
-    let around = Around { surface: &Surface::default(), air: 300.0 };
-    for (ratio, nested) in [(0.24, true), (0.26, false), (0.5, false), (1.0, false)] {
-        let mut strand = line.start([0.0, 0.0, 0.02]);
-        let flow = 0.1 / ratio * line.plan().outlet();
-        for n in 0..10 {
-            let motion = along(0.25, (0.025 * f64::from(n), 0.02), 0.1, flow);
-            line.advance(&mut strand, &[motion], &around).unwrap();
-        }
-        assert_eq!(line.has_nested_heaps(&strand), nested, "{ratio}");
-    }
 }
 
 /// A nozzle whose inputs jump from step to step lays the same volume along its path, in as many segments.
