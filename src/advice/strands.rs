@@ -1,7 +1,7 @@
 //! Nozzles at unusual heights, targets beyond the plate, routes that run along themselves or beyond the run, and
 //! strands of which nothing comes.
 
-use super::retraced::retraced;
+use super::retraced::{Laying, retraced};
 use super::{Reviewer, number};
 use crate::limits::two_digits;
 use crate::scene::locate::Path;
@@ -41,7 +41,9 @@ pub fn review(reviewer: &mut Reviewer) {
 
 /// Warns of a route that runs along itself without rising, or that lays fluid after the end of the run.
 fn course(reviewer: &mut Reviewer, path: &Path, (filament, route): (&Filament, &Route)) {
-    if let Some([time, earlier]) = retraced(route, filament.nozzle.diameter) {
+    let nozzle = &filament.nozzle;
+    let laying = Laying { diameter: nozzle.diameter, flow: nozzle.flow };
+    if let Some([time, earlier]) = retraced(route, laying) {
         let finding = warning::strand_laid_along_itself(two_digits(time), two_digits(earlier));
         reviewer.warn(path, finding);
     }
