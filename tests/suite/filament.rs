@@ -1,5 +1,7 @@
 //! Filaments that a moving nozzle lays on solids.
 
+use std::collections::BTreeSet;
+
 use impinge::advice::parse_with_warnings;
 use impinge::model::State;
 
@@ -113,9 +115,13 @@ path = { time = [0.0, 1.9, 2.0, 3.9, 4.0, 5.9, 6.0, 7.9], x = [0.0, 0.1, 0.1, 0.
 most = 1e-3
 "#;
     let mut trial = Trial::new(text);
+    let mut subjects = BTreeSet::new();
     for (until, wanted) in [(2.0, false), (8.0, true)] {
         while trial.state.time < until - 1e-9 {
             trial.step(0.5);
+            let found = trial.model.warnings(&trial.state).into_iter();
+            let yields = found.filter(|warning| warning.finding().id == "stack_yields");
+            subjects.extend(yields.map(|warning| warning.subject().to_owned()));
         }
         let ratio = trial.get("ink.bearing_ratio");
         let found = trial.model.warnings(&trial.state);
@@ -123,6 +129,9 @@ most = 1e-3
         assert_eq!(is_warned, wanted, "{until} s: {ratio}");
         assert_eq!(ratio > 1.0, wanted, "{until} s: {ratio}");
     }
+    // Hosts are warned of a load, and of one that has doubled.
+    let most = 1 + trial.get("ink.bearing_ratio").log2() as usize;
+    assert!((1..=most).contains(&subjects.len()), "{subjects:?}");
 }
 
 /// A strand of a slow nozzle holds the flow over the speed, heat balances, and its width and heat hardly follow the
@@ -152,6 +161,34 @@ fn slow_nozzles_lay_strands() {
             let [last_width, last_heat] = found[3];
             assert!((width / last_width - 1.0).abs() < 0.03, "{fluid}: {found:?}");
             assert!((heat / last_heat - 1.0).abs() < 0.06, "{fluid}: {found:?}");
+        }
+    }
+}
+
+/// Lines beside each other are warned of where more than half of one lies inside the other, whatever their width.
+#[test]
+fn lines_mostly_inside_each_other_are_warned_of() {
+    let text = line(SILICONE, 300.0, "steel-304", "");
+    let path = "{ time = [0.0, 0.5, 1.0], x = [-5e-3, 5e-3, 5e-3], y = [-2e-3, -2e-3, 3e-3] }";
+    let outlet = 0.25 * std::f64::consts::PI * 0.64e-6;
+    for ratio in [0.5, 1.0, 2.0, 4.0] {
+        // Legs of 10 mm in 0.4 s, and the pressed width on 0.4 mm, but for thin strands as wide as high.
+        let section: f64 = ratio * outlet;
+        let width = (section / 0.4e-3).max(section.sqrt());
+        for (apart, wanted) in
+            [(0.05, true), (0.3, true), (0.48, true), (0.52, false), (0.9, false)]
+        {
+            let y = apart * width;
+            let lines = format!(
+                "{{ time = [0.0, 0.4, 0.5, 0.9], x = [-5e-3, 5e-3, 5e-3, -5e-3], y = [0.0, 0.0, {y}, {y}], flow = [{0}, \
+                 0.0, {0}, 0.0] }}",
+                section * 25e-3
+            );
+            let text = text.replace(path, &lines).replace("height = 0.7e-3", "height = 0.4e-3");
+            let text = text.replace(", flow = 8e-9", "").replace("most = 1e-8", "most = 1e-6");
+            let (_, warnings) = parse_with_warnings(&text, "scene.toml").unwrap();
+            let found = warnings.iter().any(|one| one.finding().id == "strand_laid_along_itself");
+            assert_eq!(found, wanted, "{ratio} {apart}: {warnings:?}");
         }
     }
 }

@@ -226,11 +226,16 @@ impl Advice for FilamentBody {
         let slow = self.line.rise_above_outlet(&strand);
         let slow = slow.map(|rise| warning::nozzle_is_slow(format!("{rise:.1e}")));
         let bearing = self.line.bearing_of_stacks(&strand);
+        // Once, and again each time that the load has doubled.
+        let yields = (bearing >= 1.0).then(|| {
+            let subject = format!("{}: stack_yields {}", self.name, bearing.log2().floor());
+            warning::stack_yields(format!("{bearing:.1}")).at(&self.name).of_subject(subject)
+        });
         plan::nozzle_warnings([strand.jump, self.line.plan().spacing], strand.late == 1.0)
             .chain(beyond)
             .chain(slow)
-            .chain((bearing >= 1.0).then(|| warning::stack_yields(format!("{bearing:.1}"))))
-            .map(|finding| finding.at(&self.name))
+            .map(|finding| finding.at(&self.name).whatever_its_numbers())
+            .chain(yields)
             .collect()
     }
 
