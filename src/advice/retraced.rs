@@ -11,8 +11,8 @@ const APART: f64 = 0.5;
 const ASIDE: f64 = 0.5;
 /// Rise, over the diameter of the nozzle, below which the nozzle is as high as before.
 const RISE: f64 = 0.1;
-/// Length of route between two samples below which they belong to one bend, over the diameter of the nozzle; at least the
-/// width of the strand.
+/// Length of route between two samples below which they belong to one bend, over the diameter of the nozzle; at least
+/// the width of the strand.
 const BEND: f64 = 4.0;
 /// Cosine of the angle from which on two directions are one: lines that cross are usual in fillings.
 const ALONG: f64 = 0.9;

@@ -180,8 +180,8 @@ fn lines_mostly_inside_each_other_are_warned_of() {
         {
             let y = apart * width;
             let lines = format!(
-                "{{ time = [0.0, 0.4, 0.5, 0.9], x = [-5e-3, 5e-3, 5e-3, -5e-3], y = [0.0, 0.0, {y}, {y}], flow = [{0}, \
-                 0.0, {0}, 0.0] }}",
+                "{{ time = [0.0, 0.4, 0.5, 0.9], x = [-5e-3, 5e-3, 5e-3, -5e-3], y = [0.0, 0.0, {y}, {y}], flow = \
+                 [{0}, 0.0, {0}, 0.0] }}",
                 section * 25e-3
             );
             let text = text.replace(path, &lines).replace("height = 0.7e-3", "height = 0.4e-3");

@@ -185,8 +185,8 @@ impl Line {
         Ok(Arrival { segment: index, volume: piece.volume, time: middle, impulse })
     }
 
-    /// A segment that begins where the strand touches down, as the outlet moves from one place to another and some fluid
-    /// comes [m³].
+    /// A segment that begins where the strand touches down, as the outlet moves from one place to another and some
+    /// fluid comes [m³].
     fn begun(
         &self,
         (strand, beneath): (&Strand, &mut Beneath),

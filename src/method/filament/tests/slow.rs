@@ -240,8 +240,8 @@ fn slow_layers_are_stacked() {
     }
 }
 
-/// A strand over the seam of two others lies on both, with half of its weight on each, wherever the seam is to rounding;
-/// over a gap that is narrower than half of it, too, and on the plate over a wider one.
+/// A strand over the seam of two others lies on both, with half of its weight on each, wherever the seam is to
+/// rounding; over a gap that is narrower than half of it, too, and on the plate over a wider one.
 #[test]
 fn strands_over_seams_lie_on_both_sides() {
     let stiff = CONCRETE.replace("yield_stress = 800.0", "yield_stress = 8000.0");
