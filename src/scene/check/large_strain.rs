@@ -102,11 +102,13 @@ fn check_shape(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
         Some(own) => own.sweep(solid.form()).volume() / spacing.powi(solid.dimension as i32),
         None => count(0) * count(1) * count(2),
     };
+    let dimensions = if is_flat || solid.is_axisymmetric() { 2.0 } else { 3.0 };
+    let coarser = spacing * (nodes / MOST_NODES).powf(1.0 / dimensions);
     checker.require(
         nodes <= MOST_NODES,
         &path_of_spacing,
         format!("the mesh would have {nodes:.1e} nodes"),
-        format!("a `mesh.spacing` with at most {MOST_NODES:e} nodes"),
+        format!("a `mesh.spacing` of {coarser:.1e} m or more: at most {MOST_NODES:e} nodes"),
     );
     if is_flat && matches!(solid.shape, SolidShape::Disc(_)) {
         let message = "a disc has no plane model";
@@ -501,6 +503,12 @@ fn check_rest(checker: &mut Checker, path: &Path, name: &str, solid: &LargeStrai
         );
         allowed = "`faces.bottom = { clamped = true }`; `roller = true` on a face across each of these axes, such as \
                    `faces.left` for x and `faces.front` for y; or `inertia = true`";
+    }
+    let mirrors_itself = solid.symmetry == LargeStrainSymmetry::None
+        || solid.symmetry == LargeStrainSymmetry::Auto && matches!(solid.shape, SolidShape::Box(_));
+    if mirrors_itself && solid.smoothing().is_none() && !free.contains(&"z") {
+        allowed = "`symmetry = \"quarter\"`, where the body mirrors itself in x = 0 and y = 0; `faces.bottom = { clamped \
+                   = true }`, say; or `inertia = true`";
     }
     checker.require(free.is_empty(), path, message, allowed);
 }
