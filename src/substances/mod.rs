@@ -44,14 +44,14 @@ impl Kind {
         }
     }
 
-    /// The substance of a name or an alias, with `_` or `-` between words; fluids of a solid's name are its melt.
+    /// The substance of a name or an alias, in capitals or not, with `_` or `-` between words; fluids of a solid's name
+    /// are its melt.
     pub fn find(self, name: &str) -> Option<Substance> {
-        let name = name.replace('_', "-");
+        let name = name.replace('_', "-").to_lowercase();
         let melt = format!("molten-{name}");
+        let is_meant = |own: &str| own == name || self == Self::Fluid && own == melt;
         let is_named = |substance: &&Substance| {
-            substance.name == name
-                || (self == Self::Fluid && substance.name == melt)
-                || substance.sheet().aliases.contains(&name)
+            is_meant(substance.name) || substance.sheet().aliases.iter().any(|own| is_meant(own))
         };
         self.all().iter().find(is_named).copied()
     }
@@ -102,6 +102,8 @@ mod tests {
     fn fluids_are_found_by_the_name_of_their_solid() {
         assert_eq!(Kind::Fluid.find("tin").unwrap().name, "molten-tin");
         assert_eq!(Kind::Solid.find("tin").unwrap().name, "tin");
+        assert_eq!(Kind::Fluid.find("solder").unwrap().name, "molten-sac305");
+        assert_eq!(Kind::Solid.find("FR-4").unwrap().name, "fr4");
         assert!(Kind::Solid.find("unobtainium").is_none());
     }
 }

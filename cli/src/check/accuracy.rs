@@ -63,7 +63,7 @@ pub fn accuracy(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<String> {
         ))
     }));
     if text.iter().any(|line| line.starts_with('≈')) {
-        text.push("≈ near the tolerance, or beyond it by measurements of others".to_owned());
+        text.push("(≈: near the tolerance, or beyond it by measurements of others)".to_owned());
     }
     let notes = |estimate: &BodyEstimate| {
         let is_gap = |note: &&String| note.starts_with(GAP[0]) || note.contains(GAP[1]);

@@ -26,6 +26,7 @@ const LOW: f64 = 0.3;
 const LEVEL: f64 = 0.5;
 /// Part of a segment's volume below which fluid belongs to the segment before: the rounding of a path's end.
 const SLIVER: f64 = 1e-6;
+
 /// An amount of fluid that reached a segment.
 pub struct Arrival {
     pub segment: usize,
