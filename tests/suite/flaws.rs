@@ -95,8 +95,7 @@ fn cracks_of_a_row_shield_each_other() {
     assert!((1.0..1.01).contains(&(dense / wanted)), "{dense} {wanted}");
     let [worst, of_row] = ["worst", "worst_of_row"].map(&mut intensity);
     assert!(of_row < worst, "{of_row} {worst}");
-    let [worst, of_row] =
-        ["worst", "worst_of_row"].map(|name| trial.get(&format!("{name}.depth")));
+    let [worst, of_row] = ["worst", "worst_of_row"].map(|name| trial.get(&format!("{name}.depth")));
     assert!(0.0 < of_row && of_row < worst, "{of_row} {worst}");
 }
 

@@ -237,7 +237,7 @@ fn metals_dissipate_what_they_do_not_store() {
         let plastic = plastic - (100.0 + 200.0 * plastic) / 5600.0;
         let expected = volume * (100.0 * plastic + 100.0 * plastic * plastic);
         let found = trial.get("gel.dissipated");
-        assert!(off(found, expected) < 0.01, "{count}: {found} {expected}");
+        assert!(off(found, expected) < 0.03, "{count}: {found} {expected}");
         let elastic = volume * (100.0_f64 + 200.0 * plastic).powi(2) / (2.0 * 5600.0);
         assert!(
             off(trial.get("gel.stored"), elastic) < 0.05,

@@ -339,13 +339,17 @@ impl Deformable {
         (points.concat(), dilatations)
     }
 
-    /// Refuses displacements u that take a node through a plane of symmetry or an axis: two stretches that change their
+    /// Refuses coefficients u of displacements that take a node through a plane of symmetry or an axis: two stretches that change their
     /// signs leave the dilatation positive.
     pub fn stay_beside_mirrors(&self, u: &[[f64; 3]]) -> Result<(), Failure> {
+        if self.mirrored == [false; 2] {
+            return Ok(());
+        }
+        let moved = self.displacements(u);
         let is_through = |at: &[f64; 3], u: &[f64; 3]| {
-            (0..2).any(|a| self.mirrored[a] && at[a] > 0.0 && at[a] + u[a] < THROUGH * at[a])
+            (0..2).any(|a| self.mirrored[a] && at[a] > 0.0 && at[a] + u[a] < 0.0)
         };
-        let through = self.space.nodes.iter().zip(u).find(|(at, u)| is_through(at, u));
+        let through = self.space.nodes.iter().zip(&moved).find(|(at, u)| is_through(at, u));
         through.map_or(Ok(()), |(&at, _)| Err(Failure::Mirrored { at }))
     }
 
@@ -600,9 +604,6 @@ fn fixed(form: Form, mirrored: [bool; 2], at: [f64; 3]) -> [bool; 3] {
     [in_plane(0), form != Form::Solid || in_plane(1), false]
 }
 
-/// Place of a node on the other side of a mirror, over its own, at which it is through. Coefficients of nodes whose
-/// functions overlap differ a little from displacements.
-const THROUGH: f64 = -0.1;
 /// Iterations after which the highest frequency is known to a few per cent, from below.
 const ITERATIONS: usize = 60;
 /// Displacements over the extent of a body at which it responds linearly.

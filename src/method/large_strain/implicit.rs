@@ -210,7 +210,7 @@ impl ImplicitDynamics {
             Ok((u, trial))
         };
         match trial(step.dt) {
-            Err(Failure::Inverted { .. } | Failure::Mirrored { .. }) => trial(0.0),
+            Err(Failure::Inverted { .. }) => trial(0.0),
             other => other,
         }
     }

@@ -41,12 +41,15 @@ struct Step {
     flow: Option<Flow>,
 }
 
-/// Flow of a step, by its principal values.
+/// Flow of a step, by its principal values. N has no trace, so that two directions span it and its changes.
 struct Flow {
     logarithms: [f64; 3],
-    /// `s − √⅔ σ_y N/‖N‖` [Pa], and its derivative by N.
+    /// `s − √⅔ σ_y N/‖N‖` [Pa].
     residual: [f64; 3],
-    slope: Matrix3,
+    /// The direction of N, and the one across it.
+    directions: [[f64; 3]; 2],
+    /// Derivative of the residual by N along these [Pa]. Across a small N it is far larger than along it.
+    slope: [[f64; 2]; 2],
 }
 
 const THIRD: f64 = 1.0 / 3.0;
@@ -102,11 +105,12 @@ impl Plastic {
         let size = norm(stress);
         let alpha = before[Self::STRAIN];
         let [radius, rise] = self.yield_stress(alpha);
-        if size <= ROOT * radius {
+        let modulus = shear * THIRD * trial.iter().sum::<f64>();
+        // Beyond rounding: a point that begins a step on its yield surface is elastic where it unloads.
+        if size <= ROOT * radius + 2.0 * CONVERGED * modulus {
             return Step { axes, trial, shear, flow: None };
         }
         // The radial return of small strain.
-        let modulus = shear * THIRD * trial.iter().sum::<f64>();
         let first = (size - ROOT * radius) / (2.0 * modulus + 2.0 * THIRD * rise);
         let mut now = self.flow(shear, trial, alpha, stress.map(|own| first / size * own));
         for _ in 0..ITERATIONS {
@@ -138,15 +142,17 @@ impl Plastic {
         let [radius, rise] = self.yield_stress(alpha + ROOT * size);
         let stress = deviatoric(elastic);
         let residual = std::array::from_fn(|a| stress[a] - ROOT * radius * direction[a]);
-        let turning = ROOT * radius / size;
+        let [x, y, z] = direction.map(|own| own / 3.0_f64.sqrt());
+        let directions = [direction, [y - z, z - x, x - y]];
         let entry = |a: usize, b: usize| {
-            let along = direction[a] * direction[b];
-            // N has no trace: the mean of a residual is none of its changes.
-            let of_radius = turning * (IDENTITY[a][b] - along) + 2.0 * THIRD * rise * along;
-            -2.0 * elastic[b] * (IDENTITY[a][b] - THIRD) - of_radius - 2.0 * THIRD * shear
+            let pair = directions[a].iter().zip(directions[b]).zip(elastic);
+            -2.0 * pair.map(|((own, other), elastic)| own * other * elastic).sum::<f64>()
         };
-        let slope = std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)));
-        Flow { logarithms, residual, slope }
+        let slope = [
+            [entry(0, 0) - 2.0 * THIRD * rise, entry(0, 1)],
+            [entry(1, 0), entry(1, 1) - ROOT * radius / size],
+        ];
+        Flow { logarithms, residual, directions, slope }
     }
 
     pub fn respond(&self, shear: f64, at: &Deformed, history: &mut [f64]) -> Isochoric {
@@ -194,10 +200,21 @@ impl Plastic {
 }
 
 impl Flow {
+    /// Change of N for a change of the residual, whose trace does not count.
+    fn change(&self, residual: [f64; 3]) -> [f64; 3] {
+        let [first, second] = self
+            .directions
+            .map(|own| own.iter().zip(residual).map(|(own, residual)| own * residual).sum::<f64>());
+        let [[a, b], [c, d]] = self.slope;
+        let determinant = a * d - b * c;
+        let parts =
+            [(d * first - b * second) / determinant, (a * second - c * first) / determinant];
+        std::array::from_fn(|i| parts[0] * self.directions[0][i] + parts[1] * self.directions[1][i])
+    }
+
     /// Change of N by which Newton's method improves it.
     fn improvement(&self) -> [f64; 3] {
-        let (inverse, _) = inverse(&self.slope);
-        std::array::from_fn(|a| -(0..3).map(|b| inverse[a][b] * self.residual[b]).sum::<f64>())
+        self.change(self.residual.map(|own| -own))
     }
 }
 
@@ -215,16 +232,14 @@ impl Step {
     /// Derivatives of the principal values of b̄ by those of `b̄_tr`.
     fn slopes(&self) -> Matrix3 {
         let Some(flow) = &self.flow else { return IDENTITY };
-        // The residual stays zero: ∂r/∂N · δN = −∂r/∂b̄_tr · δb̄_tr.
         let decay = flow.logarithms.map(|own| (-2.0 * own).exp());
-        let (inverse, _) = inverse(&flow.slope);
         let elastic = self.elastic();
-        let by_trial = |a: usize, b: usize| -> f64 {
-            (0..3).map(|c| inverse[a][c] * (IDENTITY[c][b] - THIRD)).sum::<f64>() * decay[b]
-        };
-        let entry = |a: usize, b: usize| {
-            decay[a] * IDENTITY[a][b] + 2.0 * elastic[a] * by_trial(a, b) * self.shear
-        };
+        // The residual stays zero: ∂r/∂N · δN = −∂r/∂b̄_tr · δb̄_tr.
+        let by_trial: [[f64; 3]; 3] = std::array::from_fn(|b| {
+            flow.change(std::array::from_fn(|a| self.shear * decay[b] * IDENTITY[a][b]))
+        });
+        let entry =
+            |a: usize, b: usize| decay[a] * IDENTITY[a][b] + 2.0 * elastic[a] * by_trial[b][a];
         std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)))
     }
 

@@ -130,6 +130,41 @@ fn metals_end_on_their_yield_surface_and_dissipate() {
     assert!(energy < 3.0 * elastic && work > 2.0 * energy, "{energy} {work}");
 }
 
+/// A flow of any size has the tangent of its direction, down to that of rounding.
+#[test]
+fn points_that_hardly_flow_have_a_tangent() {
+    let metal = Plastic {
+        yield_stress: 0.004,
+        hardening: 0.01,
+        saturation: 0.006,
+        rate: 17.0,
+        kinematic: 0.0,
+    };
+    let law = LargeStrainLaw { bulk: 2.0, shear: 1.0, deviator: Deviator::Plastic(metal) };
+    let sheared =
+        |by: f64| [[1.0 + 0.3 * by, by, 0.0], [0.0, 1.0 - 0.2 * by, 0.1 * by], [0.0, 0.0, 1.0]];
+    let flows = |by: f64| {
+        let mut history = vec![0.0; law.history()];
+        law.respond(&Deformed::of(sheared(by)), 0.0, &mut history);
+        history[Plastic::STRAIN] > 0.0
+    };
+    let [mut low, mut high] = [0.0, 0.1];
+    while high - low > f64::EPSILON * high {
+        let middle = 0.5 * (low + high);
+        if flows(middle) { high = middle } else { low = middle }
+    }
+    let none = vec![0.0; law.history()];
+    let tangent =
+        |more: f64| law.tangent(&Deformed::of(sheared(high * (1.0 + more))), 0.0, &none, 0.0);
+    let wanted = tangent(1e-6);
+    for more in [0.0, 1e-14, 1e-12, 1e-10, 1e-8] {
+        let found = tangent(more);
+        for (own, other) in found.as_flattened().iter().zip(wanted.as_flattened()) {
+            assert!((own - other).abs() < 1e-4, "{more:e}: {own} {other}");
+        }
+    }
+}
+
 fn full_of(history: &[f64]) -> Matrix3 {
     crate::math::matrix3::full(std::array::from_fn(|n| history[n]))
 }
