@@ -13,7 +13,9 @@
 //! and its tangent is symmetric. With kinematic hardening a step is that of [`kinematic`].
 
 use super::{Deformed, Isochoric, Tangent, kinematic};
-use crate::math::matrix3::{IDENTITY, Matrix3, eigen, full, inverse, packed, product, transposed};
+use crate::math::matrix3::{
+    IDENTITY, Matrix3, contraction, eigen, full, inverse, packed, product, transposed,
+};
 
 /// Yield stress over the equivalent plastic strain, and the modulus of the back stress.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,15 +32,14 @@ pub struct Plastic {
     pub kinematic: f64,
 }
 
-/// A step of a point, in the axes of `b̄_tr`.
+/// A step of a point that flows, in the axes of `b̄_tr`.
 struct Step {
     /// Axes as columns, and the principal values of `b̄_tr`.
     axes: Matrix3,
     trial: [f64; 3],
     /// µ [Pa].
     shear: f64,
-    /// Principal values of N; `None` without flow.
-    flow: Option<Flow>,
+    flow: Flow,
 }
 
 /// Flow of a step, by its principal values. N has no trace, so that two directions span it and its changes.
@@ -59,7 +60,7 @@ const ITERATIONS: usize = 60;
 /// Halvings of an iteration, after which the residual falls no more.
 const HALVINGS: usize = 12;
 /// Residual over the modulus at which N has converged.
-const CONVERGED: f64 = 4.0 * f64::EPSILON;
+const CONVERGED: f64 = 16.0 * f64::EPSILON;
 /// Difference of principal values, relative to the largest, below which they count as equal.
 const EQUAL: f64 = 1e-7;
 
@@ -99,17 +100,19 @@ impl Plastic {
         std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)))
     }
 
-    fn step(&self, shear: f64, trial: &Matrix3, before: &[f64]) -> Step {
-        let (trial, axes) = eigen(trial);
-        let stress = deviatoric(trial.map(|value| shear * value));
-        let size = norm(stress);
+    /// Returns `None` for a point that stays elastic.
+    fn step(&self, shear: f64, trial: &Matrix3, before: &[f64]) -> Option<Step> {
+        let stress = deviator(&trial.map(|row| row.map(|value| shear * value)));
+        let size = contraction(&stress, &stress).sqrt();
+        let modulus = shear * THIRD * trace(trial);
         let alpha = before[Self::STRAIN];
         let [radius, rise] = self.yield_stress(alpha);
-        let modulus = shear * THIRD * trial.iter().sum::<f64>();
         // Beyond rounding: a point that begins a step on its yield surface is elastic where it unloads.
         if size <= ROOT * radius + 2.0 * CONVERGED * modulus {
-            return Step { axes, trial, shear, flow: None };
+            return None;
         }
+        let (trial, axes) = eigen(trial);
+        let stress = deviatoric(trial.map(|value| shear * value));
         // The radial return of small strain.
         let first = (size - ROOT * radius) / (2.0 * modulus + 2.0 * THIRD * rise);
         let mut now = self.flow(shear, trial, alpha, stress.map(|own| first / size * own));
@@ -130,7 +133,7 @@ impl Plastic {
             };
             now = next;
         }
-        Step { axes, trial, shear, flow: Some(now) }
+        Some(Step { axes, trial, shear, flow: now })
     }
 
     /// Residual at an N, from an α.
@@ -162,15 +165,15 @@ impl Plastic {
         let trial = elastic(at, &unpacked(history));
         let stiffness = 4.0 * THIRD * (shear * THIRD * trace(&trial)).max(shear);
         let step = self.step(shear, &trial, history);
-        let b = match &step.flow {
+        let b = match step {
             None => trial,
-            Some(flow) => {
+            Some(step) => {
                 let b = turned(&step.axes, step.elastic());
                 let back = transposed(&at.inverse_transposed);
                 let j = at.dilatation.powf(2.0 * THIRD);
                 let plastic = product(&product(&back, &b), &at.inverse_transposed);
                 pack(&plastic.map(|row| row.map(|value| j * value)), history);
-                history[Self::STRAIN] += ROOT * norm(flow.logarithms);
+                history[Self::STRAIN] += ROOT * norm(step.flow.logarithms);
                 b
             }
         };
@@ -189,13 +192,14 @@ impl Plastic {
         let plastic = unpacked(before);
         let trial = elastic(at, &plastic);
         let step = self.step(shear, &trial, before);
-        let kept = turned(&step.axes, deviatoric(step.elastic().map(|own| shear * own)));
+        let scaled = |m: &Matrix3| deviator(&m.map(|row| row.map(|value| shear * value)));
         let changes = Changes::new(at, &plastic, &trial);
+        let Some(step) = step else {
+            return of_kirchhoff(at, &scaled(&trial), |k, l| scaled(&changes.of(k, l)));
+        };
+        let kept = scaled(&turned(&step.axes, step.elastic()));
         let slopes = step.slopes();
-        of_kirchhoff(at, &kept, |k, l| {
-            let change = step.change(&slopes, &changes.of(k, l));
-            deviator(&change.map(|row| row.map(|value| shear * value)))
-        })
+        of_kirchhoff(at, &kept, |k, l| scaled(&step.change(&slopes, &changes.of(k, l))))
     }
 }
 
@@ -221,22 +225,16 @@ impl Flow {
 impl Step {
     /// Principal values of b̄ after the step.
     fn elastic(&self) -> [f64; 3] {
-        match &self.flow {
-            None => self.trial,
-            Some(Flow { logarithms, .. }) => {
-                std::array::from_fn(|a| self.trial[a] * (-2.0 * logarithms[a]).exp())
-            }
-        }
+        std::array::from_fn(|a| self.trial[a] * (-2.0 * self.flow.logarithms[a]).exp())
     }
 
     /// Derivatives of the principal values of b̄ by those of `b̄_tr`.
     fn slopes(&self) -> Matrix3 {
-        let Some(flow) = &self.flow else { return IDENTITY };
-        let decay = flow.logarithms.map(|own| (-2.0 * own).exp());
+        let decay = self.flow.logarithms.map(|own| (-2.0 * own).exp());
         let elastic = self.elastic();
         // The residual stays zero: ∂r/∂N · δN = −∂r/∂b̄_tr · δb̄_tr.
         let by_trial: [[f64; 3]; 3] = std::array::from_fn(|b| {
-            flow.change(std::array::from_fn(|a| self.shear * decay[b] * IDENTITY[a][b]))
+            self.flow.change(std::array::from_fn(|a| self.shear * decay[b] * IDENTITY[a][b]))
         });
         let entry =
             |a: usize, b: usize| decay[a] * IDENTITY[a][b] + 2.0 * elastic[a] * by_trial[b][a];
@@ -245,9 +243,6 @@ impl Step {
 
     /// Change of b̄ for a change of `b̄_tr`.
     fn change(&self, slopes: &Matrix3, change: &Matrix3) -> Matrix3 {
-        if self.flow.is_none() {
-            return *change;
-        }
         let own = product(&product(&transposed(&self.axes), change), &self.axes);
         let elastic = self.elastic();
         let largest = self.trial.iter().copied().fold(0.0, f64::max);
