@@ -190,7 +190,7 @@ pub static VAPOUR_DIFFUSIVITY: Range<'static> = Range {
 pub static YOUNG: Range<'static> = Range {
     what: "Young's modulus",
     unit: "Pa",
-    lowest: 100.0,   // soft hydrogels, brain tissue 1e3
+    lowest: 700.0,   // soft hydrogels, brain tissue 1e3; metals in GPa are less
     highest: 1.4e12, // diamond 1.2e12
     mistakes: Cow::Borrowed(&[scaled("GPa", 1e9), scaled("MPa", 1e6)]),
 };

@@ -201,7 +201,7 @@ fn a_warning_names_file_line_key_value_range_and_what_was_meant() {
     assert_eq!(
         warnings(&text),
         [
-            "scene.toml:7: body.plate.material.young = 300.0: Young's modulus is plausible from 5000 to \
+            "scene.toml:7: body.plate.material.young = 300.0: Young's modulus is plausible from 700 to \
           1.4e12 Pa; did you mean 3e11 (300 GPa)? [wrong_unit]"
         ]
     );
