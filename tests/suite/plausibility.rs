@@ -152,10 +152,13 @@ fn solids_with_constants_in_wrong_units_are_warned_of() {
             SolidRow::from((name, density, 1e-3 * specific_heat, row.3, young, row.5, expansion)),
             "specific_heat",
         );
-        said(
-            SolidRow::from((name, density, row.2, row.3, 1e-9 * young, row.5, expansion)),
-            "young",
-        );
+        // Diamond in GPa would pass for a gel.
+        if young < 1e12 {
+            said(
+                SolidRow::from((name, density, row.2, row.3, 1e-9 * young, row.5, expansion)),
+                "young",
+            );
+        }
         if expansion.abs() >= 1.1e-6 {
             let written = 1e6 * expansion;
             said((name, density, row.2, row.3, young, row.5, written), "expansion");
