@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::mirrors::fixed;
 use super::{Course, Courses, Failure};
 use crate::laws::solid::large_strain::{Deformed, LargeStrainLaw};
 use crate::laws::solid::stress::von_mises;
@@ -21,7 +22,7 @@ pub struct Deformable {
     /// Axes along which each node is at rest: those that a model lacks, and normals of its planes of symmetry.
     pub fixed: Vec<[bool; 3]>,
     /// True for x and y if the body is one half, on the positive side, of what a plane of symmetry or an axis mirrors.
-    mirrored: [bool; 2],
+    pub(super) mirrored: [bool; 2],
     /// For each node its functions at all points.
     uses: Vec<Vec<Use>>,
     /// Number of threads of its loops.
@@ -339,20 +340,6 @@ impl Deformable {
         (points.concat(), dilatations)
     }
 
-    /// Refuses coefficients u of displacements that take a node through a plane of symmetry or an axis: two stretches that change their
-    /// signs leave the dilatation positive.
-    pub fn stay_beside_mirrors(&self, u: &[[f64; 3]]) -> Result<(), Failure> {
-        if self.mirrored == [false; 2] {
-            return Ok(());
-        }
-        let moved = self.displacements(u);
-        let is_through = |at: &[f64; 3], u: &[f64; 3]| {
-            (0..2).any(|a| self.mirrored[a] && at[a] > 0.0 && at[a] + u[a] < 0.0)
-        };
-        let through = self.space.nodes.iter().zip(&moved).find(|(at, u)| is_through(at, u));
-        through.map_or(Ok(()), |(&at, _)| Err(Failure::Mirrored { at }))
-    }
-
     /// Advances the history to displacements u at the end of a step, by the course of each group; returns the stresses
     /// there.
     pub fn respond(
@@ -597,11 +584,6 @@ fn lumped(space: &Space, layer_of_group: &[usize], of_layers: &[f64]) -> Vec<f64
         }
     }
     sums
-}
-
-fn fixed(form: Form, mirrored: [bool; 2], at: [f64; 3]) -> [bool; 3] {
-    let in_plane = |axis: usize| mirrored[axis] && at[axis] == 0.0;
-    [in_plane(0), form != Form::Solid || in_plane(1), false]
 }
 
 /// Iterations after which the highest frequency is known to a few per cent, from below.

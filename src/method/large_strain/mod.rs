@@ -17,6 +17,7 @@ mod heat;
 mod implicit;
 mod load;
 mod lower;
+mod mirrors;
 mod motion;
 mod newton;
 mod path;

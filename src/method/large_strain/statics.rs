@@ -1,5 +1,6 @@
 //! Equilibrium without inertia.
 
+use super::mirrors::stay_beside_mirrors;
 use super::newton::{self, Equations, Residual, sum};
 use super::path::Path;
 use super::tangent::{Factor, Linearised, Stiffness, Terms};
@@ -272,7 +273,7 @@ impl Equilibrium {
     fn at<'s>(&self, step: &Step<'s>, u: &[[f64; 3]]) -> Result<Trial<'s>, Failure> {
         let body = &self.body;
         step.allowance.spend(1.0, STEPS, WORK * body.space.volume.len())?;
-        body.stay_beside_mirrors(u)?;
+        stay_beside_mirrors(body, u)?;
         let mut history = step.from.history.clone();
         let stresses = body.respond(u, step.over, &mut history, step.team)?;
         let course = (step.over, &step.from.history[..]);
