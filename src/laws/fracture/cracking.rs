@@ -38,7 +38,7 @@ pub struct Cracking {
     /// Strength under uniaxial compression [Pa].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = positive("Pa", "the compressive strength")
-        .condition("with `split = \"star_convex\"`, and at least the tensile strength")
+        .condition("with `split = \"star_convex\"` of `at1`, and at least the tensile strength")
         .otherwise("from the split"))]
     pub compressive_strength: Option<f64>,
     /// Half the width of the range, over its middle, in which the energy of cracks is distributed evenly from element

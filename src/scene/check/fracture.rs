@@ -92,6 +92,13 @@ fn compression(checker: &mut Checker, path: &Path, cracking: &Cracking, solid: &
     if !checker.require(is_star_convex, &path, message, allowed) {
         return;
     }
+    // Damage changes the balance of pressure and shear, so that only a body that is elastic up to its strength has this one.
+    let message =
+        "damage of AT2 begins with the first load, and breaks the body before this strength";
+    let is_elastic = cracking.model == Dissipation::At1;
+    if !checker.require(is_elastic, &path, message, "`model = \"at1\"`, or another split") {
+        return;
+    }
     let tensile = solid.damage().map(|law| law.strength());
     if let Some(tensile) = tensile.filter(|tensile| own < *tensile) {
         let message = "the material is weaker under compression than under tension";
