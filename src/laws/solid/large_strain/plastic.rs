@@ -45,12 +45,23 @@ struct Step {
 /// Flow of a step, by its principal values. N has no trace, so that two directions span it and its changes.
 struct Flow {
     logarithms: [f64; 3],
+    /// Those of `e^(−2N)`.
+    decay: [f64; 3],
     /// `s − √⅔ σ_y N/‖N‖` [Pa].
     residual: [f64; 3],
     /// The direction of N, and the one across it.
     directions: [[f64; 3]; 2],
     /// Derivative of the residual by N along these [Pa]. Across a small N it is far larger than along it.
     slope: [[f64; 2]; 2],
+}
+
+/// Derivatives of b̄ by `b̄_tr` over a step, in common axes: of principal values, and of what is beside these.
+struct Slopes {
+    /// Axes as columns, and as rows.
+    axes: Matrix3,
+    transposed: Matrix3,
+    along: Matrix3,
+    across: Matrix3,
 }
 
 const THIRD: f64 = 1.0 / 3.0;
@@ -80,7 +91,10 @@ impl Plastic {
     /// σ_y and its slope at an α.
     pub(super) fn yield_stress(&self, alpha: f64) -> [f64; 2] {
         let Self { yield_stress, hardening, saturation, rate, .. } = *self;
-        let rest = (saturation - yield_stress) * (-rate * alpha).exp();
+        let rest = match saturation - yield_stress {
+            0.0 => 0.0,
+            range => range * (-rate * alpha).exp(),
+        };
         [saturation - rest + hardening * alpha, rate * rest + hardening]
     }
 
@@ -138,8 +152,8 @@ impl Plastic {
 
     /// Residual at an N, from an α.
     fn flow(&self, shear: f64, trial: [f64; 3], alpha: f64, logarithms: [f64; 3]) -> Flow {
-        let elastic: [f64; 3] =
-            std::array::from_fn(|a| shear * trial[a] * (-2.0 * logarithms[a]).exp());
+        let decay = logarithms.map(|own| (-2.0 * own).exp());
+        let elastic: [f64; 3] = std::array::from_fn(|a| shear * trial[a] * decay[a]);
         let size = norm(logarithms);
         let direction = logarithms.map(|own| own / size);
         let [radius, rise] = self.yield_stress(alpha + ROOT * size);
@@ -155,7 +169,7 @@ impl Plastic {
             [entry(0, 0) - 2.0 * THIRD * rise, entry(0, 1)],
             [entry(1, 0), entry(1, 1) - ROOT * radius / size],
         ];
-        Flow { logarithms, residual, directions, slope }
+        Flow { logarithms, decay, residual, directions, slope }
     }
 
     pub fn respond(&self, shear: f64, at: &Deformed, history: &mut [f64]) -> Isochoric {
@@ -199,7 +213,7 @@ impl Plastic {
         };
         let kept = scaled(&turned(&step.axes, step.elastic()));
         let slopes = step.slopes();
-        of_kirchhoff(at, &kept, |k, l| scaled(&step.change(&slopes, &changes.of(k, l))))
+        of_kirchhoff(at, &kept, |k, l| scaled(&slopes.of(&changes.of(k, l))))
     }
 }
 
@@ -225,41 +239,43 @@ impl Flow {
 impl Step {
     /// Principal values of b̄ after the step.
     fn elastic(&self) -> [f64; 3] {
-        std::array::from_fn(|a| self.trial[a] * (-2.0 * self.flow.logarithms[a]).exp())
+        std::array::from_fn(|a| self.trial[a] * self.flow.decay[a])
     }
 
-    /// Derivatives of the principal values of b̄ by those of `b̄_tr`.
-    fn slopes(&self) -> Matrix3 {
-        let decay = self.flow.logarithms.map(|own| (-2.0 * own).exp());
-        let elastic = self.elastic();
+    /// Change of b̄ by that of `b̄_tr`.
+    fn slopes(&self) -> Slopes {
+        let (decay, elastic) = (&self.flow.decay, self.elastic());
         // The residual stays zero: ∂r/∂N · δN = −∂r/∂b̄_tr · δb̄_tr.
-        let by_trial: [[f64; 3]; 3] = std::array::from_fn(|b| {
+        let by_trial: Matrix3 = std::array::from_fn(|b| {
             self.flow.change(std::array::from_fn(|a| self.shear * decay[b] * IDENTITY[a][b]))
         });
         let entry =
             |a: usize, b: usize| decay[a] * IDENTITY[a][b] + 2.0 * elastic[a] * by_trial[b][a];
-        std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)))
-    }
-
-    /// Change of b̄ for a change of `b̄_tr`.
-    fn change(&self, slopes: &Matrix3, change: &Matrix3) -> Matrix3 {
-        let own = product(&product(&transposed(&self.axes), change), &self.axes);
-        let elastic = self.elastic();
+        let along: Matrix3 = std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)));
         let largest = self.trial.iter().copied().fold(0.0, f64::max);
-        let entry = |a: usize, b: usize| {
-            if a == b {
-                return (0..3).map(|c| slopes[a][c] * own[c][c]).sum();
-            }
+        // An isotropic function turns with its argument.
+        let ratio = |a: usize, b: usize| {
             let apart = self.trial[a] - self.trial[b];
-            // An isotropic function turns with its argument.
-            let ratio = match apart.abs() > EQUAL * largest {
+            match apart.abs() > EQUAL * largest {
                 true => (elastic[a] - elastic[b]) / apart,
-                false => slopes[a][a] - slopes[a][b],
-            };
-            ratio * own[a][b]
+                false => along[a][a] - along[a][b],
+            }
+        };
+        let across = std::array::from_fn(|a| std::array::from_fn(|b| ratio(a, b)));
+        Slopes { axes: self.axes, transposed: transposed(&self.axes), along, across }
+    }
+}
+
+impl Slopes {
+    /// Change of b̄ for a change of `b̄_tr`.
+    fn of(&self, change: &Matrix3) -> Matrix3 {
+        let own = product(&product(&self.transposed, change), &self.axes);
+        let entry = |a: usize, b: usize| match a == b {
+            true => (0..3).map(|c| self.along[a][c] * own[c][c]).sum(),
+            false => self.across[a][b] * own[a][b],
         };
         let moved = std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)));
-        product(&product(&self.axes, &moved), &transposed(&self.axes))
+        product(&product(&self.axes, &moved), &self.transposed)
     }
 }
 
