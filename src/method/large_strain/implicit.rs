@@ -5,10 +5,10 @@
 //! exact derivative, which is not symmetric. Prescribed displacements are linear over a step; the velocity of their
 //! nodes is the mean one.
 
-use super::newton::{self, Equations, Residual, difference};
+use super::newton::{self, Equations, Residual, difference, sum};
 use super::path::{Path, gradients};
 use super::statics::{rounding, rounding_of_energy};
-use super::tangent::{Factor, Stiffness, Terms};
+use super::tangent::{Factor, Linearised, Stiffness, Terms};
 use super::{Course, Courses, Deformable, FaceLoad, Failure, LoadedFaces, Motion};
 use crate::math::matrix3::Matrix3;
 use crate::runtime::allowance::Allowance;
@@ -193,26 +193,73 @@ impl ImplicitDynamics {
         Ok(Stepped { residuals, reactions })
     }
 
-    /// First trial: all nodes keep their velocities, or stay where that turns the body inside out.
+    /// First trial: the body follows its held nodes and its momentum as if it were linear. Concrete keeps its velocities,
+    /// and a body that this turns inside out stays where it is.
     fn first<'s>(&'s self, step: &Step<'s>) -> Result<(Vec<[f64; 3]>, Trial<'s>), Failure> {
-        let trial = |dt: f64| {
-            let Motion { displacement, velocity, .. } = step.from;
-            let mut u: Vec<[f64; 3]> = displacement.clone();
-            for (node, held) in self.held.iter().enumerate() {
-                for a in 0..3 {
-                    u[node][a] = match held[a] {
-                        true => step.to.displacements[node][a],
-                        false => u[node][a] + dt * velocity[node][a],
-                    };
-                }
-            }
-            let trial = self.at(step, &u)?;
-            Ok((u, trial))
+        let from = &step.from.displacement;
+        let change = match self.body.has_concrete() {
+            true => self.flight(step),
+            false => self.follow(step)?,
         };
-        match trial(step.dt) {
-            Err(Failure::Inverted { .. }) => trial(0.0),
-            other => other,
+        let u = sum(from, &change);
+        match self.at(step, &u) {
+            Err(Failure::Inverted { .. }) => {
+                let u = sum(from, &self.jump(step));
+                let trial = self.at(step, &u)?;
+                Ok((u, trial))
+            }
+            trial => Ok((u, trial?)),
         }
+    }
+
+    /// Changes of prescribed displacements over a step; zero elsewhere.
+    fn jump(&self, step: &Step) -> Vec<[f64; 3]> {
+        let from = &step.from.displacement;
+        let of_node = |(node, held): (usize, &[bool; 3])| {
+            let way = |a: usize| step.to.displacements[node][a] - from[node][a];
+            [0, 1, 2].map(|a| if held[a] { way(a) } else { 0.0 })
+        };
+        self.held.iter().enumerate().map(of_node).collect()
+    }
+
+    /// The same, with nodes that keep their velocities.
+    fn flight(&self, step: &Step) -> Vec<[f64; 3]> {
+        let mut change = self.jump(step);
+        for (node, held) in self.held.iter().enumerate() {
+            for a in (0..3).filter(|&a| !held[a]) {
+                change[node][a] = step.dt * step.from.velocity[node][a];
+            }
+        }
+        change
+    }
+
+    /// Change in which held nodes move as prescribed and the others follow linearly, without flow. Where a step begins
+    /// the derivative of the mean stress is half that at its end.
+    fn follow(&self, step: &Step) -> Result<Vec<[f64; 3]>, Failure> {
+        let (body, from) = (&self.body, step.from);
+        let now = self.at(step, &from.displacement)?;
+        let course = (step.over, &from.history[..]);
+        let (deformations, dilatations) = body.deformations(&from.displacement, course, step.team);
+        let start =
+            Linearised { deformations, dilatations, before: &from.history, over: step.over };
+        let jump = self.jump(step);
+        let forces = start.forces(body, &jump, step.team);
+        let load: Vec<[f64; 3]> = now
+            .residual
+            .iter()
+            .zip(&forces)
+            .map(|(r, f)| [0, 1, 2].map(|a| 2.0 * r[a] + f[a]))
+            .collect();
+        let is_pressed = step.to.loads.iter().any(|load| load.pressure != 0.0);
+        let terms = Terms {
+            of_group: &|group| start.group_without_flow(body, group),
+            inertia: 4.0 / (step.dt * step.dt),
+            loads: &self.loaded.stiffness(body, &from.displacement, &step.to.loads, 1.0),
+            is_symmetric: body.has_symmetric_tangent() && !is_pressed,
+        };
+        let factor = self.stiffness.factor(body, &terms, step.team);
+        let factor = factor.map_err(|_| Failure::Singular)?;
+        Ok(sum(&self.stiffness.solve(&factor, &load), &jump))
     }
 
     fn factor(&self, step: &Step, u: &[[f64; 3]], now: &Trial) -> Result<Factor, Failure> {
