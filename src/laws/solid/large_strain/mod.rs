@@ -8,6 +8,7 @@
 
 pub mod concrete;
 mod deformed;
+mod isotropic;
 mod kinematic;
 mod plastic;
 mod relaxing;
@@ -162,11 +163,7 @@ impl LargeStrainLaw {
 
     /// `∂P/∂F` over a step from a history, at a pressure of the dilatation that stays the same.
     pub fn tangent(&self, at: &Deformed, dt: f64, before: &[f64], pressure: f64) -> Tangent {
-        let mut tangent = match &self.deviator {
-            Deviator::Relaxing(relaxing) => relaxing.tangent(self.shear, at, dt, before),
-            Deviator::Plastic(plastic) => plastic.tangent(self.shear, at, before),
-            Deviator::Concrete(concrete) => concrete.tangent([self.bulk, self.shear], at, before),
-        };
+        let mut tangent = self.tangent_of_deviator(at, dt, before);
         let (g, jp) = (&at.inverse_transposed, at.dilatation * pressure);
         for (row, line) in tangent.iter_mut().enumerate() {
             for (column, value) in line.iter_mut().enumerate() {
@@ -175,6 +172,24 @@ impl LargeStrainLaw {
             }
         }
         tangent
+    }
+
+    /// The same of the deviator.
+    fn tangent_of_deviator(&self, at: &Deformed, dt: f64, before: &[f64]) -> Tangent {
+        match &self.deviator {
+            Deviator::Relaxing(relaxing) => relaxing.tangent(self.shear, at, dt, before),
+            Deviator::Plastic(plastic) => plastic.tangent(self.shear, at, before),
+            Deviator::Concrete(concrete) => concrete.tangent([self.bulk, self.shear], at, before),
+        }
+    }
+
+    /// `P_aa` of the deviator and its derivative by `F_aa`, over a step from a history.
+    fn deviator_along(&self, a: usize, at: &Deformed, dt: f64, before: &[f64]) -> [f64; 2] {
+        if let Deviator::Plastic(plastic) = &self.deviator {
+            return plastic.along(self.shear, at, before, a);
+        }
+        let stress = self.respond(at, dt, &mut before.to_vec()).stress;
+        [stress[a][a], self.tangent_of_deviator(at, dt, before)[4 * a][4 * a]]
     }
 
     /// Bound on the modulus of compression in plane waves of the reference configuration [Pa]: along the axis of the

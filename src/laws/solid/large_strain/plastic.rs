@@ -12,6 +12,8 @@
 //! that is stored and dissipated, which is convex; so the step has one, the stress is the derivative of that energy by F,
 //! and its tangent is symmetric. With kinematic hardening a step is that of [`kinematic`].
 
+use super::isotropic::{Function, Isotropic};
+use super::relaxing::of_constant_carrier;
 use super::{Deformed, Isochoric, Tangent, kinematic};
 use crate::math::matrix3::{
     IDENTITY, Matrix3, contraction, eigen, full, inverse, packed, product, transposed,
@@ -55,15 +57,6 @@ struct Flow {
     slope: [[f64; 2]; 2],
 }
 
-/// Derivatives of b̄ by `b̄_tr` over a step, in common axes: of principal values, and of what is beside these.
-struct Slopes {
-    /// Axes as columns, and as rows.
-    axes: Matrix3,
-    transposed: Matrix3,
-    along: Matrix3,
-    across: Matrix3,
-}
-
 const THIRD: f64 = 1.0 / 3.0;
 /// `√⅔`
 pub(super) const ROOT: f64 = 0.816_496_580_927_726;
@@ -71,7 +64,7 @@ const ITERATIONS: usize = 60;
 /// Halvings of an iteration, after which the residual falls no more.
 const HALVINGS: usize = 12;
 /// Residual over the modulus at which N has converged.
-const CONVERGED: f64 = 16.0 * f64::EPSILON;
+const CONVERGED: f64 = 256.0 * f64::EPSILON;
 /// Difference of principal values, relative to the largest, below which they count as equal.
 const EQUAL: f64 = 1e-7;
 
@@ -204,17 +197,31 @@ impl Plastic {
             return kinematic::tangent(self, shear, at, before);
         }
         let plastic = unpacked(before);
-        let trial = elastic(at, &plastic);
-        let step = self.step(shear, &trial, before);
-        let scaled = |m: &Matrix3| deviator(&m.map(|row| row.map(|value| shear * value)));
-        let changes = Changes::new(at, &plastic, &trial);
-        let Some(step) = step else {
-            return of_kirchhoff(at, &scaled(&trial), |k, l| scaled(&changes.of(k, l)));
-        };
-        let kept = scaled(&turned(&step.axes, step.elastic()));
-        let slopes = step.slopes();
-        of_kirchhoff(at, &kept, |k, l| scaled(&slopes.of(&changes.of(k, l))))
+        match self.step(shear, &elastic(at, &plastic), before) {
+            Some(step) => Isotropic::new(shear, at, &step.function()).tangent(),
+            None => of_elastic(shear, at, &plastic),
+        }
     }
+
+    /// `P_aa` and `∂P_aa/∂F_aa` over a step from a history.
+    pub(super) fn along(&self, shear: f64, at: &Deformed, before: &[f64], a: usize) -> [f64; 2] {
+        let plastic = unpacked(before);
+        let trial = elastic(at, &plastic);
+        let step = if self.kinematic > 0.0 { None } else { self.step(shear, &trial, before) };
+        if let Some(step) = step {
+            let linear = Isotropic::new(shear, at, &step.function());
+            return [linear.stress()[a][a], linear.slope(a)];
+        }
+        let mut history = before.to_vec();
+        let stress = self.respond(shear, at, &mut history).stress[a][a];
+        [stress, self.tangent(shear, at, before)[4 * a][4 * a]]
+    }
+}
+
+/// ∂P/∂F at a constant C_p⁻¹.
+fn of_elastic(shear: f64, at: &Deformed, plastic: &Matrix3) -> Tangent {
+    let c = product(&transposed(&at.gradient), &at.gradient);
+    of_constant_carrier(at, &plastic.map(|row| row.map(|value| shear * value)), &c)
 }
 
 impl Flow {
@@ -242,8 +249,8 @@ impl Step {
         std::array::from_fn(|a| self.trial[a] * self.flow.decay[a])
     }
 
-    /// Change of b̄ by that of `b̄_tr`.
-    fn slopes(&self) -> Slopes {
+    /// b̄ as a function of `b̄_tr`.
+    fn function(&self) -> Function {
         let (decay, elastic) = (&self.flow.decay, self.elastic());
         // The residual stays zero: ∂r/∂N · δN = −∂r/∂b̄_tr · δb̄_tr.
         let by_trial: Matrix3 = std::array::from_fn(|b| {
@@ -262,20 +269,7 @@ impl Step {
             }
         };
         let across = std::array::from_fn(|a| std::array::from_fn(|b| ratio(a, b)));
-        Slopes { axes: self.axes, transposed: transposed(&self.axes), along, across }
-    }
-}
-
-impl Slopes {
-    /// Change of b̄ for a change of `b̄_tr`.
-    fn of(&self, change: &Matrix3) -> Matrix3 {
-        let own = product(&product(&self.transposed, change), &self.axes);
-        let entry = |a: usize, b: usize| match a == b {
-            true => (0..3).map(|c| self.along[a][c] * own[c][c]).sum(),
-            false => self.across[a][b] * own[a][b],
-        };
-        let moved = std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)));
-        product(&product(&self.axes, &moved), &self.transposed)
+        Function { axes: self.axes, trial: self.trial, elastic, along, across }
     }
 }
 

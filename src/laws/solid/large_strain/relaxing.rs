@@ -139,8 +139,8 @@ fn part(x: f64) -> f64 {
     if x == 0.0 { 1.0 } else { -(-x).exp_m1() / x }
 }
 
-/// `∂P/∂F` at constant Q.
-fn of_constant_carrier(at: &Deformed, q: &Matrix3, c: &Matrix3) -> Tangent {
+/// `∂P/∂F` of `P = J^(−2/3) [F Q − ⅓ (C : Q) F^(−T)]` at constant Q.
+pub(super) fn of_constant_carrier(at: &Deformed, q: &Matrix3, c: &Matrix3) -> Tangent {
     let j = at.dilatation.powf(-2.0 / 3.0);
     let g = &at.inverse_transposed;
     let along = product(&at.gradient, q);

@@ -50,11 +50,11 @@ impl LargeStrainLaw {
 
     /// P_yy and its derivative by F_yy.
     fn across(&self, at: &Deformed, dt: f64, before: &[f64]) -> [f64; 2] {
-        let mut history = before.to_vec();
-        let [pressure, _] = self.pressure(at.dilatation);
-        let own = self.respond(at, dt, &mut history).stress[1][1];
-        let stress = own + pressure * at.dilatation * at.inverse_transposed[1][1];
-        [stress, self.whole_tangent(at, dt, before)[ACROSS][ACROSS]]
+        let [stress, slope] = self.deviator_along(1, at, dt, before);
+        let [pressure, stiffness] = self.pressure(at.dilatation);
+        let cofactor = at.dilatation * at.inverse_transposed[1][1];
+        // A cofactor does not depend on its own entry.
+        [stress + pressure * cofactor, slope + stiffness * cofactor * cofactor]
     }
 
     /// ∂P/∂F of the whole stress, that of the point's own dilatation included.
