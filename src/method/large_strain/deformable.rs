@@ -79,6 +79,15 @@ struct Chunk<'a> {
     least: (f64, usize),
 }
 
+/// What is known of the stretch across a sheet.
+#[derive(Debug, Clone, Copy)]
+enum Sheet<'a> {
+    /// The history before the step.
+    From(&'a [f64]),
+    /// The stretch of each point of the body.
+    Known(&'a [f64]),
+}
+
 impl Deformable {
     /// Creates a body of one law with mirrors at x = 0 and y = 0, where these are planes of symmetry.
     pub fn new(
@@ -298,24 +307,27 @@ impl Deformable {
         f
     }
 
-    /// Elastic deformation of the points of a group over the thermal stretch of a step from a history, and its mean
-    /// dilatation.
+    /// Elastic deformation of the points of a group over the thermal stretch of a step, and its mean dilatation.
     fn group(
         &self,
         number: usize,
         u: &[[f64; 3]],
         over: Course,
-        before: &[f64],
+        sheet: Sheet,
     ) -> (Vec<Deformed>, f64) {
         let (points, volume) = (&self.space.groups[number], &self.space.volume);
         let Course { time, stretch, .. } = over;
         let elastic = |f: Matrix3| f.map(|row| row.map(|value| value / stretch));
         let at = |point| {
-            let gradient = elastic(self.gradient(volume, point, u));
-            match self.is_sheet {
-                true => self.law_of(number).thinned(gradient, time, before),
-                false => Deformed::of(gradient),
+            let mut gradient = elastic(self.gradient(volume, point, u));
+            match sheet {
+                _ if !self.is_sheet => {}
+                Sheet::Known(across) => gradient[1][1] = across[point] / stretch,
+                Sheet::From(before) => {
+                    return self.law_of(number).thinned(gradient, time, before);
+                }
             }
+            Deformed::of(gradient)
         };
         let all: Vec<Deformed> = points.clone().map(at).collect();
         let weights = &volume.weights[points.clone()];
@@ -333,8 +345,28 @@ impl Deformable {
         team: &Team,
     ) -> (Vec<Deformed>, Vec<f64>) {
         let of_group = |group: usize| {
-            self.group(group, u, over.at(self, group), &before[self.history_of(group)])
+            let before = &before[self.history_of(group)];
+            self.group(group, u, over.at(self, group), Sheet::From(before))
         };
+        self.of_groups(of_group, team)
+    }
+
+    /// The same where the stresses are known.
+    pub fn deformations_under(
+        &self,
+        u: &[[f64; 3]],
+        (over, stresses): (&Courses, &Stresses),
+        team: &Team,
+    ) -> (Vec<Deformed>, Vec<f64>) {
+        let across = Sheet::Known(&stresses.across);
+        self.of_groups(|group| self.group(group, u, over.at(self, group), across), team)
+    }
+
+    fn of_groups(
+        &self,
+        of_group: impl Fn(usize) -> (Vec<Deformed>, f64) + Sync,
+        team: &Team,
+    ) -> (Vec<Deformed>, Vec<f64>) {
         let all = team.map(self.space.groups.len(), of_group);
         let (points, dilatations): (Vec<_>, Vec<_>) = all.into_iter().unzip();
         (points.concat(), dilatations)
@@ -420,7 +452,7 @@ impl Deformable {
             let (group, law) = (&self.space.groups[number], self.law_of(number));
             let (length, modulus) = (law.history(), law.wave_modulus());
             let own = if self.is_sheet { &history[..length] } else { &[] };
-            let (deformed, mean) = self.group(number, u, course, own);
+            let (deformed, mean) = self.group(number, u, course, Sheet::From(own));
             let [pressure, _] = law.pressure(mean);
             let mut whole = 0.0;
             for (point, at) in group.clone().zip(&deformed) {

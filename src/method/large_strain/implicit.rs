@@ -6,7 +6,7 @@
 //! nodes is the mean one.
 
 use super::newton::{self, Equations, Residual, difference, sum};
-use super::path::{Path, gradients};
+use super::path::{Path, Stations, gradients};
 use super::statics::{rounding, rounding_of_energy};
 use super::tangent::{Factor, Linearised, Stiffness, Terms};
 use super::{Course, Courses, Deformable, FaceLoad, Failure, LoadedFaces, Motion};
@@ -70,6 +70,7 @@ struct Step<'a> {
 /// A trial of displacements at the end of a step.
 struct Trial<'a> {
     path: Path<'a>,
+    stations: Vec<Stations>,
     /// Forces of the stresses and of the loads on all nodes [N].
     internal: Vec<[f64; 3]>,
     loads: Vec<[f64; 3]>,
@@ -265,7 +266,7 @@ impl ImplicitDynamics {
     fn factor(&self, step: &Step, u: &[[f64; 3]], now: &Trial) -> Result<Factor, Failure> {
         let middle = middle(&step.from.displacement, u);
         let terms = Terms {
-            of_group: &|group| now.path.tangent(group),
+            of_group: &|group| now.path.tangent(group, &now.stations[group]),
             inertia: 2.0 / (step.dt * step.dt),
             loads: &self.loaded.stiffness(&self.body, &middle, &step.to.loads, 0.5),
             is_symmetric: false,
@@ -278,7 +279,8 @@ impl ImplicitDynamics {
         step.allowance.spend(1.0, IMPLICIT_STEPS, IMPLICIT_WORK * body.space.volume.len())?;
         let end = gradients(body, u, step.team)?;
         let path = Path { body, start: step.start, end, before: &from.history, over: step.over };
-        let internal = body.forces_of(&path.loads(step.team), step.team);
+        let stations = path.stations(step.team);
+        let internal = body.forces_of(&path.loads(&stations, step.team), step.team);
         let mut loads = vec![[0.0; 3]; u.len()];
         let middle = middle(&from.displacement, u);
         self.loaded.add_forces(body, &middle, &step.to.loads, &mut loads);
@@ -304,7 +306,7 @@ impl ImplicitDynamics {
         }
         let scale = scale.sqrt().max(f64::MIN_POSITIVE);
         let rounding = self.rounding + ROUNDING * 2.0 / (dt * dt) * size.sqrt();
-        Ok(Trial { path, internal, loads, residual, norm: norm.sqrt(), scale, rounding })
+        Ok(Trial { path, stations, internal, loads, residual, norm: norm.sqrt(), scale, rounding })
     }
 
     /// Ends a step with displacements u; returns the forces of held nodes.

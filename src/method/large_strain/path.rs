@@ -29,8 +29,11 @@ pub struct Path<'a> {
 const STATIONS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 const WEIGHT: f64 = 0.5;
 
+/// A group of points at both places of the path.
+pub type Stations = [Station; 2];
+
 /// A group of points at a place of the path.
-struct Station {
+pub struct Station {
     /// Upper triangles U with `UᵀU = C`, which have the stress S of every other F of that C.
     deformed: Vec<Deformed>,
     /// Pressure of the dilatation that the points share, and its slope [Pa].
@@ -56,14 +59,19 @@ pub fn gradients(body: &Deformable, u: &[[f64; 3]], team: &Team) -> Result<Vec<M
 }
 
 impl Path<'_> {
+    /// The places of each group on the path.
+    pub fn stations(&self, team: &Team) -> Vec<Stations> {
+        let of_group = |group: usize| STATIONS.map(|s| self.station(group, s));
+        team.map(self.body.space.groups.len(), of_group)
+    }
+
     /// Volume times P of each point [N m].
-    pub fn loads(&self, team: &Team) -> Vec<Matrix3> {
+    pub fn loads(&self, stations: &[Stations], team: &Team) -> Vec<Matrix3> {
         let groups = &self.body.space.groups;
         let of_group = |group: usize| {
-            let stations = STATIONS.map(|s| self.station(group, s));
             let weights = &self.body.space.volume.weights;
             let of_point = |(place, point): (usize, usize)| {
-                let mean = self.mean(&stations, place);
+                let mean = self.mean(&stations[group], place);
                 let load = product(&self.middle(point), &mean);
                 load.map(|row| row.map(|p| weights[point] * p))
             };
@@ -117,16 +125,15 @@ impl Path<'_> {
     }
 
     /// Derivatives of P of a group by F₁.
-    pub fn tangent(&self, group: usize) -> GroupTangent {
+    pub fn tangent(&self, group: usize, stations: &Stations) -> GroupTangent {
         let body = self.body;
         let (law, duration) = (body.law_of(group), self.over.at(body, group).time);
         let (length, history) = (law.history(), &self.before[body.history_of(group)]);
         let points = body.space.groups[group].clone();
-        let stations = STATIONS.map(|s| self.station(group, s));
         let of_point = |(place, point): (usize, usize)| {
             let before = &history[length * place..length * (place + 1)];
             let (end, middle) = (&self.end[point], self.middle(point));
-            let mean = self.mean(&stations, place);
+            let mean = self.mean(stations, place);
             let laws = [0, 1].map(|n| {
                 let Station { deformed, pressure: [pressure, _], .. } = &stations[n];
                 let (at, time) = (&deformed[place], STATIONS[n] * duration);
@@ -144,7 +151,7 @@ impl Path<'_> {
                     squeeze[b][l] += end[k][b];
                 }
                 let mut change = [[0.0; 3]; 3];
-                for ((s, station), law) in STATIONS.iter().zip(&stations).zip(&laws) {
+                for ((s, station), law) in STATIONS.iter().zip(stations).zip(&laws) {
                     let (at, stress) = (&station.deformed[place], &station.stresses[place]);
                     add(&mut change, WEIGHT, &turn(at, stress, law, *s, &squeeze));
                 }
@@ -244,7 +251,7 @@ impl Path<'_> {
     }
 
     /// Mean of S over the path.
-    fn mean(&self, stations: &[Station; 2], place: usize) -> Matrix3 {
+    fn mean(&self, stations: &Stations, place: usize) -> Matrix3 {
         let mut mean = [[0.0; 3]; 3];
         stations.iter().for_each(|station| add(&mut mean, WEIGHT, &station.stresses[place]));
         mean

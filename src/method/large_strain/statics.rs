@@ -276,8 +276,8 @@ impl Equilibrium {
         stay_beside_mirrors(body, u)?;
         let mut history = step.from.history.clone();
         let stresses = body.respond(u, step.over, &mut history, step.team)?;
-        let course = (step.over, &step.from.history[..]);
-        let (deformations, dilatations) = body.deformations(u, course, step.team);
+        let (deformations, dilatations) =
+            body.deformations_under(u, (step.over, &stresses), step.team);
         let internal = body.forces(&stresses, step.team);
         let mut external = step.to.forces.clone();
         self.loaded.add_forces(body, u, &step.to.loads, &mut external);
