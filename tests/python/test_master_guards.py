@@ -383,3 +383,10 @@ def test_values_that_are_not_finite_end_a_run(folder):
     with Master(stores(folder, 10.0), PAIR, scheme="jacobi", step=1e3) as master:
         with pytest.raises(MasterError, match="are not finite"):
             master.run(3e5)
+
+
+def test_errors_that_follow_a_jump_are_told_of_with_graded_steps(folder):
+    """A change of which each step leaves a half has most of its error in the first ones."""
+    with pytest.warns(MasterWarning, match="right after the start or a jump.*Graded\\(0.3, 4\\)"):
+        with Master(stores(folder, 1.0), PAIR, scheme="jacobi", step=0.3) as master:
+            master.run(20.0)

@@ -104,8 +104,7 @@ impl Run {
 
     /// Volume of what is liquid, over the area of a slab: depth [m].
     fn liquid(&self) -> f64 {
-        let fractions = self.heat.liquid_fractions(&self.state);
-        fractions.iter().zip(self.heat.volumes()).map(|(f, v)| f * v).sum()
+        self.heat.liquid(&self.state).iter().map(|[volume, part]| volume * part).sum()
     }
 }
 

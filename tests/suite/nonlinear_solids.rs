@@ -537,3 +537,33 @@ fn fronts_keep_the_tolerance_or_say_what_they_err_by() {
     let (_, told) = run(coarse, 5e-3, melting);
     assert!(told[0].contains("times as many elements where the front stands"), "{told:?}");
 }
+
+#[test]
+fn the_liquid_volume_of_layers_is_that_of_those_that_melt() {
+    let layer = |thickness: f64, melting: &str| {
+        format!(
+            "[[body.plate.layers]]\nthickness = {thickness:e}\nmaterial = {{ model = \"thermoelastic\", \
+             density = 2700.0, specific_heat = 900.0, conductivity = 200.0{melting} }}\n"
+        )
+    };
+    let [melts, stays] =
+        [", melting = { solidus = 900.0, liquidus = 930.0, latent_heat = 4e5 }", ""];
+    for layers in [
+        vec![(2e-5, melts), (5.98e-3, stays)],
+        vec![(2e-3, stays), (2e-5, melts), (1e-3, stays)],
+        vec![(3e-3, melts), (3e-3, melts)],
+    ] {
+        let all: String = layers.iter().map(|(own, melting)| layer(*own, melting)).collect();
+        let text = format!(
+            "name = \"Body\"\nstop_time = 1.0\nstep = 0.1\n[body.plate]\nkind = \"solid\"\n\
+             shape = {{ disc = {{ radius = 1e-2, thickness = {:e} }} }}\ninitial_temperature = 1000.0\n\
+             faces.top.flux = 0.0\n{all}",
+            layers.iter().map(|(own, _)| own).sum::<f64>()
+        );
+        let mut trial = Trial::new(&text);
+        trial.step(1.0);
+        let depth: f64 = layers.iter().filter(|(_, own)| *own == melts).map(|(own, _)| own).sum();
+        let wanted = std::f64::consts::PI * 1e-4 * depth;
+        assert!(off(trial.get("plate.liquid_volume"), wanted) < 1e-9, "{layers:?}");
+    }
+}

@@ -245,7 +245,7 @@ class March:
         order = self.engine.extrapolation if guessed else self.engine.order
         step = self.schedule.step
         for kind, text in (
-            ("steps", self.watch.warning(step, order)),
+            ("steps", self.watch.warning(step, order, self.schedule.graded is not None)),
             ("energy", self.watch.warning_of_energy(self.powers, step, order)),
             ("few", self.watch.warning_of_few(self.steps)),
         ):

@@ -18,6 +18,7 @@ _FEWEST = 3  # steps that say something
 _NOISE = 1e-9  # of magnitudes: what rings at rest show; or iterations leave, times their tolerance
 _LEFT = 10
 _SETTLED = (0.1, 1e-3)  # factors of what is at rest after one iterated step: held paths, others
+_EARLY = 5  # steps after a jump, or the start, that follow it
 _CALM = 1 / 3  # change of a step that is known to be within `MOST`, of what is left of a change
 
 
@@ -38,6 +39,8 @@ class Course:
     high: np.ndarray
     first: float = 0.0
     second: float = 0.0
+    early: float = 0.0
+    since_jump: int = 0
     steps: int = 0
     last: float = 0.0
     change: np.ndarray | None = None
@@ -69,9 +72,15 @@ class Course:
     def factor(self) -> float:
         return self.like / self.square if self.square else 0.0
 
+    @property
+    def follows_jumps(self) -> bool:
+        """Whether most of the error is of the steps after the start and jumps."""
+        return self.steps > 2 * _EARLY and self.early > 0.5 * self.second
+
     def forget_change(self) -> None:
         """Called after a jump: changes across it say nothing of the ring."""
         self.change = None
+        self.since_jump = 0
 
     def add(self, before: np.ndarray, after: np.ndarray, error: np.ndarray | None) -> None:
         """A step that was accepted: all inputs at its ends, and how far the link's path was off."""
@@ -86,6 +95,9 @@ class Course:
             if error is not None:
                 self.first += float(error.sum())
                 self.second += float(error @ error)
+                if self.since_jump < _EARLY:
+                    self.early += float(error @ error)
+                self.since_jump += 1
                 self.last = float(error.max(initial=0.0))
                 self.steps += 1
         self.change = change
@@ -137,10 +149,11 @@ class Watch:
         worst = self.worst
         return 0.0 if worst is None else worst.error
 
-    def warning(self, step: float, order: int) -> str:
-        """What to say of steps that are too long, with one that would do; nothing if they are not.
+    def warning(self, step: float, order: int, is_graded: bool = False) -> str:
+        """What to say of steps that are too long, with what would do; nothing if they are not.
 
-        order: degree of the paths, whose error grows as its successor.
+        order: degree of the paths, whose error grows as its successor. After a jump it does not,
+        and steps that are shorter there alone do more (`is_graded`: they already are).
         """
         worst = self.worst
         if worst is None or worst.error <= MOST:
@@ -160,12 +173,18 @@ class Watch:
         wanted = f"steps of {_rounded(step * share)} s or less"
         if self._scheme != "iterate":
             wanted += ', or scheme="iterate" with some between,'
+        after_jumps = ""
+        if worst.follows_jumps and not is_graded:
+            after_jumps = (
+                "; most of it comes right after the start or a jump, where it may fall more slowly"
+                f" than the step: graded=Graded({step:.3g}, 4) takes shorter steps there alone"
+            )
         link = worst.link.connection
         return (
             f"{link.source} -> {link.target}: what is passed on over steps of {step:.6g} s is off"
             f" by {100 * worst.error:.0f} % of its range on its way, above {100 * MOST:.0f} %, and"
             f" by {100 * worst.last / worst.range:.2g} % in the last step; {shown}; {wanted} are"
-            " needed"
+            f" needed{after_jumps}"
         )
 
     def warning_of_energy(self, balances: Sequence[Balance], step: float, order: int) -> str:

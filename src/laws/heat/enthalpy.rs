@@ -1,6 +1,7 @@
 //! Enthalpy as a function of temperature, and its inverse.
 
 use super::conduction::Conduction;
+use super::melting::Melting;
 
 /// Volumetric enthalpy as an exact function of temperature, and its inverse: quadratic pieces, and jumps at isothermal
 /// melting.
@@ -12,7 +13,6 @@ use super::conduction::Conduction;
 pub struct Enthalpy {
     /// The first piece extends down, the last one up, without limit.
     pieces: Vec<Piece>,
-    latent: f64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,9 +25,11 @@ struct Piece {
     capacity: f64,
     /// `d²H/dT²` [J/(m³ K²)]
     slope: f64,
-    /// Latent part of the enthalpy there [J/m³], and its derivative with respect to temperature [J/(m³ K)].
-    latent: f64,
+    /// Derivative of the latent part of the enthalpy by temperature [J/(m³ K)].
     latent_rate: f64,
+    /// Part of the volume that is liquid there, and its derivative by temperature [1/K], or by enthalpy [m³/J] in a jump.
+    liquid: f64,
+    liquid_rate: f64,
 }
 
 /// State at an enthalpy.
@@ -39,8 +41,8 @@ pub struct EnthalpyPoint {
     pub inverse_capacity: f64,
     /// `ρ c` without latent heat [J/(m³ K)].
     pub sensible: f64,
-    /// Latent part of the enthalpy [J/m³].
-    pub latent: f64,
+    /// Part of the volume that is liquid, of materials that melt.
+    pub liquid: f64,
 }
 
 impl Enthalpy {
@@ -56,39 +58,47 @@ impl Enthalpy {
             content: 0.0,
             capacity: capacities[0],
             slope: 0.0,
-            latent: 0.0,
             latent_rate: 0.0,
+            liquid: 0.0,
+            liquid_rate: 0.0,
         };
         let mut pieces = vec![below];
-        let (mut content, mut latent, mut base) = (0.0, 0.0, 0.0);
+        let (mut content, mut liquid, mut base) = (0.0, 0.0, 0.0);
         for (i, &rise) in knots.iter().enumerate() {
             if rise == 0.0 {
                 base = content;
             }
-            let jump = latent_jump(parts, rise, reference);
-            if jump > 0.0 {
-                let capacity = f64::INFINITY;
-                let slope = capacities[i];
-                pieces.push(Piece { rise, content, capacity, slope, latent, latent_rate: 0.0 });
-                content += jump;
-                latent += jump;
+            let jump = Melts::at(parts, rise, reference);
+            if jump.latent > 0.0 {
+                let liquid_rate = jump.part / jump.latent;
+                let (capacity, slope) = (f64::INFINITY, capacities[i]);
+                let latent_rate = 0.0;
+                pieces.push(Piece {
+                    rise,
+                    content,
+                    capacity,
+                    slope,
+                    latent_rate,
+                    liquid,
+                    liquid_rate,
+                });
+                content += jump.latent;
+                liquid += jump.part;
             }
             let (width, change) = match knots.get(i + 1) {
                 Some(next) => (next - rise, capacities[i + 1] - capacities[i]),
                 None => (1.0, 0.0),
             };
-            let latent_rate = latent_rate(parts, reference + rise + 0.5 * width);
+            let Melts { latent: latent_rate, part: liquid_rate } =
+                Melts::around(parts, reference + rise + 0.5 * width);
             let capacity = capacities[i] + latent_rate;
             let slope = change / width;
-            pieces.push(Piece { rise, content, capacity, slope, latent, latent_rate });
+            pieces.push(Piece { rise, content, capacity, slope, latent_rate, liquid, liquid_rate });
             content += width * (capacity + 0.5 * change);
-            latent += width * latent_rate;
+            liquid += width * liquid_rate;
         }
         pieces.iter_mut().for_each(|piece| piece.content -= base);
-        let melting = |(part, s): &(f64, &Conduction)| {
-            s.melting.map_or(0.0, |melting| part * s.density * melting.latent_heat)
-        };
-        Self { pieces, latent: parts.iter().map(melting).sum() }
+        Self { pieces }
     }
 
     /// Enthalpy [J/m³] at a temperature above the reference [K].
@@ -106,8 +116,8 @@ impl Enthalpy {
         let piece = &self.pieces[number];
         let above = content - piece.content;
         if piece.capacity.is_infinite() {
-            let (rise, latent) = (piece.rise, piece.latent + above);
-            return EnthalpyPoint { rise, inverse_capacity: 0.0, sensible: piece.slope, latent };
+            let (rise, liquid) = (piece.rise, piece.liquid + piece.liquid_rate * above);
+            return EnthalpyPoint { rise, inverse_capacity: 0.0, sensible: piece.slope, liquid };
         }
         let capacity = (piece.capacity * piece.capacity + 2.0 * piece.slope * above).sqrt();
         let along = 2.0 * above / (piece.capacity + capacity);
@@ -115,13 +125,13 @@ impl Enthalpy {
             rise: piece.rise + along,
             inverse_capacity: 1.0 / capacity,
             sensible: capacity - piece.latent_rate,
-            latent: piece.latent + piece.latent_rate * along,
+            liquid: piece.liquid + piece.liquid_rate * along,
         }
     }
 
-    /// Latent heat of all melting [J/m³].
-    pub fn latent(&self) -> f64 {
-        self.latent
+    /// Part of the volume that can melt.
+    pub fn melting_part(&self) -> f64 {
+        self.pieces.last().map_or(0.0, |piece| piece.liquid)
     }
 }
 
@@ -140,32 +150,56 @@ fn knots(parts: &[(f64, &Conduction)], reference: f64) -> Vec<f64> {
     knots
 }
 
-/// Latent heat of isothermal melting at one temperature [J/m³].
-fn latent_jump(parts: &[(f64, &Conduction)], rise: f64, reference: f64) -> f64 {
-    let melts = |(part, substance): &(f64, &Conduction)| {
-        let melting = substance.melting.filter(|m| m.is_isothermal())?;
-        (melting.solidus - reference == rise)
-            .then_some(part * substance.density * melting.latent_heat)
-    };
-    parts.iter().filter_map(melts).sum()
+/// What melts, at one temperature or by temperature around it.
+#[derive(Debug, Clone, Copy, Default)]
+struct Melts {
+    /// Latent heat [J/m³ or J/(m³ K)].
+    latent: f64,
+    /// Part of the volume [1 or 1/K].
+    part: f64,
 }
 
-/// Latent heat per temperature of melting over a range around one temperature [J/(m³ K)].
-fn latent_rate(parts: &[(f64, &Conduction)], temperature: f64) -> f64 {
-    let melts = |(part, substance): &(f64, &Conduction)| {
-        let melting = substance.melting.filter(|m| !m.is_isothermal())?;
-        let range = melting.liquidus - melting.solidus;
-        (melting.solidus < temperature && temperature < melting.liquidus)
-            .then_some(part * substance.density * melting.latent_heat / range)
-    };
-    parts.iter().filter_map(melts).sum()
+impl Melts {
+    /// Isothermal melting at a temperature above the reference.
+    fn at(parts: &[(f64, &Conduction)], rise: f64, reference: f64) -> Self {
+        let own = |melting: &Melting| {
+            let melts = melting.is_isothermal() && melting.solidus - reference == rise;
+            if melts { 1.0 } else { 0.0 }
+        };
+        Self::sum(parts, own)
+    }
+
+    /// Melting over a range around a temperature, by kelvin.
+    fn around(parts: &[(f64, &Conduction)], temperature: f64) -> Self {
+        let own = |melting: &Melting| match melting.is_isothermal() {
+            false if melting.solidus < temperature && temperature < melting.liquidus => {
+                1.0 / (melting.liquidus - melting.solidus)
+            }
+            _ => 0.0,
+        };
+        Self::sum(parts, own)
+    }
+
+    /// Sum over materials, of which a part melts.
+    fn sum(parts: &[(f64, &Conduction)], own: impl Fn(&Melting) -> f64) -> Self {
+        let mut sum = Self::default();
+        for (volume, substance) in parts {
+            let Some(melting) = substance.melting else { continue };
+            let part = volume * own(&melting);
+            sum.part += part;
+            sum.latent += part * substance.density * melting.latent_heat;
+        }
+        sum
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::melting::Melting;
     use super::*;
     use crate::laws::{Property, Table};
+
+    /// [J/m³]
+    const LATENT: f64 = 7800.0 * 2.6e5;
 
     fn alloy(solidus: f64, liquidus: f64) -> Conduction {
         let temperature = vec![300.0, 700.0, 900.0, 1500.0];
@@ -198,7 +232,7 @@ mod tests {
                     assert!((content - wanted).abs() < 1e-13 * 1e10, "{content} {wanted}");
                     let point = law.at(content);
                     assert!((point.rise - (t - reference)).abs() < 1e-10, "{t} {point:?}");
-                    assert!((point.latent / law.latent() - fraction(t)).abs() < 1e-12);
+                    assert!((point.liquid - fraction(t)).abs() < 1e-12);
                     let sensible = 7800.0 * substance.specific_heat.value(t);
                     assert!((point.sensible / sensible - 1.0).abs() < 1e-12);
                 }
@@ -221,14 +255,14 @@ mod tests {
         let law = alloy(900.0, 900.0).enthalpy(300.0);
         let solid = law.content(600.0);
         for part in [0.0, 0.3, 0.999] {
-            let point = law.at(solid + part * law.latent());
+            let point = law.at(solid + part * LATENT);
             assert_eq!((point.rise, point.inverse_capacity), (600.0, 0.0));
-            assert!((point.latent / law.latent() - part).abs() < 1e-14);
+            assert!((point.liquid - part).abs() < 1e-14);
         }
-        let liquid = law.at(solid + law.latent() * (1.0 + 1e-9));
+        let liquid = law.at(solid + LATENT * (1.0 + 1e-9));
         assert!(liquid.rise > 600.0 && liquid.inverse_capacity > 0.0);
         // A reference at the melting temperature is solid.
-        assert_eq!(alloy(900.0, 900.0).enthalpy(900.0).at(0.0).latent, 0.0);
+        assert_eq!(alloy(900.0, 900.0).enthalpy(900.0).at(0.0).liquid, 0.0);
     }
 
     #[test]
@@ -241,8 +275,26 @@ mod tests {
             let jumps = point.inverse_capacity == 0.0;
             let sum = 0.3 * laws[0].content(point.rise) + 0.7 * laws[1].content(point.rise);
             let excess = content - sum;
-            let most = if jumps { 0.3 * laws[0].latent() } else { 0.0 };
+            let most = if jumps { 0.3 * LATENT } else { 0.0 };
             assert!(excess > -1e-3 && excess < most + 1e-3, "{content} {excess}");
+            // Each is liquid by its own volume, not by its latent heat.
+            let ranged = ((400.0 + point.rise - 700.0) / 400.0).clamp(0.0, 1.0);
+            let rest = point.liquid - 0.7 * ranged;
+            let own = if point.rise > 500.0 { 0.3 } else { 0.0 };
+            let own = if jumps { excess / LATENT } else { own };
+            assert!((rest - own).abs() < 1e-9, "{content} {rest} {own}");
+        }
+    }
+
+    #[test]
+    fn the_liquid_part_of_a_mixture_is_that_of_what_melts() {
+        for (solidus, liquidus) in [(900.0, 900.0), (800.0, 1000.0)] {
+            let melting = alloy(solidus, liquidus);
+            let solid = Conduction { melting: None, ..melting.clone() };
+            let law = Enthalpy::of_mixture(&[(0.02, &melting), (0.98, &solid)], 300.0);
+            assert_eq!(law.at(law.content(450.0)).liquid, 0.0);
+            let liquid = law.at(law.content(900.0)).liquid;
+            assert!((liquid - 0.02).abs() < 1e-15, "{liquid}");
         }
     }
 }

@@ -186,18 +186,15 @@ impl EnthalpyHeat {
         self.each(state, |node, content| self.body.reference + self.body.law(node).at(content).rise)
     }
 
-    /// Liquid fraction of the melting material at a node; 0 where nothing melts.
-    pub fn liquid_fractions(&self, state: &[f64]) -> Vec<f64> {
-        self.each(state, |node, content| {
+    /// Volume at each node that can melt [m³], and the fraction of it that is liquid.
+    pub fn liquid(&self, state: &[f64]) -> Vec<[f64; 2]> {
+        let of_node = |(node, &content): (usize, &f64)| {
             let law = self.body.law(node);
-            let latent = law.latent();
-            if latent > 0.0 { (law.at(content).latent / latent).clamp(0.0, 1.0) } else { 0.0 }
-        })
-    }
-
-    /// Volume that each node of the mesh represents [m³].
-    pub fn volumes(&self) -> &[f64] {
-        &self.body.volumes
+            let part = law.melting_part();
+            let fraction = if part > 0.0 { law.at(content).liquid / part } else { 0.0 };
+            [part * self.body.volumes[node], fraction.clamp(0.0, 1.0)]
+        };
+        state[..self.nodes()].iter().enumerate().map(of_node).collect()
     }
 
     /// Heat stored since time zero [J].

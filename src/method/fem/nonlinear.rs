@@ -182,9 +182,8 @@ impl NonlinearHeat {
 
     /// Liquid volume [m³].
     pub fn liquid_volume(&self, state: &[f64], copies: f64) -> f64 {
-        let fractions = self.heat.liquid_fractions(self.of_enthalpy(state));
-        let parts = fractions.iter().zip(self.heat.volumes());
-        copies * parts.map(|(fraction, volume)| fraction * volume).sum::<f64>()
+        let of_nodes = self.heat.liquid(self.of_enthalpy(state));
+        copies * of_nodes.iter().map(|[volume, fraction]| volume * fraction).sum::<f64>()
     }
 
     /// Approximate scatter of the liquid volume about the exact value as fronts move from node to node [m³].
@@ -195,12 +194,9 @@ impl NonlinearHeat {
     /// different times cancel: with fractions f, `|Σ V e^{2πif}|` is the coherent part. In a body at its melting point,
     /// rounding melts traces everywhere, which are no front.
     pub fn liquid_scatter(&self, state: &[f64], copies: f64) -> f64 {
-        let fractions = self.heat.liquid_fractions(self.of_enthalpy(state));
-        let melting = fractions
-            .iter()
-            .zip(self.heat.volumes())
-            .filter(|(part, _)| **part > TRACE && **part < 1.0 - TRACE);
-        let sum = melting.fold([0.0; 2], |[re, im], (fraction, volume)| {
+        let of_nodes = self.heat.liquid(self.of_enthalpy(state));
+        let melting = of_nodes.iter().filter(|[_, part]| *part > TRACE && *part < 1.0 - TRACE);
+        let sum = melting.fold([0.0; 2], |[re, im], [volume, fraction]| {
             let (sin, cos) = (TAU * fraction).sin_cos();
             [re + volume * cos, im + volume * sin]
         });
