@@ -122,6 +122,12 @@ rules! {
      what presses it beyond these faces";
     "do not rely on `height`, nor on forces to some per cent; a finer mesh bulges more"
 
+    Step equilibrium_not_stable(time)
+    "the equilibrium at {time} s is not stable: under the same loads and displacements another one takes less energy, as \
+     where a strut buckles or a bar necks, and rounding decides whether the body finds it";
+    "give it an imperfection, such as a small load across or a `quadrilateral` that is not quite straight, and compare two \
+     sizes of it; or `inertia = true`"
+
     Step films_stack(most)
     "more than {most} films that still transfer heat lie on one place: heat and temperatures there stay between \
      those of drops and wall, but their accuracy is not known (docs/fidelity.md)";

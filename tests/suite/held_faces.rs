@@ -1,5 +1,7 @@
 //! Forces on the faces by which solids of large strain are held or moved.
 
+use std::f64::consts::PI;
+
 use impinge::closed_form::{Rubber, Sides};
 
 use crate::common::{Trial, off};
@@ -16,7 +18,7 @@ fn held_faces_bear_the_loads() {
         (format!("{BLOCK}\nsymmetry = \"none\"\nmechanics = \"rkpm\""), area),
         (format!("{BLOCK}\nsymmetry = \"none\"\nmechanics = \"sph\""), area),
         (BLOCK.replace("8e-3", "1.0") + "\ndimension = 2\nsymmetry = \"none\"", 10e-3),
-        (DISC.replace("6e-3", "12e-3"), std::f64::consts::PI * 25e-6),
+        (DISC.replace("6e-3", "12e-3"), PI * 25e-6),
     ] {
         let mut trial = Trial::new(&rubber(&format!("{keys}\ngravity = 9.81\n{clamped}")));
         trial.step(1.0);
@@ -90,5 +92,34 @@ fn sides_that_bulge_through_platens_are_warned_of() {
         let found = trial.model.warnings(&trial.state);
         let is_warned = found.iter().any(|warning| warning.finding().id == "sides_pass_faces");
         assert_eq!(is_warned, warned, "{pressed}: height {}", trial.get("pad.height"));
+    }
+}
+
+/// A strut between two faces that do not turn buckles under `4 π² E I/L²` (L. Euler 1744), which a straight one does not
+/// find by itself. In a plane section E is `E/(1 − ν²)`.
+#[test]
+fn straight_struts_beyond_their_buckling_load_are_warned_of() {
+    let buckles = 4.0 * PI.powi(2) * (1.0_f64 / 20.0).powi(2) / 12.0;
+    for material in [
+        "model = \"neo_hookean\", young = 1e6, poisson = 0.3",
+        "model = \"elastoplastic\", young = 70e9, poisson = 0.33, yield_stress = 5e9, isotropic_hardening = 1e9",
+    ] {
+        for (strain, warned) in [(0.9 * buckles, false), (1.15 * buckles, true)] {
+            let text = format!(
+                "name = \"Strut\"\nstop_time = 1.0\nstep = 0.1\n[body.strut]\nkind = \"solid\"\nstrain = \"finite\"\n\
+                 dimension = 2\nshape = {{ box = [20e-3, 1e-3, 1e-3] }}\ninitial_temperature = 293.15\n\
+                 mesh = {{ spacing = 1e-4 }}\nfaces.left = {{ clamped = true }}\n\
+                 faces.right = {{ displacement = [0.0, 0.0, 0.0] }}\n\
+                 material = {{ density = 1e3, specific_heat = 1e3, conductivity = 1.0, {material} }}\n"
+            );
+            let mut trial = Trial::new(&text);
+            for n in 1..=3 {
+                trial.set("strut.right.displacement_x", -20e-3 * strain * f64::from(n) / 3.0);
+                trial.step(0.1);
+            }
+            let found = trial.model.warnings(&trial.state);
+            let is_warned = found.iter().any(|own| own.finding().id == "equilibrium_not_stable");
+            assert_eq!(is_warned, warned, "{material} {strain}");
+        }
     }
 }

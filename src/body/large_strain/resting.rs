@@ -53,6 +53,8 @@ pub struct RestingBody {
 pub struct Resting {
     time: f64,
     steps: f64,
+    /// Steps whose equilibrium is not stable.
+    unstable: f64,
     /// [K]
     temperature: f64,
     /// Work of the stresses and of expansion, and energy stored [J].
@@ -91,6 +93,10 @@ impl Fields for Resting {
         let mut fields = vec![
             (body("time", "time since the start [s]"), from_mut(&mut self.time)),
             (body("steps", "steps made"), from_mut(&mut self.steps)),
+            (
+                body("unstable", "steps whose equilibrium is not stable"),
+                from_mut(&mut self.unstable),
+            ),
             (body("temperature", "temperature [K]"), from_mut(&mut self.temperature)),
             (body("work", "work of stresses and expansion [J]"), from_mut(&mut self.work)),
             (body("stored", "energy stored [J]"), from_mut(&mut self.stored)),
@@ -241,6 +247,9 @@ impl RestingBody {
         state.temperature = to.temperature;
         state.warmth.rise.clone_from(&to.rise);
         state.steps += 1.0;
+        if found.is_unstable {
+            state.unstable += 1.0;
+        }
         state.forces = self.faces.forces(&found.reactions);
         Ok(())
     }
@@ -275,12 +284,12 @@ impl RestingBody {
         let warmth = self.held_warmth(&present, inputs);
         to.rise.clone_from(&warmth.rise);
         if present.steps == 0.0 || self.held(&present) != to {
-            let (time, steps) = (present.time, present.steps);
+            let (time, steps, unstable) = (present.time, present.steps, present.unstable);
             let interrupt = Interrupt::default();
             let allowance = Allowance::of_updates(&interrupt, f64::INFINITY);
             let settled = self.settle(&mut present, &to, 0.0, self.halvings, &allowance);
             settled.map_err(|failure| named(&self.name, failure))?;
-            (present.time, present.steps) = (time, steps);
+            (present.time, present.steps, present.unstable) = (time, steps, unstable);
             present.warmth = warmth;
         }
         Ok(present)
@@ -336,7 +345,7 @@ impl RestingBody {
         if !self.equilibrium.body.is_sound(&state.rest.history) {
             return Err("plastic strain, damage and compaction are not negative".to_owned());
         }
-        if state.time < 0.0 || state.steps < 0.0 {
+        if state.time < 0.0 || !(0.0..=state.steps).contains(&state.unstable) {
             return Err("time and steps are not negative".to_owned());
         }
         let temperature = state.temperature;
@@ -472,6 +481,15 @@ impl RestingBody {
         })
     }
 
+    /// Warns of a body that may leave its equilibrium for another one.
+    fn warning_on_stability(&self, state: &[f64]) -> Option<Warning> {
+        let Resting { unstable, time, .. } = self.structure(state);
+        (unstable > 0.0).then(|| {
+            let finding = warning::equilibrium_not_stable(format!("{time:.3e}"));
+            finding.at(&self.name).whatever_its_numbers()
+        })
+    }
+
     /// Warns of bends beyond yield that the mesh resolves poorly.
     fn warning_on_bends(&self, state: &[f64]) -> Option<Warning> {
         let Resting { rest, work, stored, load_work, .. } = self.structure(state);
@@ -489,7 +507,10 @@ impl Advice for RestingBody {
 
     fn warnings(&self, state: &[f64], occasion: Occasion) -> Vec<Warning> {
         match occasion {
-            Occasion::Step => self.warning_on_sides(state).into_iter().collect(),
+            Occasion::Step => {
+                let all = [self.warning_on_sides(state), self.warning_on_stability(state)];
+                all.into_iter().flatten().collect()
+            }
             Occasion::Response { .. } => Vec::new(),
             Occasion::End => self.warning_on_bends(state).into_iter().collect(),
         }

@@ -114,7 +114,10 @@ const TOTALS: [Total; 32] = [
         rate: |_| Err(BodyError::NoRate),
     },
     Total {
-        descriptor: heat("plastic_work", "energy that yielding has dissipated, without what hardening stores"),
+        descriptor: heat(
+            "plastic_work",
+            "energy that yielding has dissipated, without what hardening stores",
+        ),
         of: Offered::Yielding,
         read: |reader| Ok(reader.plastic_work()),
         rate: |_| Err(BodyError::NoRate),

@@ -1,5 +1,7 @@
 //! Equilibrium without inertia.
 
+use std::cell::Cell;
+
 use super::mirrors::stay_beside_mirrors;
 use super::newton::{self, Equations, Residual, sum};
 use super::path::Path;
@@ -52,6 +54,8 @@ pub struct Found {
     pub work: f64,
     /// Largest change of the damage function of a point of concrete.
     pub passed: f64,
+    /// Another equilibrium takes less energy: the stiffness is not positive definite.
+    pub is_unstable: bool,
 }
 
 /// Name of the iterations in messages.
@@ -101,6 +105,8 @@ struct Balance<'a> {
     step: &'a Step<'a>,
     /// No point yields in the tangent of the first iteration.
     starts_elastic: bool,
+    /// The stiffness of the last iteration was symmetric and not positive definite.
+    is_unstable: Cell<bool>,
 }
 
 impl<'a> Equations for Balance<'a> {
@@ -118,6 +124,7 @@ impl<'a> Equations for Balance<'a> {
     ) -> Result<Vec<[f64; 3]>, Failure> {
         let flow = if is_first && self.starts_elastic { Flow::Not } else { Flow::AsItIs };
         let factor = self.equilibrium.factor(self.step, u, (now, flow))?;
+        self.is_unstable.set(matches!(factor, Factor::Indefinite(_)));
         Ok(self.equilibrium.stiffness.solve(&factor, &now.residual))
     }
 
@@ -175,7 +182,8 @@ impl Equilibrium {
             residuals.push(now.norm / now.scale);
         }
         let starts_elastic = residuals.is_empty();
-        let balance = Balance { equilibrium: self, step: &step, starts_elastic };
+        let is_unstable = Cell::new(false);
+        let balance = Balance { equilibrium: self, step: &step, starts_elastic, is_unstable };
         let solved = newton::solve(&balance, u, now)?;
         let (u, now) = (solved.u, solved.trial);
         residuals.extend(solved.residuals);
@@ -185,6 +193,7 @@ impl Equilibrium {
             reactions: now.reactions,
             stored: now.stresses.energy,
             passed: self.body.largest_passed(&rest.history, &now.history),
+            is_unstable: balance.is_unstable.get(),
         };
         *rest = Rest { displacement: u, history: now.history };
         Ok(found)

@@ -81,7 +81,9 @@ pub(super) struct Column {
 /// A factored stiffness.
 pub enum Factor {
     Positive(SparseCholesky),
+    /// Of a symmetric matrix that is not positive definite.
     Indefinite(Box<Lu<usize, f64>>),
+    General(Box<Lu<usize, f64>>),
 }
 
 /// The matrix could not be factored.
@@ -162,15 +164,18 @@ impl Stiffness {
         }
         let matrix = self.pattern.with(values);
         if !terms.is_symmetric {
-            return self.factor_indefinite(&matrix);
+            return Ok(Factor::General(self.factor_general(&matrix)?));
         }
         match self.lower.factor(&matrix, team.threads()) {
             Ok(factor) => Ok(Factor::Positive(factor)),
-            Err(_) => self.factor_indefinite(&matrix),
+            Err(_) => Ok(Factor::Indefinite(self.factor_general(&matrix)?)),
         }
     }
 
-    fn factor_indefinite(&self, matrix: &SparseColMat<usize, f64>) -> Result<Factor, Singular> {
+    fn factor_general(
+        &self,
+        matrix: &SparseColMat<usize, f64>,
+    ) -> Result<Box<Lu<usize, f64>>, Singular> {
         let symbolic = match self.lu.get() {
             Some(symbolic) => symbolic.clone(),
             None => SymbolicLu::try_new(self.pattern.entries.as_ref()).map_err(|_| Singular)?,
@@ -178,7 +183,7 @@ impl Stiffness {
         // Another thread may have been first with the same.
         let _ = self.lu.set(symbolic.clone());
         let lu = Lu::try_new_with_symbolic(symbolic, matrix.as_ref()).map_err(|_| Singular)?;
-        Ok(Factor::Indefinite(Box::new(lu)))
+        Ok(Box::new(lu))
     }
 
     /// Solves for the change of displacements under forces on the nodes.
@@ -193,7 +198,7 @@ impl Stiffness {
         }
         match factor {
             Factor::Positive(cholesky) => cholesky.solve_in_place(&mut values),
-            Factor::Indefinite(lu) => {
+            Factor::Indefinite(lu) | Factor::General(lu) => {
                 lu.solve_in_place(MatMut::from_column_major_slice_mut(&mut values, self.count, 1));
             }
         }
