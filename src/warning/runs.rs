@@ -122,6 +122,11 @@ rules! {
      what presses it beyond these faces";
     "do not rely on `height`, nor on forces to some per cent; a finer mesh bulges more"
 
+    Step body_is_through_its_mirror(place)
+    "the node that was at ({place}) m has passed through a plane of symmetry or the axis of its body, which lies within its \
+     own mirror image";
+    "do not rely on the motion from there on; take shorter communication steps or a smaller `spacing`"
+
     Step equilibrium_not_stable(time)
     "the equilibrium at {time} s is not stable: under the same loads and displacements another one takes less energy, as \
      where a strut buckles or a bar necks, and rounding decides whether the body finds it";

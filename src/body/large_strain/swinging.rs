@@ -17,12 +17,13 @@ use crate::body::{
 use crate::inputs::InputLayout;
 use crate::method::large_strain::{
     Course, Courses, Drive, Failure, IMPLICIT_STEPS, IMPLICIT_WORK, ImplicitDynamics, Motion,
+    through_mirror,
 };
 use crate::method::sph::ParticleFields;
 use crate::runtime::allowance::{Allowance, cost};
 use crate::scene::{LargeStrain, Scene};
 use crate::state::{Field, Fields, Per};
-use crate::warning::Warning;
+use crate::warning::{self, Warning};
 
 /// A body with inertia whose time steps are those of communication.
 pub struct SwingingBody {
@@ -209,6 +210,14 @@ impl SwingingBody {
 }
 
 impl SwingingBody {
+    /// Warns of nodes that lie within the mirror image of their body.
+    fn warning_on_mirrors(&self, state: &[f64]) -> Option<Warning> {
+        let motion = self.structure(state).motion;
+        let [x, y, z] = through_mirror(&self.dynamics.body, &motion.displacement)?;
+        let finding = warning::body_is_through_its_mirror(format!("{x:.2e}, {y:.2e}, {z:.2e}"));
+        Some(finding.at(&self.name).whatever_its_numbers())
+    }
+
     /// Warns of bends beyond yield that the mesh resolves poorly.
     fn warning_on_bends(&self, state: &[f64]) -> Option<Warning> {
         let Motion { ledger, history, .. } = self.structure(state).motion;
@@ -292,7 +301,8 @@ impl Advice for SwingingBody {
 
     fn warnings(&self, state: &[f64], occasion: Occasion) -> Vec<Warning> {
         match occasion {
-            Occasion::Step | Occasion::Response { .. } => Vec::new(),
+            Occasion::Step => self.warning_on_mirrors(state).into_iter().collect(),
+            Occasion::Response { .. } => Vec::new(),
             Occasion::End => self.warning_on_bends(state).into_iter().collect(),
         }
     }

@@ -37,6 +37,7 @@ pub use heat::{
 };
 pub use implicit::{Drive, IMPLICIT_STEPS, IMPLICIT_WORK, ImplicitDynamics, Stepped};
 pub use load::{FaceLoad, LoadedFaces, present_area};
+pub use mirrors::through_mirror;
 pub use motion::{Acting, CoursesOver, Dynamics};
 pub use state::{Ledger, Motion};
 pub use statics::{Conditions, Equilibrium, Found, Rest, STEPS, WORK};
