@@ -2,7 +2,7 @@
 
 use super::{is_large, notes, plan_of, replay};
 use crate::advice::may_be_solved;
-use crate::body::solid::{PRODUCT_RATE, plan};
+use crate::body::solid::{PRODUCT_RATE, exchanged_heat_time, plan};
 use crate::body::{link, threads_for};
 use crate::limits::two_digits;
 use crate::math::chebyshev::products;
@@ -120,5 +120,5 @@ pub fn exchange_time(plan: &Plan, length: f64) -> f64 {
         // The solid advances twice over the exchange: without the droplet's heat, and with it.
         2.0 * (sub_steps * products * cost.neighbours) as f64 * nodes / PRODUCT_RATE
     });
-    EXCHANGE * nodes + of_particles
+    EXCHANGE * nodes + of_particles + exchanged_heat_time(plan, length)
 }

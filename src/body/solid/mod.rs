@@ -28,7 +28,9 @@ mod yielding;
 
 pub(super) use advance::PARTS_OF_A_FOOTPRINT;
 pub use flaw_reading::flaw_quantities;
-pub use forecast::{BodyForecast, PRODUCT_RATE, ParticleForecast, forecast_solid};
+pub use forecast::{
+    BodyForecast, PRODUCT_RATE, ParticleForecast, exchanged_heat_time, forecast_solid,
+};
 pub(super) use loads::BodyLoads;
 pub(super) use means::means_of;
 pub use peaks::kept_peaks;
