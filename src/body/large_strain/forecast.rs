@@ -3,6 +3,7 @@
 use super::plan;
 use crate::body::threads_for;
 use crate::laws::solid::large_strain::{LargeStrainLaw, Thermal};
+use crate::method::large_strain::TOGETHER;
 use crate::scene::{Coupling, LargeStrain, Mechanics, MotionSteps, Scene};
 use crate::space::{Form, Integration, Mesh};
 
@@ -137,7 +138,12 @@ impl LargeStrainForecast {
         let of_step = if is_concrete && !explicit { OF_CONCRETE * of_step } else { of_step };
         let of_point = POINT + FUNCTION * functions + 8.0 * history as f64;
         let is_symmetric = !solid.inertia && layers.iter().all(|own| own.law.is_symmetric());
-        let solver = if explicit { 0.0 } else { size.solver_memory(is_symmetric) };
+        let solver = match (explicit, is_symmetric) {
+            (true, _) => 0.0,
+            (false, false) => size.solver_memory([0.0, 1.0]),
+            (false, true) if solid.yields() => size.solver_memory([ALREADY_FACTORED, 1.0]),
+            (false, true) => size.solver_memory([1.0, 0.0]),
+        };
         let memory = OF_BODY + of_point * points as f64 + solver;
         let set_up = SET_UP[match solid.mechanics {
             Mechanics::Fem => 0,
@@ -226,25 +232,36 @@ impl Size {
         Self { form: mesh.form, nodes, points, functions, together, across: nodes * across }
     }
 
+    /// Entries of the stiffness matrices of the points that share a dilatation.
+    fn entries_of_blocks(&self) -> f64 {
+        let axes = self.form.axes().len() as f64;
+        self.points as f64 / self.together * (axes * self.functions).powi(2)
+    }
+
     fn is_solid(&self) -> bool {
         self.form == Form::Solid
     }
 
-    /// Memory of the stiffness and its factor [B]: the places of the entries of all blocks, and fill that grows with
-    /// the power 4/3 of the unknowns in space.
-    fn solver_memory(&self, is_symmetric: bool) -> f64 {
+    /// Memory of the stiffness and its factor [B]: the places of the entries of all blocks, the entries of those that
+    /// are assembled together, and fill that grows with the power 4/3 of the unknowns in space, of symmetric and of
+    /// general factors.
+    fn solver_memory(&self, factors: [f64; 2]) -> f64 {
         let axes = self.form.axes().len() as f64;
         let unknowns = axes * self.nodes;
-        let blocks = self.points as f64 / self.together * (axes * self.functions).powi(2);
+        let blocks = self.entries_of_blocks();
         let fill = match self.is_solid() {
             true => unknowns.powf(4.0 / 3.0) * self.functions.sqrt(),
             false => unknowns * self.functions * unknowns.max(2.0).log2(),
         };
-        let of_fill = if is_symmetric { OF_FILL } else { OF_GENERAL_FILL };
-        OF_ENTRY * blocks + of_fill[usize::from(self.is_solid())] * fill
+        let of_fill = [OF_FILL, OF_GENERAL_FILL].map(|own| own[usize::from(self.is_solid())]);
+        let fill = fill * (factors[0] * of_fill[0] + factors[1] * of_fill[1]);
+        OF_ENTRY * blocks + 8.0 * blocks.min(TOGETHER as f64) + fill
     }
 }
 
+/// Part of a symmetric factor that is in memory with a general one: tangents of metal that yields may not be positive
+/// definite, which shows while they are factored.
+const ALREADY_FACTORED: f64 = 0.6;
 /// Memory of an entry of a block, and of the fill in a plane and in space, of symmetric and general matrices [B].
 const OF_ENTRY: f64 = 4.4;
 const OF_FILL: [f64; 2] = [63.0, 137.0];
@@ -404,4 +421,42 @@ pub fn contact_interval(coupling: &Coupling, solid: &LargeStrain) -> f64 {
     let start = solid.start;
     let speed = (start.velocity[2].powi(2) + 2.0 * solid.gravity * start.height).sqrt();
     coupling.interval.unwrap_or(solid.spacing() / speed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::large_strain::plan::deformable;
+    use crate::scene::parse;
+
+    /// Points and entries of the blocks, on which memory and time depend, are those of the body that is built.
+    #[test]
+    fn sizes_are_those_of_the_body() {
+        let kinds = ["\"fem\"", "\"sph\"", "\"rkpm\"", "\"efg\""].map(|own| (own, ""));
+        let gauss = ("\"rkpm\"", "rkpm = { integration = \"gauss\" }");
+        let nodal = ("\"rkpm\"", "rkpm = { integration = \"scni\" }");
+        for (mechanics, keys) in kinds.into_iter().chain([gauss, nodal]) {
+            for (dimension, spacing) in [(2, 1e-3), (3, 2e-3)] {
+                let text = format!(
+                    "name = \"Block\"\nstop_time = 1.0\nstep = 1.0\n[body.block]\nkind = \"solid\"\nstrain = \
+                     \"finite\"\ndimension = {dimension}\nshape = {{ box = [12e-3, 16e-3, 14e-3] }}\nsymmetry = \
+                     \"none\"\ninitial_temperature = 293.15\nmesh = {{ spacing = {spacing:e} }}\nmechanics = \
+                     {mechanics}\n{keys}\nmaterial = {{ model = \"neo_hookean\", density = 1000.0, specific_heat = \
+                     1900.0, conductivity = 0.2, young = 1e6, poisson = 0.3 }}\nfaces.bottom = {{ clamped = true }}\n"
+                );
+                let scene = parse(&text, "scene.toml").unwrap_or_else(|error| panic!("{error}"));
+                let solid = scene.large_strain("block").unwrap();
+                let size = Size::of(solid, &plan::mesh(solid));
+                let body = deformable(solid, 1).unwrap();
+                let axes = body.space.form.axes().len();
+                let of_group = |group| (axes * body.nodes_of(group).len()).pow(2);
+                let entries: usize = body.space.groups.iter().map(of_group).sum();
+                let case = format!("{mechanics} {keys} {dimension}");
+                let points = size.points as f64 / body.space.volume.len() as f64;
+                assert!((0.8..1.25).contains(&points), "{case}: {points} of the points");
+                let ratio = size.entries_of_blocks() / entries as f64;
+                assert!((0.5..2.0).contains(&ratio), "{case}: {ratio} of the entries");
+            }
+        }
+    }
 }

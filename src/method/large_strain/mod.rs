@@ -41,6 +41,7 @@ pub use mirrors::through_mirror;
 pub use motion::{Acting, CoursesOver, Dynamics};
 pub use state::{Ledger, Motion};
 pub use statics::{Conditions, Equilibrium, Found, Rest, STEPS, WORK};
+pub use tangent::TOGETHER;
 
 #[cfg(test)]
 mod tests;

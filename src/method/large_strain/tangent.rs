@@ -31,7 +31,7 @@ pub struct Stiffness {
 }
 
 /// Number of entries of blocks that are in memory at a time.
-const TOGETHER: usize = 4_000_000;
+pub const TOGETHER: usize = 4_000_000;
 
 /// Terms of the matrix of a linear system.
 pub struct Terms<'a> {
