@@ -72,10 +72,10 @@ const ROW_RATE: f64 = 2.5e4;
 /// melting front crosses some of them: each crossing costs inner steps of the whole body.
 const NONLINEAR_HEAT: f64 = 3e-6;
 const FRONT: f64 = 1.2e-8;
-/// The same for an exchange with a fluid above, over a power of the Fourier number `a Δt/h²` of the smallest distance h of
-/// nodes: heat that begins to flow takes the more inner steps the further it gets. Measured on plates of plastic, wax,
-/// glass, steel and aluminium of 7000 to 67 000 nodes below strands of wax, with exchanges of 0.01 to 30; forecasts are
-/// 0.6 to 2.3 times these 20 times.
+/// The same for an exchange with a fluid above, over a power of the Fourier number `a Δt/h²` of the smallest distance h
+/// of nodes: heat that begins to flow takes the more inner steps the further it gets. Measured on plates of plastic,
+/// wax, glass, steel and aluminium of 7000 to 67 000 nodes below strands of wax, with exchanges of 0.01 to 30;
+/// forecasts are 0.7 to 2.5 times these 23 times.
 const EXCHANGED_HEAT: f64 = 4.2e-6;
 const OF_FOURIER: f64 = 0.35;
 /// Time per node of an exchange in which heat hardly flows [s], and that of a plate that may melt over that of others.
