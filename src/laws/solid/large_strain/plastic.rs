@@ -97,6 +97,16 @@ impl Plastic {
         [stress + self.kinematic * alpha, slope + self.kinematic]
     }
 
+    /// Work of that stress up to an α [J/m³].
+    pub fn work(&self, alpha: f64) -> f64 {
+        let Self { yield_stress, hardening, saturation, rate, kinematic } = *self;
+        let missing = match saturation - yield_stress {
+            0.0 => 0.0,
+            range => -range * (-rate * alpha).exp_m1() / rate,
+        };
+        saturation * alpha - missing + 0.5 * (hardening + kinematic) * alpha * alpha
+    }
+
     /// Logarithmic plastic strain `½ ln C_p` of a history, in axes of the reference configuration.
     pub fn logarithmic_strain(history: &[f64]) -> Matrix3 {
         let (stretches, axes) = eigen(&unpacked(history));
