@@ -69,7 +69,9 @@ impl DropletForecast {
             },
         );
         let exchanges = (scene.stop_time / exchange).ceil();
-        let of_solid = contact.map_or(0.0, |(_, plan)| exchanges * exchange_time(&plan, exchange));
+        let of_solid = contact.map_or(0.0, |(_, plan)| {
+            exchanges * exchange_time(&plan, exchange, droplet.initial_temperature)
+        });
         let run_time = effort.seconds / threads + of_solid;
         notes.extend(note_on_solved_pressure(scene, name, droplet, run_time));
         Self {
@@ -112,13 +114,13 @@ fn note_on_solved_pressure(
     })
 }
 
-/// Time of a solid for an exchange of some length [s].
-pub fn exchange_time(plan: &Plan, length: f64) -> f64 {
+/// Time of a solid for an exchange of some length [s] with a fluid of a temperature [K].
+pub fn exchange_time(plan: &Plan, length: f64, temperature: f64) -> f64 {
     let nodes = plan.mesh.nodes() as f64;
     let of_particles = particle_cost(plan).map_or(0.0, |cost| {
         let (sub_steps, products) = products(cost.bound, length);
         // The solid advances twice over the exchange: without the droplet's heat, and with it.
         2.0 * (sub_steps * products * cost.neighbours) as f64 * nodes / PRODUCT_RATE
     });
-    EXCHANGE * nodes + of_particles + exchanged_heat_time(plan, length)
+    EXCHANGE * nodes + of_particles + exchanged_heat_time(plan, length, temperature)
 }

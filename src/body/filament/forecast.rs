@@ -55,7 +55,9 @@ impl FilamentForecast {
         let parts = below.as_ref().map_or(1, |(interval, _)| link::parts(*interval, scene.step));
         let exchanges = steps * parts as f64;
         let exchange = scene.step / parts as f64;
-        let of_solid = below.map_or(0.0, |(_, plan)| exchanges * exchange_time(&plan, exchange));
+        let hot = filament.nozzle.temperature;
+        let of_solid =
+            below.map_or(0.0, |(_, plan)| exchanges * exchange_time(&plan, exchange, hot));
         Self {
             name: name.to_owned(),
             count: segments,
@@ -78,7 +80,9 @@ impl FilamentForecast {
         let parts = below.as_ref().map_or(1, |(interval, _)| link::parts(*interval, scene.step));
         let exchanges = (scene.stop_time / scene.step).ceil() * parts as f64;
         let exchange = scene.step / parts as f64;
-        let of_solid = below.map_or(0.0, |(_, plan)| exchanges * exchange_time(&plan, exchange));
+        let hot = filament.nozzle.temperature;
+        let of_solid =
+            below.map_or(0.0, |(_, plan)| exchanges * exchange_time(&plan, exchange, hot));
         // Half of the particles in the mean.
         let mean = 0.5 * expected_volume(scene, filament) / sph.spacing.powi(3);
         let of_fluid = PARTICLE_STEP * mean * scene.stop_time / time_step / threads;

@@ -104,7 +104,7 @@ impl Replaying {
         let of_solid = scene.coupling_from(name).and_then(|index| {
             let solid = scene.coupling[index].solid()?;
             let plan = plan(scene, solid, scene.solid(solid)?);
-            Some(exchanges * exchange_time(&plan, length))
+            Some(exchanges * exchange_time(&plan, length, droplet.initial_temperature))
         });
         let giving = (cooling.duration() / length).clamp(1.0, exchanges);
         Self { drops: GIVE * giving * drops as f64, of_solid: of_solid.unwrap_or(0.0) }
