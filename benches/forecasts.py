@@ -2,7 +2,7 @@
 
     python benches/forecasts.py [NAME …]
 
-Each of some seventy scenes runs once as a process of its own. `time` is its processor time, which
+Each of some eighty scenes runs once as a process of its own. `time` is its processor time, which
 an idle machine takes as wall time; `memory` is its peak resident set. Ratios are measured over
 forecast.
 """
@@ -165,6 +165,58 @@ for mechanics, sizes in {"fem": [50, 10], "rkpm": [20, 5], "efg": [20, 5], "sph"
             for of_metal in [False, True]:
                 title = f"{mechanics}, {axes} axes, {motion}, {'metal' if of_metal else 'rubber'}"
                 SCENES[title] = block(mechanics, axes, cells, motion, of_metal)
+
+
+STEEL_YIELDS = (
+    'model = "elastoplastic", density = 7850.0, specific_heat = 470.0, conductivity = 45.0, '
+    "young = 200e9, poisson = 0.3, yield_stress = 250e6, isotropic_hardening = 5e8"
+)
+
+
+def bent(section: str, motion: str, cells: int) -> str:
+    """A cantilever of steel whose end jumps by twenty times what makes it yield."""
+    inertia = 'inertia = true\nmotion = "implicit"\n' if motion == "implicit" else ""
+    return head("U", 1e-2, 1e-3) + (
+        f'[body.bar]\nkind = "solid"\nstrain = "finite"\ndimension = 2\nsection = "{section}"\n'
+        f"shape = {{ box = [20e-3, 1e-3, 4e-3] }}\ninitial_temperature = 293.15\n"
+        f"material = {{ {STEEL_YIELDS} }}\nmesh = {{ spacing = {4e-3 / cells:e} }}\n{inertia}"
+        "faces.left = { clamped = true }\nfaces.right = { displacement = [0.0, 0.0, 2e-3] }\n"
+    )
+
+
+def impact(shape: str, speed: float) -> str:
+    """A body of steel that flattens on a rigid plane."""
+    return head("V", 8e-5, 4e-6) + (
+        f'[body.bar]\nkind = "solid"\nstrain = "finite"\nshape = {{ {shape} }}\n'
+        f"initial_temperature = 293.15\nmaterial = {{ {STEEL_YIELDS} }}\n"
+        "mesh = { spacing = 0.64e-3 }\ninertia = true\n"
+        f"start = {{ velocity = [0.0, 0.0, {-speed}], height = 1e-6 }}\n"
+    )
+
+
+def strand(conductivity: float) -> str:
+    """A strand of wax on a plate whose conductivity depends on the temperature."""
+    table = f"{{ temperature = [250.0, 400.0], value = [{conductivity}, {0.8 * conductivity}] }}"
+    return head("W", 0.5, 0.05) + (
+        '[body.ink]\nkind = "filament"\nmost = 5e-7\n'
+        'fluid = { substance = "n-eicosane", at = "60 °C", contact_angle = "20°" }\n'
+        'nozzle = { diameter = 0.8e-3, height = 0.7e-3, temperature = "70 °C", flow = 2e-8 }\n'
+        "path = { time = [0.0, 0.5], x = [0.0, 0.0], y = [-8e-3, 8e-3] }\n"
+        '[[coupling]]\nfrom = "ink"\nto = "plate.top"\n'
+        '[body.plate]\nkind = "solid"\nshape = { box = [40e-3, 30e-3, 2e-3] }\n'
+        'initial_temperature = "20 °C"\nmesh = { spacing = 0.4e-3 }\n'
+        'material = { model = "thermoelastic", density = 2500.0, specific_heat = 800.0, '
+        f"conductivity = {table} }}\n"
+    )
+
+
+for section in ["plane_strain", "plane_stress"]:
+    for motion in ["rest", "implicit"]:
+        SCENES[f"bent steel, {section}, {motion}"] = bent(section, motion, 8)
+SCENES["impact of a bar"] = impact("disc = { radius = 3.2e-3, thickness = 32.4e-3 }", 300.0)
+SCENES["impact of a ball"] = impact("ball = { radius = 5e-3 }", 100.0)
+SCENES["strand on glass"] = strand(1.0)
+SCENES["strand on metal"] = strand(25.0)
 
 
 def scenes(folder: Path) -> dict[str, Path]:
