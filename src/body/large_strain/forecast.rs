@@ -96,6 +96,18 @@ const IMPLICIT_YIELDING: StepTimes = StepTimes {
     powers_of_size: [1.0, 0.9],
     powers_of_functions: [0.8, 0.8],
 };
+/// Equilibria of concrete, and the time of an implicit step over that of an elastic body: its tangent is made of
+/// differences, and softening takes many iterations.
+const CONCRETE: StepTimes = StepTimes {
+    point: [0.0; 2],
+    pair: 1.6e-6,
+    of_sheet: 0.0,
+    in_plane: 2.1e-5,
+    in_space: 4.5e-6,
+    powers_of_size: [1.0, 0.9],
+    powers_of_functions: [0.8, 0.8],
+};
+const SWINGING_CONCRETE: f64 = 22.0;
 /// Usual steps that take as long as a jump at the start, over its strain by the yield strain: at rest, those of sheets,
 /// and by implicit steps, of which such a jump takes many.
 const OF_JUMP: f64 = 1.0;
@@ -106,9 +118,10 @@ const OF_IMPLICIT_JUMP: f64 = 5.5;
 const HELD: f64 = 0.3;
 /// Time of a point and of a function there in an explicit step [s], and that of a metal over it: 16² to 160² cells in a
 /// plane and 4³ to 28³ in space, by the same discretisations. Forecasts are 0.59 to 1.55 times the 60 measured times.
+/// The same of concrete, and of a metal with a back stress, whose flow has no axes that are known before.
 const MOVING: [f64; 2] = [0.18e-6, 0.011e-6];
 const MOVING_YIELDING: f64 = 1.35;
-/// The same of a metal with a back stress, whose flow has no axes that are known before.
+const MOVING_CONCRETE: f64 = 1.6;
 const MOVING_KINEMATIC: f64 = 4.7;
 /// Time of other steps of such a metal over that of a metal without a back stress: 2.0 to 3.4 times, and of sheets 3.9
 /// and 6.3 times.
@@ -120,9 +133,6 @@ const START: f64 = 0.03;
 /// Parts of a usual step of heat, and time of a pair of functions at a point in one [s].
 const PARTS: f64 = 4.0;
 const HEAT: f64 = 0.05e-6;
-/// Time of a step of concrete in equilibrium over that of a metal: its tangent is made of differences, and
-/// softening takes many iterations.
-const OF_CONCRETE: f64 = 15.0;
 /// Time to factor the capacity of a body that conducts, over the power 1.5 of the nodes in a plane and the square in
 /// space [s].
 const FACTOR_OF_HEAT: [f64; 2] = [4.4e-9, 6.7e-9];
@@ -155,6 +165,7 @@ impl LargeStrainForecast {
         let start = StartLoads::of(solid, &layers);
         let of_step = match explicit {
             true => slower_in_motion(&layers) * points as f64 * (MOVING[0] + MOVING[1] * functions),
+            false if solid.is_of_concrete() => of_concrete(solid, &size),
             false => {
                 let slower = if has_back_stress(&layers) { of_back_stress(solid) } else { 1.0 };
                 let [elastic, yielding] =
@@ -173,8 +184,6 @@ impl LargeStrainForecast {
             }
             false => 0.0,
         };
-        let is_concrete = layers.iter().any(|own| own.law.concrete().is_some());
-        let of_step = if is_concrete && !explicit { OF_CONCRETE * of_step } else { of_step };
         let of_point = POINT + FUNCTION * functions + 8.0 * history as f64;
         let is_symmetric = !solid.inertia && layers.iter().all(|own| own.law.is_symmetric());
         let solver = match (explicit, is_symmetric) {
@@ -215,6 +224,14 @@ fn times(solid: &LargeStrain) -> [&'static StepTimes; 2] {
     if solid.inertia { [&IMPLICIT, &IMPLICIT_YIELDING] } else { [&ELASTIC, &YIELDING] }
 }
 
+/// Time of a step of concrete without explicit steps [s].
+fn of_concrete(solid: &LargeStrain, size: &Size) -> f64 {
+    match solid.inertia {
+        true => SWINGING_CONCRETE * IMPLICIT.of_step(size, false),
+        false => CONCRETE.of_step(size, false),
+    }
+}
+
 fn has_back_stress(layers: &[LayerOfBody]) -> bool {
     layers.iter().any(|own| !own.law.is_symmetric() && own.law.concrete().is_none())
 }
@@ -229,7 +246,8 @@ fn slower_in_motion(layers: &[LayerOfBody]) -> f64 {
     let of_law = |own: &LayerOfBody| match &own.law.deviator {
         Deviator::Relaxing(_) => 1.0,
         Deviator::Plastic(metal) if metal.kinematic > 0.0 => MOVING_KINEMATIC,
-        Deviator::Plastic(_) | Deviator::Concrete(_) => MOVING_YIELDING,
+        Deviator::Plastic(_) => MOVING_YIELDING,
+        Deviator::Concrete(_) => MOVING_CONCRETE,
     };
     layers.iter().map(of_law).fold(1.0, f64::max)
 }
@@ -486,7 +504,7 @@ fn note_on_temperature(solid: &LargeStrain) -> Option<&'static str> {
 const NOTE_ON_METAL: &str = "a step in which little metal yields takes a quarter of the time forecast, one that strains it by several times \
                              its yield strain three times that";
 const NOTE_ON_SWINGING_METAL: &str = "a step in which little metal yields takes a quarter of the time forecast; one that strains it by several \
-                                      times its yield strain takes three times that, and where it has to be cut into parts up to fifty \
+                                      times its yield strain takes three times that, and where it has to be cut into parts up to sixty \
                                       times: shorter steps are cheaper then";
 
 /// Note on kernels of a material that hardly changes its volume.

@@ -13,7 +13,8 @@ pub struct StartLoads {
     /// that does not yield.
     jump: f64,
     load: f64,
-    /// True if all inputs of faces have start values other than zero, so that the default experiment has these loads.
+    /// True if all inputs of faces have start values other than zero, so that the default experiment has these loads;
+    /// false of concrete, which softens under them.
     are_known: bool,
     /// True if stress relaxes under constant loads.
     relaxes: bool,
@@ -51,7 +52,7 @@ impl StartLoads {
         Self {
             jump,
             load,
-            are_known: acts && solid.faces.values().all(is_set),
+            are_known: acts && !solid.is_of_concrete() && solid.faces.values().all(is_set),
             relaxes: layers.iter().any(relaxes),
         }
     }
