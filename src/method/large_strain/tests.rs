@@ -152,3 +152,16 @@ fn the_stiffness_is_the_derivative_of_the_forces() {
         assert!(error < 2e-6, "{:?} {error:e}", body.space.form);
     }
 }
+
+/// Two stretches that change their signs leave the dilatation as it was.
+#[test]
+fn bodies_that_pass_through_their_planes_are_found() {
+    let mesh = Mesh::of_box(Form::Solid, [0.0, 0.0, -1.0], [1.0, 1.0, 0.0], [2, 2, 2]);
+    for mirrored in [[false; 2], [true, false], [true; 2]] {
+        let body = Deformable::new(finite_elements(&mesh), law(), 1.0, mirrored, 1);
+        let turned = uniform(&body, &[[-0.5, 0.0, 0.0], [0.0, -0.5, 0.0], [0.0, 0.0, 1.0]]);
+        assert_eq!(through_mirror(&body, &turned).is_some(), mirrored[0], "{mirrored:?}");
+        let narrow = uniform(&body, &[[0.01, 0.0, 0.0], [0.0, 0.01, 0.0], [0.0, 0.0, 1.0]]);
+        assert_eq!(through_mirror(&body, &narrow), None);
+    }
+}
