@@ -3,9 +3,9 @@
 use super::rows::Choice;
 use super::shock;
 use crate::body::{droplet, filament, large_strain};
-use crate::method::fem::{Mechanics, Plan, PlanRequest, Refinement};
+use crate::method::fem::{Mechanics, Plan, PlanRequest, Refinement, conducts_along_thickness};
 use crate::scene::{
-    Coupling, FaceName, Load, MeshFactors, Scene, Solid, lateral_extents, takes_newton,
+    Coupling, FaceName, Load, MeshFactors, Scene, Shape, Solid, lateral_extents, takes_newton,
 };
 
 pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
@@ -22,6 +22,7 @@ pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
             refinements.push(large_strain::refinement(coupling, body));
         }
     }
+    let is_uniform = refinements.is_empty() && has_uniform_heat(scene, name);
     refinements.extend(contacts(scene, name, solid));
     let shortest = scene.step.min(scene.stop_time);
     let mesh = scene.refinement.get(name);
@@ -35,7 +36,8 @@ pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
     let factors = mesh.map_or([1.0; 2], MeshFactors::factors);
     let linear_heat = mesh.is_some_and(|mesh| mesh.linear_heat);
     let refinements = &refinements;
-    let request = PlanRequest { mechanics, refinements, shortest, newton, factors, linear_heat };
+    let request =
+        PlanRequest { mechanics, refinements, is_uniform, shortest, newton, factors, linear_heat };
     let mut plan = Plan::new(solid, request);
     let chosen = mesh.map(|mesh| note_on_mesh(mesh, solid, scene.fidelity.tolerance));
     plan.notes.extend(chosen);
@@ -105,6 +107,51 @@ fn contacts(scene: &Scene, name: &str, solid: &Solid) -> Vec<Refinement> {
         })
     };
     scene.coupling.iter().filter_map(refinement).collect()
+}
+
+/// Returns true if heat does not vary along the surface of a solid, nor of any that it touches, directly or through
+/// others: they touch over equal, whole faces, and nothing acts on a part of one.
+fn has_uniform_heat(scene: &Scene, name: &str) -> bool {
+    let mut known = vec![name];
+    let mut next = 0;
+    while let Some(&own) = known.get(next) {
+        next += 1;
+        // A reservoir has one temperature.
+        let Some(solid) = scene.solid(own) else {
+            if scene.reservoir(own).is_some() {
+                continue;
+            }
+            return false;
+        };
+        let is_alone =
+            scene.loads_on(own).next().is_none() && scene.couplings_to(own).next().is_none();
+        if !is_alone || !conducts_along_thickness(solid) {
+            return false;
+        }
+        let touched = scene.coupling.iter().filter_map(|coupling| {
+            let ends = [coupling.lower()?.0, coupling.upper()?.0];
+            let other = ends.iter().position(|&end| end == own).map(|place| ends[1 - place]);
+            other
+        });
+        for other in touched {
+            let is_as_wide = |other: &Solid| has_same_face(&solid.shape, &other.shape);
+            if scene.solid(other).is_some_and(|other| !is_as_wide(other)) {
+                return false;
+            }
+            if !known.contains(&other) {
+                known.push(other);
+            }
+        }
+    }
+    true
+}
+
+fn has_same_face(one: &Shape, other: &Shape) -> bool {
+    match (one, other) {
+        (Shape::Box([x, y, _]), Shape::Box([other_x, other_y, _])) => x == other_x && y == other_y,
+        (Shape::Disc(disc), Shape::Disc(other)) => disc.radius == other.radius,
+        _ => false,
+    }
 }
 
 /// Fraction of the contact size that the mesh resolves.

@@ -26,7 +26,8 @@ const FINEST: f64 = 1e-6;
 
 /// Note on a body that is one element along the surface.
 const COLUMN: &str = "a column, one element along the surface: faces are uniform there, no load acts on a part of one, \
-                      and what holds the sides, where stress is asked for, are rollers; this is exact";
+                      other bodies touch whole faces, and what holds the sides, where stress is asked for, are rollers; \
+                      this is exact";
 
 /// Node spacings and growth of elements.
 pub struct Fineness<'a> {
@@ -101,7 +102,7 @@ impl<'a> Fineness<'a> {
     fn note_on_edges(&self, diffusivity: f64, shortest: f64) -> Option<String> {
         let resolved = (0.5 * self.lateral).powi(2) / diffusivity;
         let heated = self.refinements.iter().any(|refinement| refinement.heats);
-        (heated && shortest < resolved).then(|| {
+        (heated && !self.is_column && shortest < resolved).then(|| {
             format!(
                 "beside the edge of a heated area heat is resolved after {resolved:.1e} s; before, temperatures \
                  within {:.1e} m of it are up to a third of the rise too high or too low (the finer \

@@ -34,7 +34,7 @@ pub use elastic::{
 };
 pub use heat::{HeatLoads, HeatProblem, ModalRow, ThermalFace};
 pub use nonlinear::{NonlinearFailure, heat_mesh};
-pub use plan::{Mechanics, Plan, PlanRequest, Refinement};
+pub use plan::{Mechanics, Plan, PlanRequest, Refinement, conducts_along_thickness};
 pub use solid::{
     ClassRow, Deformation, Extreme, Flaws, FlawsIn, ImageStress, NodalFields, NodalSum, Remembered,
     SolidFem, SolidLoads, SolidModes, Temperatures,

@@ -76,6 +76,8 @@ pub struct PlanRequest<'a> {
     pub mechanics: Mechanics,
     /// Areas where loads act.
     pub refinements: &'a [Refinement],
+    /// True if nothing that acts on the body or on what it touches varies along its surface, but for its own mechanics.
+    pub is_uniform: bool,
     /// Shortest time after which results are needed [s].
     pub shortest: f64,
     /// Error tolerance of a time step of nonlinear heat [K]; `None` if heat is linear.
@@ -131,7 +133,7 @@ impl Plan {
     /// Plans a solid.
     pub fn new(
         solid: &Solid,
-        PlanRequest { mechanics, refinements, shortest, newton, factors, linear_heat }: PlanRequest,
+        PlanRequest { mechanics, refinements, is_uniform, shortest, newton, factors, linear_heat }: PlanRequest,
     ) -> Self {
         let mut strata = solid.strata();
         strata.reverse();
@@ -145,7 +147,7 @@ impl Plan {
         let mut notes = Vec::new();
         let mirrored =
             mirrored(solid, newton.is_some() || is_inelastic || damage.is_some(), &mut notes);
-        let is_column = refinements.is_empty() && is_column(solid, wanted);
+        let is_column = is_uniform && is_column(solid, wanted);
         let resolution = Resolution { refinements, shortest, factors, is_column };
         let mut notes_on_mesh = Vec::new();
         let fineness = Fineness::choose(solid, &strata, resolution, &mut notes_on_mesh);
@@ -298,19 +300,26 @@ fn mirrored(solid: &Solid, is_nonlinear: bool, notes: &mut Vec<String>) -> [bool
     })
 }
 
-/// Returns true if nothing varies along the surface of a body without loads on parts of faces, with or without
-/// mechanics.
+/// Returns true if one element spans a body in which heat does not vary along the surface, with or without mechanics.
 fn is_column(solid: &Solid, has_mechanics: bool) -> bool {
-    let mut sides = solid.shape.faces().iter().filter(|face| face.normal() != Some(2));
-    solid.heat == HeatMethod::Fem
-        && solid.bath.is_none()
-        && solid.mesh.spacing.is_none()
-        && sides.all(|&name| {
-            let side = solid.face(name);
-            side.thermal().is_empty()
-                && side.radiation.is_none()
-                && (!has_mechanics || side.roller && !side.clamped)
-        })
+    let is_free = |&name: &FaceName| {
+        let side = solid.face(name);
+        !has_mechanics || side.roller && !side.clamped
+    };
+    solid.mesh.spacing.is_none() && sides(solid).all(is_free)
+}
+
+/// Returns true if heat flows along the thickness alone in a body without loads on parts of faces.
+pub fn conducts_along_thickness(solid: &Solid) -> bool {
+    let is_insulated = |&name: &FaceName| {
+        let side = solid.face(name);
+        side.thermal().is_empty() && side.radiation.is_none()
+    };
+    solid.heat == HeatMethod::Fem && solid.bath.is_none() && sides(solid).all(is_insulated)
+}
+
+fn sides(solid: &Solid) -> impl Iterator<Item = &'static FaceName> {
+    solid.shape.faces().iter().filter(|face| face.normal() != Some(2))
 }
 
 /// Returns true if two faces differ at most in the values of inputs.
