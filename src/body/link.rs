@@ -72,6 +72,23 @@ impl Joint {
         if ratio > 1.0 { (ratio.log2().ceil() as usize).min(MOST_HALVINGS) } else { 0 }
     }
 
+    /// Error of temperatures at the end of a part of this length [s] for each unit by which the flux at its beginning
+    /// differs from the line through those at its stages [K m²/W].
+    ///
+    /// A wrong flux changes the difference of temperatures by `R/(1 + hR)`, where R is the rise of both sides per flux.
+    /// Modes that decay fast keep a tenth of that at most, with the wrong sign. Slow ones, of rate λ, depart from the
+    /// line by `(λ Δt)²/6`, so that the estimate is of third order in the length; the error is of fourth.
+    pub fn error(&self, length: f64) -> f64 {
+        let rise: f64 = self.sides.iter().map(|side| side.response.of_held_flux(length)).sum();
+        OVERSHOOT * rise / (1.0 + self.conductance * rise)
+    }
+
+    /// Differences of temperature at each flux, from those of both sides at the common cells.
+    pub fn means(&self, [from, to]: [&[f64]; 2]) -> Vec<f64> {
+        let differences: Vec<f64> = from.iter().zip(to).map(|(from, to)| from - to).collect();
+        self.cells.means(&differences)
+    }
+
     /// Temperatures of a side's cells, transferred to the common cells.
     pub fn values(&self, side: usize, own: &[f64]) -> Vec<f64> {
         self.cells.values(side, own, self.sides[side].counts[0])
@@ -176,6 +193,8 @@ fn width(cells: &WallCells) -> usize {
 /// Largest length of a part of a step over the relaxation time; at three times that, stages overshoot equilibrium.
 const FASTEST: f64 = 1.5;
 const MOST_HALVINGS: usize = 20;
+/// Share of the difference of temperatures by which long parts of a step overshoot equilibrium.
+const OVERSHOOT: f64 = 0.1;
 
 /// Lower bound of the limit on `a Δt/h²` for diffusion along an element between two exchanges.
 const LEAST_ALONG: f64 = 0.01;

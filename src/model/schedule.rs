@@ -1,5 +1,6 @@
 //! Order in which bodies advance, and exchanges between linked bodies.
 
+use super::joints::{Beginning, Extent, Settled};
 use super::{Cache, Model, ModelError, State};
 use crate::body::{Acts, BodyError, Given, Link, MOST_PARTS, Received};
 use crate::inputs::InputPath;
@@ -105,21 +106,65 @@ impl Model {
             parts => vec![dt / parts as f64],
         };
         self.foresee_exchanges(group, states, (dt, parts.max(cut.len())), allowance)?;
-        let lengths: Vec<f64> = cut.iter().flat_map(|&part| self.lengths(group, part)).collect();
         let mut start = 0.0;
         for _ in 0..parts {
-            for &length in &lengths {
-                let rest;
-                let from = match path.is_held() || start == 0.0 {
-                    true => path,
-                    false => {
-                        rest = path.from(start);
-                        &rest
-                    }
-                };
-                self.advance_part(group, states, cache, (from, length), allowance)?;
+            for &length in &cut {
+                self.advance_over(group, states, cache, (path, start, length), allowance)?;
                 start += length;
             }
+        }
+        Ok(())
+    }
+
+    /// Advances from a time after the beginning of a path on, over a length [s].
+    ///
+    /// Solids in contact exchange as seldom as the error of their exchanges allows, but at least as often as
+    /// [`ladder`](Self::ladder) has parts where it does not. Fluids on such solids leave no part to be taken again, so
+    /// there the parts are those of the ladder.
+    fn advance_over(
+        &self,
+        group: &Group,
+        states: &mut [Vec<f64>],
+        cache: &mut Cache,
+        (path, begin, length): (&InputPath, f64, f64),
+        allowance: &Allowance,
+    ) -> Result<(), BodyError> {
+        let ladder = self.ladder(group, length);
+        let is_free = !group.joints.is_empty() && group.links.is_empty();
+        let (mut start, mut wanted, mut allowed) = (0.0, length, None);
+        let mut least = ladder.iter().copied();
+        while start < length {
+            let left = length - start;
+            let least = least.next().unwrap_or(left).min(left);
+            let rest;
+            let from = match path.is_held() || begin + start == 0.0 {
+                true => path,
+                false => {
+                    rest = path.from(begin + start);
+                    &rest
+                }
+            };
+            let tried = if is_free { fitting(wanted.max(least), left) } else { least };
+            let beginning = self.beginning(group, states, cache, from, allowance)?;
+            let allowed = *allowed.get_or_insert(beginning.allowed);
+            let mut extent = Extent { tried, least, allowed, is_sudden: tried <= least };
+            let error = loop {
+                let part = (from, extent.tried);
+                match self.advance_part(
+                    group,
+                    states,
+                    cache,
+                    part,
+                    (&extent, &beginning),
+                    allowance,
+                )? {
+                    Ok(error) => break error,
+                    Err(shorter) => extent = Extent { tried: shorter, is_sudden: true, ..extent },
+                }
+            };
+            let taken = extent.tried;
+            start = if taken == left { length } else { start + taken };
+            wanted = taken * extent.growth(error);
         }
         Ok(())
     }
@@ -143,8 +188,9 @@ impl Model {
         parts
     }
 
-    /// Sub-steps of a part of a step: one, or growing ones if solids in contact would overshoot equilibrium.
-    fn lengths(&self, group: &Group, part: f64) -> Vec<f64> {
+    /// Least lengths of successive parts of a part of a step: one, or growing ones if solids in contact might overshoot
+    /// equilibrium.
+    fn ladder(&self, group: &Group, part: f64) -> Vec<f64> {
         let halvings = group.joints.iter().map(|&joint| self.joints[joint].halvings(part));
         let halvings = halvings.max().unwrap_or(0);
         let first = part / (halvings as f64).exp2();
@@ -171,14 +217,17 @@ impl Model {
         Ok(())
     }
 
+    /// Advances over a part of a step, and returns the error of its exchanges, see [`Settled`]; or, having changed
+    /// nothing, the length of a shorter part to be tried instead.
     fn advance_part(
         &self,
         group: &Group,
         states: &mut [Vec<f64>],
         cache: &mut Cache,
         part: Part,
+        (extent, beginning): (&Extent, &Beginning),
         allowance: &Allowance,
-    ) -> Result<(), BodyError> {
+    ) -> Result<Result<f64, f64>, BodyError> {
         let surfaces = self.surfaces(group, states, cache, part, allowance)?;
         let below = |body: usize| {
             let place = group.links.iter().position(|&link| self.links[link].from == body)?;
@@ -199,14 +248,19 @@ impl Model {
                 Some(Exchange { body: link.to, face: link.face, given })
             })
             .collect();
-        let passed = self.settle_joints(group, states, cache, part, &exchanges, allowance)?;
+        let joints = (group, extent, beginning);
+        let settled = self.settle_joints(joints, states, cache, part, &exchanges, allowance)?;
+        let Settled { passed, error } = match settled {
+            Ok(settled) => settled,
+            Err(shorter) => return Ok(Err(shorter)),
+        };
         exchanges.extend(passed);
         for &body in group.bodies.iter().filter(|body| !is_above(body)) {
             let received = Exchange::with(&exchanges, body);
             let acts = acts(part, &received, None);
             self.bodies[body].advance(&mut states[body], cache.memo(body), &acts, allowance)?;
         }
-        Ok(())
+        Ok(Ok(error))
     }
 
     /// Returns the faces below over a part of a step without received heat, one for each link of a group.
@@ -234,6 +288,15 @@ impl Model {
             on_it.iter().zip(found).for_each(|((place, _), surface)| surfaces[*place] = surface);
         }
         Ok(surfaces)
+    }
+}
+
+/// Returns the wanted length of a part within the remaining one, so that no remainder is much shorter than it [s].
+fn fitting(wanted: f64, left: f64) -> f64 {
+    match wanted {
+        long if long >= left * (1.0 - 1e-9) => left,
+        long if 2.0 * long > left => 0.5 * left,
+        short => short,
     }
 }
 

@@ -50,6 +50,8 @@ pub struct Allowance {
     interrupt: Interrupt,
     /// Number of updates, as the bits of a float; only one thread at a time counts.
     left: AtomicU64,
+    /// Number of times that bodies in contact were tried.
+    exchanges: AtomicU64,
 }
 
 /// Reason why a step stopped; its state is unchanged.
@@ -108,11 +110,25 @@ impl Allowance {
 
     /// Budget of so many updates.
     pub fn of_updates(interrupt: &Interrupt, updates: f64) -> Self {
-        Self { interrupt: interrupt.clone(), left: AtomicU64::new(updates.to_bits()) }
+        Self {
+            interrupt: interrupt.clone(),
+            left: AtomicU64::new(updates.to_bits()),
+            exchanges: AtomicU64::new(0),
+        }
     }
 
     fn left(&self) -> f64 {
         f64::from_bits(self.left.load(Ordering::Relaxed))
+    }
+
+    /// Counts a trial of the fluxes between bodies in contact.
+    pub fn note_exchange(&self) {
+        self.exchanges.fetch_add(1, Ordering::Relaxed);
+    }
+
+    /// Number of trials of the fluxes between bodies in contact so far.
+    pub fn exchanges(&self) -> u64 {
+        self.exchanges.load(Ordering::Relaxed)
     }
 
     /// Stops the step if it will need more rounds of updates than the budget allows.

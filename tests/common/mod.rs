@@ -1,6 +1,7 @@
 //! A scene that runs, for tests: set, step, read by name.
 
 use impinge::model::{Cache, Model, ModelError, NodalFields, State, Tangent};
+use impinge::runtime::allowance::Allowance;
 use impinge::scene::{self, Scene};
 use impinge::variables::{Causality, Output, Registry, Slot};
 
@@ -52,6 +53,15 @@ impl Trial {
 
     pub fn try_step(&mut self, dt: f64) -> Result<(), ModelError> {
         self.model.step(&mut self.state, &mut self.cache, dt)
+    }
+
+    /// Takes a step, and returns how often it tried the fluxes between bodies in contact.
+    pub fn exchanges_of_step(&mut self, dt: f64) -> u64 {
+        let allowance = Allowance::default();
+        let stepped =
+            self.model.step_within(&allowance, &mut self.state, &mut self.cache, (dt, dt));
+        stepped.unwrap();
+        allowance.exchanges()
     }
 
     /// Values at all nodes of a body.

@@ -32,6 +32,7 @@ mod demand;
 mod derivatives;
 mod driven_solids;
 mod droplet;
+mod exchanges;
 mod failure;
 mod field_means;
 mod filament;
