@@ -1,13 +1,14 @@
 //! Cost of a scene.
 
 pub use super::droplet::DropletForecast;
+use super::exchanges::ExchangeForecast;
 use super::filament::FilamentForecast;
 use super::large_strain::LargeStrainForecast;
 use super::lattice::LatticeForecast;
+use super::reduced;
 use super::solid::forecast_solid;
 pub use super::solid::{BodyForecast, ParticleForecast};
-use super::{link, reduced};
-use crate::scene::{Coupling, Scene};
+use crate::scene::Scene;
 
 /// Cost of a scene, estimated before it is built.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,8 +21,8 @@ pub struct Forecast {
     pub lattices: Vec<LatticeForecast>,
     /// Number of communication steps of the default experiment.
     pub steps: f64,
-    /// Time to solve for the heat between touching solids in one communication step [s].
-    pub contact_time: f64,
+    /// Exchanges between solids in contact.
+    pub exchanges: ExchangeForecast,
 }
 
 impl Forecast {
@@ -35,7 +36,7 @@ impl Forecast {
         let of_lattices = self.lattices.iter().map(|body| body.run_time);
         let all = all.chain(of_large_strains).chain(of_filaments).chain(of_lattices);
         // From zero: a sum of nothing is negative zero.
-        all.fold(0.0, |sum, time| sum + time) + self.steps * self.contact_time
+        all.fold(0.0, |sum, time| sum + time) + self.exchanges.time
     }
 }
 
@@ -48,7 +49,7 @@ pub fn forecast(scene: &Scene) -> Forecast {
     let droplets = droplet_forecasts(scene);
     let steps = (scene.stop_time / scene.step).ceil();
     let bodies: Vec<BodyForecast> = solids.collect();
-    let contact_time = contact_time(scene, &bodies);
+    let exchanges = ExchangeForecast::of(scene, &bodies);
     let large_strains = scene.large_strains();
     let large_strains =
         large_strains.map(|(name, solid)| LargeStrainForecast::of(scene, name, solid)).collect();
@@ -61,26 +62,8 @@ pub fn forecast(scene: &Scene) -> Forecast {
         filaments: filaments.collect(),
         lattices: lattices.collect(),
         steps,
-        contact_time,
+        exchanges,
     }
-}
-
-/// Time of an exchange between solids per node of both [s]: some eight iterations of two stages each, measured on pairs
-/// of 14 000 to 19 000 nodes.
-const CONTACT: f64 = 1.7e-6;
-
-/// Time for the contacts in a communication step [s]; the extra parts at the start of long steps are not counted.
-fn contact_time(scene: &Scene, bodies: &[BodyForecast]) -> f64 {
-    let nodes = |name: &str| {
-        let body = bodies.iter().find(|body| body.name == name);
-        body.map_or(0.0, |body| body.unknowns[0] as f64)
-    };
-    let of_contact = |coupling: &Coupling| {
-        let (lower, upper) = (coupling.lower()?, coupling.upper()?);
-        let parts = link::parts(coupling.interval.unwrap_or(f64::INFINITY), scene.step);
-        Some(CONTACT * parts as f64 * (nodes(lower.0) + nodes(upper.0)))
-    };
-    scene.coupling.iter().filter_map(of_contact).sum()
 }
 
 /// Estimates the cost of the scene's droplets alone.

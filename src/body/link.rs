@@ -68,8 +68,7 @@ impl Joint {
     /// Number of times that a part of a step of this length [s] is halved to form its first parts. Modes that are fast
     /// relative to a part overshoot their equilibrium by a tenth in its stages; growing parts let them decay first.
     pub fn halvings(&self, length: f64) -> usize {
-        let ratio = length * self.rate / FASTEST;
-        if ratio > 1.0 { (ratio.log2().ceil() as usize).min(MOST_HALVINGS) } else { 0 }
+        halvings(length, self.rate)
     }
 
     /// Error of temperatures at the end of a part of this length [s] for each unit by which the flux at its beginning
@@ -98,6 +97,12 @@ impl Joint {
     pub fn deposit(&self, side: usize, amounts: &[f64]) -> Vec<f64> {
         self.cells.deposit(side, amounts, self.sides[side].counts)
     }
+}
+
+/// Number of halvings of a part of a step of this length [s] between bodies that equilibrate at a rate [1/s].
+pub fn halvings(length: f64, rate: f64) -> usize {
+    let ratio = length * rate / FASTEST;
+    if ratio > 1.0 { (ratio.log2().ceil() as usize).min(MOST_HALVINGS) } else { 0 }
 }
 
 /// Faces of a solid that a scene couples.

@@ -6,6 +6,7 @@ mod build;
 mod contract;
 mod droplet;
 mod error;
+mod exchanges;
 mod filament;
 mod lattice;
 mod forecast;
@@ -26,6 +27,7 @@ pub use droplet::{
     to_be_recorded, wall_quantities, warnings_on_landing,
 };
 pub use error::BodyError;
+pub use exchanges::ExchangeForecast;
 pub use filament::{FilamentForecast, warnings_on_strands};
 pub use forecast::{BodyForecast, DropletForecast, Forecast, ParticleForecast, forecast};
 pub use large_strain::LargeStrainForecast;

@@ -21,6 +21,26 @@ struct Heat {
     fluxes: Vec<(f64, f64)>,
 }
 
+/// Temperatures of bodies that touch a solid, and of their faces [K].
+fn temperatures_in_contact<'s>(
+    scene: &'s Scene,
+    name: &'s str,
+) -> impl Iterator<Item = f64> + use<'s> {
+    let touched = scene.coupling.iter().filter_map(move |coupling| {
+        let ends = [coupling.lower()?.0, coupling.upper()?.0];
+        Some(ends[1 - ends.iter().position(|&end| end == name)?])
+    });
+    touched.flat_map(move |other| {
+        let solid = scene.solid(other);
+        let of_faces = solid.into_iter().flat_map(|solid| {
+            let faces = solid.shape.faces().iter();
+            faces.filter_map(|&face| temperature_of(&solid.face(face)))
+        });
+        let of_reservoir = scene.reservoir(other).map(|own| own.initial_temperature);
+        of_faces.chain(solid.map(|solid| solid.initial_temperature)).chain(of_reservoir)
+    })
+}
+
 impl Heat {
     fn on(scene: &Scene, name: &str, solid: &Solid) -> Self {
         let faces: Vec<Face> = solid.shape.faces().iter().map(|&face| solid.face(face)).collect();
@@ -30,6 +50,7 @@ impl Heat {
             .iter()
             .filter_map(temperature_of)
             .chain(droplets.map(|droplet| droplet.initial_temperature))
+            .chain(temperatures_in_contact(scene, name))
             .fold(solid.initial_temperature, f64::max);
         let of_faces = faces.iter().filter_map(|face| Some((face.flux?, f64::INFINITY)));
         let of_loads = scene.loads_on(name).filter(|load| load.heats()).map(flux_of);

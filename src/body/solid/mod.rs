@@ -31,6 +31,7 @@ pub use flaw_reading::flaw_quantities;
 pub use forecast::{
     BodyForecast, PRODUCT_RATE, ParticleForecast, exchanged_heat_time, forecast_solid,
 };
+pub use front::may_melt;
 pub(super) use loads::BodyLoads;
 pub(super) use means::means_of;
 pub use peaks::kept_peaks;
