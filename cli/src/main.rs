@@ -10,6 +10,7 @@ mod inputs;
 mod man;
 mod messages;
 mod new;
+mod overdue;
 mod passing;
 mod patience;
 mod ranges;

@@ -48,6 +48,11 @@ pub fn print_message(kind: &str, what: &dyn Display) {
     keep(Message { kind, place, message, remedy, id });
 }
 
+/// Prints a message that depends on the machine, so that no report of the run has it.
+pub fn print_in_passing(kind: &str, what: &dyn Display) {
+    write(kind, what);
+}
+
 /// Returns what has been printed so far.
 pub fn printed() -> Vec<Message> {
     PRINTED.lock().unwrap_or_else(PoisonError::into_inner).clone()

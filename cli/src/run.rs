@@ -18,6 +18,7 @@ use super::CliError;
 use super::error::input_name;
 use super::idle;
 use super::inputs::{Between, InputTable};
+use super::overdue::Overdue;
 use super::passing::Passing;
 use super::patience;
 use super::ranges::Ranges;
@@ -424,6 +425,7 @@ struct Running<'a> {
 impl Running<'_> {
     fn finish(&mut self, record: &mut Record) -> Result<(), CliError> {
         let progress = progress_bar(self.timeline.count);
+        let _overdue = Overdue::watch(model::forecast(self.model.scene()).run_time(), &progress);
         record.write(self, 0)?;
         for i in 0..self.timeline.count {
             self.step(i)?;
