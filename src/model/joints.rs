@@ -63,9 +63,9 @@ impl Extent {
 
     /// Length to be tried after a part with an error that is not allowed [s].
     fn shorter(&self, error: f64) -> f64 {
-        // The error hardly depends on the length of a part that is far too long, so that no power of it is used; NaN
-        // becomes the lower limit.
-        let ratio = (0.5 * self.allowed / error).max(SHRINK).min(0.5);
+        // The error hardly depends on the length of a part that is far too long, so that no power of it is used. After
+        // NaN comes the least length.
+        let ratio = (0.5 * self.allowed / error).clamp(SHRINK, 0.5);
         (ratio * self.tried).max(self.least)
     }
 
@@ -217,8 +217,7 @@ impl Model {
                 let predicted: Fluxes =
                     fluxes.iter().zip(&wrong).map(|(q, by)| [q[0] + by[0], q[1] + by[1]]).collect();
                 let error = error(&joints, beginning, (&predicted, dt));
-                // Not `>`, with which NaN would count as fine.
-                if !(error <= HOPELESS * extent.allowed) {
+                if error.is_nan() || error > HOPELESS * extent.allowed {
                     return Ok(Err(extent.shorter(error)));
                 }
             }

@@ -130,8 +130,7 @@ fn has_uniform_heat(scene: &Scene, name: &str) -> bool {
         }
         let touched = scene.coupling.iter().filter_map(|coupling| {
             let ends = [coupling.lower()?.0, coupling.upper()?.0];
-            let other = ends.iter().position(|&end| end == own).map(|place| ends[1 - place]);
-            other
+            ends.iter().position(|&end| end == own).map(|place| ends[1 - place])
         });
         for other in touched {
             let is_as_wide = |other: &Solid| has_same_face(&solid.shape, &other.shape);
