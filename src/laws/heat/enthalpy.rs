@@ -150,7 +150,7 @@ fn knots(parts: &[(f64, &Conduction)], reference: f64) -> Vec<f64> {
     knots
 }
 
-/// What melts, at one temperature or by temperature around it.
+/// Melting at one temperature, or by temperature around it.
 #[derive(Debug, Clone, Copy, Default)]
 struct Melts {
     /// Latent heat [J/m³ or J/(m³ K)].

@@ -79,7 +79,7 @@ struct Chunk<'a> {
     least: (f64, usize),
 }
 
-/// What is known of the stretch across a sheet.
+/// Knowledge of the stretch across a sheet.
 #[derive(Debug, Clone, Copy)]
 enum Sheet<'a> {
     /// The history before the step.
