@@ -122,13 +122,18 @@ rules! {
      what presses it beyond these faces";
     "do not rely on `height`, nor on forces to some per cent; a finer mesh bulges more"
 
+    Step steps_miss_jolts(part)
+    "a face changed its speed faster than steps resolve: that step was cut into parts of {part} s, but the waves that it \
+     sends out go on over whole steps, and energies, forces and stress may be far off";
+    "take communication steps of {part} s or less after such changes, or move the face smoothly"
+
     Step body_is_through_its_mirror(place)
     "the node that was at ({place}) m has passed through a plane of symmetry or the axis of its body, which lies within its \
      own mirror image";
     "do not rely on the motion from there on; take shorter communication steps or a smaller `spacing`"
 
     Step equilibrium_not_stable(time)
-    "the equilibrium at {time} s is not stable: under the same loads and displacements another one takes less energy, as \
+    "the equilibrium at {time} s, the first of them, is not stable: under the same loads and displacements another one takes less energy, as \
      where a strut buckles or a bar necks, and rounding decides whether the body finds it";
     "give it an imperfection, such as a small load across or a `quadrilateral` that is not quite straight, and compare two \
      sizes of it; or `inertia = true`"

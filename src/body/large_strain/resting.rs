@@ -53,8 +53,9 @@ pub struct RestingBody {
 pub struct Resting {
     time: f64,
     steps: f64,
-    /// Steps whose equilibrium is not stable.
+    /// Steps whose equilibrium is not stable, and the end of the first of them [s].
     unstable: f64,
+    unstable_from: f64,
     /// [K]
     temperature: f64,
     /// Work of the stresses and of expansion, and energy stored [J].
@@ -96,6 +97,10 @@ impl Fields for Resting {
             (
                 body("unstable", "steps whose equilibrium is not stable"),
                 from_mut(&mut self.unstable),
+            ),
+            (
+                body("unstable_from", "time of the first of them [s]"),
+                from_mut(&mut self.unstable_from),
             ),
             (body("temperature", "temperature [K]"), from_mut(&mut self.temperature)),
             (body("work", "work of stresses and expansion [J]"), from_mut(&mut self.work)),
@@ -248,6 +253,9 @@ impl RestingBody {
         state.warmth.rise.clone_from(&to.rise);
         state.steps += 1.0;
         if found.is_unstable {
+            if state.unstable == 0.0 {
+                state.unstable_from = state.time;
+            }
             state.unstable += 1.0;
         }
         state.forces = self.faces.forces(&found.reactions);
@@ -284,12 +292,13 @@ impl RestingBody {
         let warmth = self.held_warmth(&present, inputs);
         to.rise.clone_from(&warmth.rise);
         if present.steps == 0.0 || self.held(&present) != to {
-            let (time, steps, unstable) = (present.time, present.steps, present.unstable);
+            let Resting { time, steps, unstable, unstable_from, .. } = present;
             let interrupt = Interrupt::default();
             let allowance = Allowance::of_updates(&interrupt, f64::INFINITY);
             let settled = self.settle(&mut present, &to, 0.0, self.halvings, &allowance);
             settled.map_err(|failure| named(&self.name, failure))?;
-            (present.time, present.steps, present.unstable) = (time, steps, unstable);
+            (present.time, present.steps) = (time, steps);
+            (present.unstable, present.unstable_from) = (unstable, unstable_from);
             present.warmth = warmth;
         }
         Ok(present)
@@ -483,9 +492,9 @@ impl RestingBody {
 
     /// Warns of a body that may leave its equilibrium for another one.
     fn warning_on_stability(&self, state: &[f64]) -> Option<Warning> {
-        let Resting { unstable, time, .. } = self.structure(state);
+        let Resting { unstable, unstable_from, .. } = self.structure(state);
         (unstable > 0.0).then(|| {
-            let finding = warning::equilibrium_not_stable(format!("{time:.3e}"));
+            let finding = warning::equilibrium_not_stable(format!("{unstable_from:.3e}"));
             finding.at(&self.name).whatever_its_numbers()
         })
     }

@@ -16,8 +16,8 @@ use crate::body::{
 };
 use crate::inputs::InputLayout;
 use crate::method::large_strain::{
-    Course, Courses, Drive, Failure, IMPLICIT_STEPS, IMPLICIT_WORK, ImplicitDynamics, Motion,
-    through_mirror,
+    Course, Courses, Deformable, Drive, Failure, IMPLICIT_STEPS, IMPLICIT_WORK, ImplicitDynamics,
+    Motion, through_mirror,
 };
 use crate::method::sph::ParticleFields;
 use crate::runtime::allowance::{Allowance, cost};
@@ -30,6 +30,8 @@ pub struct SwingingBody {
     name: String,
     dynamics: ImplicitDynamics,
     start: Swinging,
+    /// Time in which a wave crosses the body [s].
+    crossing: f64,
     faces: Faces,
     probes: Probes,
     mirrors: [bool; 2],
@@ -47,6 +49,10 @@ pub struct Swinging {
     motion: Motion,
     /// Forces on the faces that are held or moved, means over the last step [N].
     forces: Vec<[f64; 3]>,
+    /// Shortest part into which a step was cut as a face changed its speed [s]; zero if none was.
+    cut: f64,
+    /// Time until which waves that a face sends out cross the body some times [s].
+    waves_until: f64,
 }
 
 impl Fields for Swinging {
@@ -63,6 +69,11 @@ impl Fields for Swinging {
             ),
             (body("load_work", "work of loads on faces [J]"), from_mut(&mut ledger.load_work)),
             (body("face_work", "work of held faces [J]"), from_mut(&mut ledger.face_work)),
+            (body("cut", "shortest part of a step with a jolt [s]"), from_mut(&mut self.cut)),
+            (
+                body("waves_until", "time until which waves of a jolt cross the body [s]"),
+                from_mut(&mut self.waves_until),
+            ),
             (
                 of("forces", "forces on held faces in the last step [N]", Per::Face, 3),
                 self.forces.as_flattened_mut(),
@@ -76,6 +87,13 @@ impl Fields for Swinging {
 
 /// Halvings of a step that Newton's method does not solve.
 const HALVINGS: u32 = 10;
+/// Energy of the whole body at the change of speed of a face, over that of the body, from which on it is a jolt; halvings
+/// of such a step, and the change of the work of faces, over that energy, at which it is resolved.
+const JOLT: f64 = 0.02;
+const FINEST: u32 = 5;
+const RESOLVED: f64 = 0.02;
+/// Crossings of the body by waves after a jolt in which steps are examined like that of the jolt.
+const CROSSINGS: f64 = 5.0;
 /// Iterations of a usual step.
 const ITERATIONS: f64 = 5.0;
 /// Part of the work of the stresses from which on loads, not moved faces, have bent a body.
@@ -101,13 +119,15 @@ impl SwingingBody {
         let loaded = loaded(solid, &body);
         let dynamics = ImplicitDynamics::new(body, &faces.held(), loaded, solid.gravity);
         let dynamics = dynamics.map_err(named)?;
+        let crossing = crossing(&dynamics.body);
         let still = dynamics.body.in_all(Course::NONE);
         let motion = dynamics.start(solid.start.velocity);
-        let start = Swinging { motion, forces: faces.no_forces() };
+        let start = Swinging { motion, forces: faces.no_forces(), ..Swinging::default() };
         Ok(Self {
             name: name.to_owned(),
             dynamics,
             start,
+            crossing,
             faces,
             probes,
             mirrors: solid.mirrors(),
@@ -117,6 +137,79 @@ impl SwingingBody {
             advised,
             bend_test: BendTest::of((name, solid)),
         })
+    }
+
+    /// Swings over a communication step. A step in which a face changes its speed abruptly is cut into equal parts, until
+    /// halves of them hardly change the work of the faces; so are those in which its waves cross the body a few times.
+    fn swing_through(
+        &self,
+        state: &mut Swinging,
+        ends: (&Prescribed, &Prescribed),
+        dt: f64,
+        allowance: &Allowance,
+    ) -> Result<(), Failure> {
+        let jolt = self.jolt(&state.motion, ends.1, dt);
+        let mut swung = state.clone();
+        self.swing(&mut swung, ends, dt, HALVINGS, allowance)?;
+        let is_abrupt = jolt > JOLT * self.energy(&swung.motion);
+        if is_abrupt {
+            state.waves_until = swung.motion.ledger.time + CROSSINGS * self.crossing;
+        }
+        let is_examined = state.motion.ledger.time < state.waves_until;
+        for halvings in if is_examined { 1..=FINEST } else { 1..=0 } {
+            let mut finer = state.clone();
+            match self.swing_in_parts(&mut finer, ends, dt, halvings, allowance) {
+                Ok(()) => {}
+                Err(failure @ Failure::Halted(_)) => return Err(failure),
+                Err(_) => break,
+            }
+            let change = finer.motion.ledger.face_work - swung.motion.ledger.face_work;
+            let is_resolved = change.abs() <= RESOLVED * self.energy(&finer.motion);
+            swung = finer;
+            // The half of it has shown whether this part would do.
+            let part = dt * 0.5_f64.powi(halvings as i32 - i32::from(is_resolved));
+            if part < dt {
+                swung.cut = if state.cut > 0.0 { state.cut.min(part) } else { part };
+            }
+            if is_resolved {
+                break;
+            }
+        }
+        *state = swung;
+        Ok(())
+    }
+
+    fn swing_in_parts(
+        &self,
+        state: &mut Swinging,
+        (from, to): (&Prescribed, &Prescribed),
+        dt: f64,
+        halvings: u32,
+        allowance: &Allowance,
+    ) -> Result<(), Failure> {
+        if halvings == 0 {
+            return self.swing(state, (from, to), dt, HALVINGS, allowance);
+        }
+        let middle = from.middle(to);
+        self.swing_in_parts(state, (from, &middle), 0.5 * dt, halvings - 1, allowance)?;
+        self.swing_in_parts(state, (&middle, to), 0.5 * dt, halvings - 1, allowance)
+    }
+
+    /// Kinetic energy of the whole body at the largest change of the speed of a moved face in a step [J].
+    fn jolt(&self, motion: &Motion, to: &Prescribed, dt: f64) -> f64 {
+        let [before, at] =
+            [&motion.velocity, &motion.displacement].map(|own| self.faces.places(own));
+        let changes = to.places.iter().zip(&at).zip(&before).map(|((to, at), before)| {
+            (0..3).map(|a| ((to[a] - at[a]) / dt - before[a]).powi(2)).sum::<f64>()
+        });
+        0.5 * self.dynamics.body.mass.iter().sum::<f64>() * changes.fold(0.0, f64::max)
+    }
+
+    /// Scale of the energy of a motion [J].
+    fn energy(&self, motion: &Motion) -> f64 {
+        let squares = motion.velocity.iter().map(|v| v.iter().map(|v| v * v).sum::<f64>());
+        let kinetic = self.dynamics.body.mass.iter().zip(squares).map(|(m, v)| 0.5 * m * v);
+        kinetic.sum::<f64>() + motion.ledger.internal_work.abs()
     }
 
     /// Moves to the places of the faces after a time [s] under the loads of its middle; halves the step where Newton's
@@ -210,6 +303,15 @@ impl SwingingBody {
 }
 
 impl SwingingBody {
+    /// Warns of faces that change their speed faster than steps resolve.
+    fn warning_on_jolts(&self, state: &[f64]) -> Option<Warning> {
+        let Swinging { cut, .. } = self.structure(state);
+        (cut > 0.0).then(|| {
+            let finding = warning::steps_miss_jolts(format!("{cut:.1e}"));
+            finding.at(&self.name).whatever_its_numbers()
+        })
+    }
+
     /// Warns of nodes that lie within the mirror image of their body.
     fn warning_on_mirrors(&self, state: &[f64]) -> Option<Warning> {
         let motion = self.structure(state).motion;
@@ -226,6 +328,22 @@ impl SwingingBody {
     }
 }
 
+/// Time in which a wave crosses the longest side of the box about a body [s].
+fn crossing(body: &Deformable) -> f64 {
+    let nodes = &body.space.nodes;
+    let along = |a: usize| {
+        let (low, high) =
+            nodes.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| {
+                (low.min(at[a]), high.max(at[a]))
+            });
+        high - low
+    };
+    let length = (0..3).map(along).fold(0.0, f64::max);
+    let volume: f64 = body.space.volume.weights.iter().sum();
+    let density = body.mass.iter().sum::<f64>() / volume;
+    length * (density / body.wave_modulus()).sqrt()
+}
+
 impl Structured for SwingingBody {
     type State = Swinging;
     type View = View;
@@ -238,7 +356,14 @@ impl Structured for SwingingBody {
         &self.start
     }
 
-    fn check(&self, Swinging { motion, forces }: &Swinging) -> Result<(), String> {
+    fn check(
+        &self,
+        Swinging { motion, forces, cut, waves_until }: &Swinging,
+    ) -> Result<(), String> {
+        let last = motion.ledger.time + CROSSINGS * self.crossing;
+        if ![cut, waves_until].iter().all(|own| (0.0..=last).contains(own)) {
+            return Err("waves of a jolt do not last longer than the run".to_owned());
+        }
         if !forces.as_flattened().iter().all(|force| force.is_finite()) {
             return Err("a force is not finite".to_owned());
         }
@@ -256,13 +381,17 @@ impl Structured for SwingingBody {
         // Faces move from where they are, even if their inputs have jumped.
         from.places = self.faces.places(&state.motion.displacement);
         let to = self.faces.prescribed(&acts.path.at(0, acts.duration));
-        let swung = self.swing(state, (&from, &to), acts.duration, HALVINGS, allowance);
+        let swung = self.swing_through(state, (&from, &to), acts.duration, allowance);
         swung.map_err(|failure| named(&self.name, failure))?;
         state.forces.iter_mut().flatten().for_each(|force| *force /= acts.duration);
         Ok(None)
     }
 
-    fn view(&self, Swinging { motion, forces }: Swinging, _: &[f64]) -> Result<View, BodyError> {
+    fn view(
+        &self,
+        Swinging { motion, forces, .. }: Swinging,
+        _: &[f64],
+    ) -> Result<View, BodyError> {
         let seen = self.seen(&motion);
         let stresses = seen.stresses().map_err(|failure| named(&self.name, failure))?;
         let snapshot = seen.snapshot(&stresses);
@@ -301,7 +430,10 @@ impl Advice for SwingingBody {
 
     fn warnings(&self, state: &[f64], occasion: Occasion) -> Vec<Warning> {
         match occasion {
-            Occasion::Step => self.warning_on_mirrors(state).into_iter().collect(),
+            Occasion::Step => {
+                let all = [self.warning_on_mirrors(state), self.warning_on_jolts(state)];
+                all.into_iter().flatten().collect()
+            }
             Occasion::Response { .. } => Vec::new(),
             Occasion::End => self.warning_on_bends(state).into_iter().collect(),
         }

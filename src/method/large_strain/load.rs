@@ -57,6 +57,17 @@ pub struct LoadStiffness {
     pub matrix: Vec<f64>,
 }
 
+impl LoadStiffness {
+    pub fn symmetric_part(&self) -> Self {
+        let width = 3 * self.nodes.len();
+        let mean = |n: usize| {
+            let (row, column) = (n / width, n % width);
+            0.5 * (self.matrix[n] + self.matrix[column * width + row])
+        };
+        Self { nodes: self.nodes.clone(), matrix: (0..width * width).map(mean).collect() }
+    }
+}
+
 /// Unit vectors s and t along a face at a point, `s × t = N`, and their images `F s` and `F t`.
 struct Frame {
     along: [[f64; 3]; 2],

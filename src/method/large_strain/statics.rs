@@ -90,6 +90,13 @@ struct Step<'a> {
     allowance: &'a Allowance,
 }
 
+impl Step<'_> {
+    /// Returns true under pressure, which follows a face.
+    fn is_pressed(&self) -> bool {
+        self.to.loads.iter().any(|load| load.pressure != 0.0)
+    }
+}
+
 /// Flow in the tangent of an iteration. Rounding decides whether a point on its yield surface yields at the beginning of
 /// a step, and a body with both kinds of points deforms unevenly. So no point yields in the first iteration, which is
 /// right for a body that unloads.
@@ -187,13 +194,14 @@ impl Equilibrium {
         let solved = newton::solve(&balance, u, now)?;
         let (u, now) = (solved.u, solved.trial);
         residuals.extend(solved.residuals);
+        let is_unstable = self.is_unstable(&step, &u, &now, balance.is_unstable.get());
         let found = Found {
             residuals,
             work: self.work(&step, &now.linearised),
             reactions: now.reactions,
             stored: now.stresses.energy,
             passed: self.body.largest_passed(&rest.history, &now.history),
-            is_unstable: balance.is_unstable.get(),
+            is_unstable,
         };
         *rest = Rest { displacement: u, history: now.history };
         Ok(found)
@@ -221,18 +229,31 @@ impl Equilibrium {
         u: &[[f64; 3]],
         (now, flow): (&Trial, Flow),
     ) -> Result<Factor, Failure> {
-        let loads = &step.to.loads;
-        let is_pressed = loads.iter().any(|load| load.pressure != 0.0);
         let terms = Terms {
             of_group: &|group| match flow {
                 Flow::Not => now.linearised.group_without_flow(&self.body, group),
                 Flow::AsItIs => now.linearised.group(&self.body, group),
             },
             inertia: 0.0,
-            loads: &self.loaded.stiffness(&self.body, u, loads, 1.0),
-            is_symmetric: self.body.has_symmetric_tangent() && !is_pressed,
+            loads: &self.loaded.stiffness(&self.body, u, &step.to.loads, 1.0),
+            is_symmetric: self.body.has_symmetric_tangent() && !step.is_pressed(),
         };
         self.stiffness.factor(&self.body, &terms, step.team).map_err(|_| Failure::Singular)
+    }
+
+    /// Returns true if the stiffness at an equilibrium is known not to be positive definite: that of the last iteration,
+    /// or under pressure its symmetric part.
+    fn is_unstable(&self, step: &Step, u: &[[f64; 3]], now: &Trial, last: bool) -> bool {
+        if !(self.body.has_symmetric_tangent() && step.is_pressed()) {
+            return last;
+        }
+        let terms = Terms {
+            of_group: &|group| now.linearised.group(&self.body, group),
+            inertia: 0.0,
+            loads: &self.loaded.stiffness(&self.body, u, &step.to.loads, 1.0),
+            is_symmetric: true,
+        };
+        self.stiffness.is_indefinite(&self.body, &terms, step.team)
     }
 
     /// Changes of prescribed displacements; `None` if there are none.

@@ -133,6 +133,17 @@ impl Stiffness {
         terms: &Terms,
         team: &Team,
     ) -> Result<Factor, Singular> {
+        let matrix = self.matrix(body, terms, team);
+        if !terms.is_symmetric {
+            return Ok(Factor::General(self.factor_general(&matrix)?));
+        }
+        match self.lower.factor(&matrix, team.threads()) {
+            Ok(factor) => Ok(Factor::Positive(factor)),
+            Err(_) => Ok(Factor::Indefinite(self.factor_general(&matrix)?)),
+        }
+    }
+
+    fn matrix(&self, body: &Deformable, terms: &Terms, team: &Team) -> SparseColMat<usize, f64> {
         let loads = self.pattern.blocks() - self.blocks.len();
         assert_eq!(terms.loads.len(), loads, "loads of another pattern");
         let mut values = self.pattern.zeros();
@@ -162,14 +173,15 @@ impl Stiffness {
                 self.pattern.add_to_diagonal(&mut values, unknown, terms.inertia * mass);
             }
         }
-        let matrix = self.pattern.with(values);
-        if !terms.is_symmetric {
-            return Ok(Factor::General(self.factor_general(&matrix)?));
-        }
-        match self.lower.factor(&matrix, team.threads()) {
-            Ok(factor) => Ok(Factor::Positive(factor)),
-            Err(_) => Ok(Factor::Indefinite(self.factor_general(&matrix)?)),
-        }
+        self.pattern.with(values)
+    }
+
+    /// Returns true unless a matrix is positive definite, with the symmetric part of its loads; the rest of it is
+    /// symmetric.
+    pub fn is_indefinite(&self, body: &Deformable, terms: &Terms, team: &Team) -> bool {
+        let loads: Vec<_> = terms.loads.iter().map(LoadStiffness::symmetric_part).collect();
+        let matrix = self.matrix(body, &Terms { loads: &loads, ..*terms }, team);
+        self.lower.factor(&matrix, team.threads()).is_err()
     }
 
     fn factor_general(
