@@ -156,7 +156,8 @@ impl SwingingBody {
             state.waves_until = swung.motion.ledger.time + CROSSINGS * self.crossing;
         }
         let is_examined = state.motion.ledger.time < state.waves_until;
-        for halvings in if is_examined { 1..=FINEST } else { 1..=0 } {
+        let finest = if is_examined { FINEST } else { 0 };
+        for halvings in 1..=finest {
             let mut finer = state.clone();
             match self.swing_in_parts(&mut finer, ends, dt, halvings, allowance) {
                 Ok(()) => {}
