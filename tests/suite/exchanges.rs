@@ -105,7 +105,7 @@ fn assert_balanced(trial: &mut Trial) {
 }
 
 #[test]
-fn a_pair_agrees_with_layers_in_steps_of_any_length() {
+fn solids_in_contact_agree_with_layers_in_steps_of_any_length() {
     // The slowest change takes some 10 s, the fastest 10 ms.
     for materials in [[COPPER, GLASS], [GLASS, COPPER], [GRADED, GLASS], [GRADED, GRADED]] {
         for faces in [[BLOWN, HEATED], [HELD, HOT], [BLOWN, GLOWING]] {

@@ -539,7 +539,7 @@ fn fronts_keep_the_tolerance_or_say_what_they_err_by() {
 }
 
 #[test]
-fn the_liquid_volume_of_layers_is_that_of_those_that_melt() {
+fn only_melting_layers_count_in_the_liquid_volume() {
     let layer = |thickness: f64, melting: &str| {
         format!(
             "[[body.plate.layers]]\nthickness = {thickness:e}\nmaterial = {{ model = \"thermoelastic\", \

@@ -74,7 +74,7 @@ class Course:
 
     @property
     def follows_jumps(self) -> bool:
-        """Whether most of the error is of the steps after the start and jumps."""
+        """True if most of the error arises in the steps after the start and jumps."""
         return self.steps > 2 * _EARLY and self.early > 0.5 * self.second
 
     def forget_change(self) -> None:
@@ -150,7 +150,7 @@ class Watch:
         return 0.0 if worst is None else worst.error
 
     def warning(self, step: float, order: int, is_graded: bool = False) -> str:
-        """What to say of steps that are too long, with what would do; nothing if they are not.
+        """Return what to say of steps that are too long, with a remedy; nothing if they are not.
 
         order: degree of the paths, whose error grows as its successor. After a jump it does not,
         and steps that are shorter there alone do more (`is_graded`: they already are).

@@ -357,6 +357,9 @@ impl RestingBody {
         if state.time < 0.0 || !(0.0..=state.steps).contains(&state.unstable) {
             return Err("time and steps are not negative".to_owned());
         }
+        if !(0.0..=state.time).contains(&state.unstable_from) {
+            return Err("stability is lost within the run".to_owned());
+        }
         let temperature = state.temperature;
         let moves = temperature != self.temperature;
         if temperature.is_nan()

@@ -287,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn the_liquid_part_of_a_mixture_is_that_of_what_melts() {
+    fn only_melting_parts_of_a_mixture_become_liquid() {
         for (solidus, liquidus) in [(900.0, 900.0), (800.0, 1000.0)] {
             let melting = alloy(solidus, liquidus);
             let solid = Conduction { melting: None, ..melting.clone() };

@@ -251,7 +251,7 @@ impl ImplicitDynamics {
             .zip(&forces)
             .map(|(r, f)| [0, 1, 2].map(|a| 2.0 * r[a] + f[a]))
             .collect();
-        let is_pressed = step.to.loads.iter().any(|load| load.pressure != 0.0);
+        let is_pressed = step.to.loads.iter().any(FaceLoad::follows);
         let terms = Terms {
             of_group: &|group| start.group_without_flow(body, group),
             inertia: 4.0 / (step.dt * step.dt),

@@ -23,6 +23,11 @@ impl FaceLoad {
         *self == Self::default()
     }
 
+    /// Returns true if a load follows its face as that turns, so that its stiffness is not symmetric.
+    pub fn follows(&self) -> bool {
+        self.pressure != 0.0
+    }
+
     /// The load of these numbers: the pressure, then the traction [Pa].
     pub fn of([pressure, x, y, z]: [f64; 4]) -> Self {
         Self { pressure, traction: [x, y, z] }
@@ -107,7 +112,7 @@ impl LoadedFaces {
             }
             for &point in points {
                 let mut force = load.traction;
-                if load.pressure != 0.0 {
+                if load.follows() {
                     let Frame { images: [s, t], .. } = frame(body, point, u);
                     let area = cross(s, t);
                     (0..3).for_each(|a| force[a] -= load.pressure * area[a]);

@@ -93,7 +93,7 @@ struct Step<'a> {
 impl Step<'_> {
     /// Returns true under pressure, which follows a face.
     fn is_pressed(&self) -> bool {
-        self.to.loads.iter().any(|load| load.pressure != 0.0)
+        self.to.loads.iter().any(FaceLoad::follows)
     }
 }
 

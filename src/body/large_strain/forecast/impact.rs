@@ -1,7 +1,7 @@
 //! Flattening of a body that hits what lies below, which shortens its time steps.
 //!
-//! Where metal meets the plane it flattens by far more than in the mean. Its logarithmic strain ε there is that up to
-//! which the flow stress does [`CONCENTRATED`] times the work of the kinetic energy per volume: `∫ σ dε = 2 ρ v²`.
+//! Metal flattens where it meets the plane, by far more than in the mean. The logarithmic strain ε reached there is that
+//! at which the work of the flow stress is [`CONCENTRATED`] times the kinetic energy per volume: `∫ σ dε = 2 ρ v²`.
 //! Elements end flatter by `e^(1.4 ε)`, after a time in which the body moves by `½ ε D` at its speed, with the smaller
 //! of width and height D. A squat body moves apart as a whole. Of 40 impacts of copper, steel, aluminium, brass, gold,
 //! tin and lead at 20 to 350 m/s and of rubber, by bars, balls and plates of elements, kernels and particles, forecasts
