@@ -34,7 +34,7 @@ rules! {
     "at {time} s the fluid is at {temperature} K at x = {x}, y = {y}, z = {z} m, below the {point} K at which it \
      freezes (`freezes_at`): the model keeps it liquid, without latent heat";
     "do not rely on spread, forces and heat of what freezes from here on; with `method = \"sph\"` and `melting` of the fluid \
-     it freezes where something is colder from the start"
+     it freezes"
 
     Step fluid_boils(time, temperature, x, y, z, point)
     "at {time} s the fluid is at {temperature} K at x = {x}, y = {y}, z = {z} m, above the {point} K at which it \

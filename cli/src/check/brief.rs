@@ -80,7 +80,9 @@ fn models(scene: &Scene, forecast: &Forecast) -> String {
     let droplets = forecast.droplets.iter().map(|body| match body.particles {
         0 => format!("{}: closed forms", body.name),
         particles => {
-            let freezes = scene.freezing_of(&body.name).map_or("", |_| ", freezing");
+            let freezes = scene.freezing_of(&body.name).map_or_else(String::new, |freezing| {
+                format!(", freezing below {} K", freezing.melting.liquidus)
+            });
             format!("{}: {particles} particles{freezes}", body.name)
         }
     });

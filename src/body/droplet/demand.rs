@@ -69,7 +69,7 @@ impl DropInputs {
             reach,
             why,
             droplet: droplet.clone(),
-            liquidus: scene.possible_freezing_of(name).map(|freezing| freezing.melting.liquidus),
+            liquidus: scene.freezing_of(name).map(|freezing| freezing.melting.liquidus),
             at_origin: super::plan::release_at(droplet, &Default::default()),
         })
     }

@@ -280,7 +280,7 @@ pub fn offered_totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
     let on_demand = scene.droplet(name).is_some_and(Droplet::is_on_demand);
     let yields =
         scene.droplet(name).is_some_and(|droplet| droplet.fluid.viscosity.yield_stress() > 0.0);
-    let freezes = scene.possible_freezing_of(name).is_some();
+    let freezes = scene.freezing_of(name).is_some();
     let solves_pressure =
         (scene.droplet(name)).is_some_and(|droplet| droplet.pressure == PressureAdvance::Implicit);
     let is_offered = |total: &Total| match total.of {

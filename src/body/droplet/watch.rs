@@ -99,12 +99,6 @@ pub fn note(scene: &Scene, (name, fluid): (&str, &Fluid)) -> String {
     if let Some(freezing) = scene.freezing_of(name) {
         return frozen_note(&freezing.melting);
     }
-    if let Some(freezing) = scene.possible_freezing_of(name) {
-        return format!(
-            "the fluid stays liquid, as nothing is colder at first than the {} K of its liquidus; it does not boil",
-            freezing.melting.liquidus
-        );
-    }
     let general = match fluid.viscosity.depends_on_temperature() {
         true => {
             "liquids neither freeze nor boil in this model, and only their viscosity changes with temperature"
