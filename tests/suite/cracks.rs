@@ -88,7 +88,12 @@ fn notches_at_rest_have_their_length() {
     // Ten elements of a third of ℓ within the strip; one that leans, from an edge.
     let within = ("{ from = [-0.1e-3, -0.2e-3], to = [0.1125e-3, -0.2e-3] }", 0.2125e-3);
     let leans = ("{ from = [-0.3e-3, 0.0], to = [-0.2e-3, -0.1e-3] }", 0.1e-3 * 2.0_f64.sqrt());
-    for (notches, wanted) in [within, leans] {
+    // The first in two parts that lie on each other.
+    let twice = (
+        "{ from = [-0.1e-3, -0.2e-3], to = [0.05e-3, -0.2e-3] }, { from = [0.1125e-3, -0.2e-3], to = [0.0, -0.2e-3] }",
+        0.2125e-3,
+    );
+    for (notches, wanted) in [within, leans, twice] {
         let shape = format!("{STRIP}\nnotches = [{notches}]");
         let mut trial = Trial::new(&scene(&shape, &alumina(AT1), HELD, ""));
         for part in [0.0, 0.1, 0.2] {

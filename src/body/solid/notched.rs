@@ -2,10 +2,14 @@
 
 use std::f64::consts::PI;
 
+use crate::math::segments::{Segment, distance, united};
 use crate::method::damage::{DamageState, Section, SectionProblem, broken};
 use crate::method::fem::{Geometry, Mesh};
 use crate::runtime::allowance::Allowance;
 use crate::scene::Notch;
+
+/// Distance over the length of the shortest notch below which notches touch.
+const TOUCHING: f64 = 1e-9;
 
 /// The notches of a body.
 pub struct Notched {
@@ -36,7 +40,11 @@ impl Notched {
         let section = &problem.elements.domain;
         let state = at_start(problem, notches);
         let cut = broken(&state.damage);
-        let area = notches.iter().map(|notch| area_of(notch, mesh, width)).sum();
+        let lines: Vec<Segment> = notches.iter().map(|notch| [notch.from, notch.to]).collect();
+        let shortest = lines.iter().map(|[a, b]| distance(*a, *b)).fold(f64::INFINITY, f64::min);
+        // Where notches lie on each other there is one.
+        let lines = united(&lines, TOUCHING * shortest);
+        let area = lines.iter().map(|line| area_of(line, mesh, width)).sum();
         let dissipated = mesh.copies() * problem.energies(&state).dissipated;
         let excess = dissipated / problem.elements.law.energy - area;
         Some(Self {
@@ -83,9 +91,8 @@ fn at_start(problem: &SectionProblem, notches: &[Notch]) -> DamageState {
 }
 
 /// Area of a notch and its mirror image [m²]; one in the plane of symmetry is its own.
-fn area_of(notch: &Notch, mesh: &Mesh, width: Option<f64>) -> f64 {
-    let Notch { from, to } = *notch;
-    let length = (to[0] - from[0]).hypot(to[1] - from[1]);
+fn area_of(&[from, to]: &Segment, mesh: &Mesh, width: Option<f64>) -> f64 {
+    let length = distance(from, to);
     match (mesh.geometry, width) {
         (Geometry::Box, Some(width)) => {
             let is_in_plane = from[0] == 0.0 && to[0] == 0.0;

@@ -4,18 +4,12 @@ use std::collections::BTreeSet;
 
 use super::{Checker, number};
 use crate::math::parts::Parts;
+use crate::math::segments::{Place, Segment, contact, distance, united};
 use crate::scene::locate::Path;
 use crate::scene::types::{Mesh, Shape, Solid, Symmetry};
 
-/// Place in a section [m].
-type Place = [f64; 2];
-/// Ends of a notch.
-type Segment = [Place; 2];
-
 /// Distance over the size of a section below which notches touch.
 const TOUCHING: f64 = 1e-9;
-/// Sine of the angle below which notches are parallel.
-const PARALLEL: f64 = 1e-9;
 
 /// Refuses notches outside of the meshed section, those without length, those that leave less than an element at an
 /// edge, and those that cut the section in two.
@@ -180,70 +174,6 @@ fn cut(notches: &[Segment], [low, high]: [Place; 2]) -> bool {
     let mut parts = Parts::new(vertices);
     contacts.iter().for_each(|&(owner, place)| parts.join([owner, owners + place]));
     contacts.len() + parts.count() > vertices
-}
-
-/// Notches of which those that lie on each other are one.
-fn united(notches: &[Segment], reach: f64) -> Vec<Segment> {
-    let mut all: Vec<Segment> = Vec::new();
-    for own in notches {
-        let mut own = *own;
-        let is_one = |own: &Segment, other: &Segment| {
-            is_parallel(own, other) && contact(own, other, reach).is_some()
-        };
-        while let Some(place) = all.iter().position(|other| is_one(&own, other)) {
-            let other = all.swap_remove(place);
-            let ends = [own[0], own[1], other[0], other[1]];
-            let pairs = ends.iter().flat_map(|a| ends.map(|b| [*a, b]));
-            let length = |pair: &Segment| distance(pair[0], pair[1]);
-            own = pairs.max_by(|a, b| length(a).total_cmp(&length(b))).unwrap_or(own);
-        }
-        all.push(own);
-    }
-    all
-}
-
-fn is_parallel(a: &Segment, b: &Segment) -> bool {
-    let (r, s) = (difference(a[1], a[0]), difference(b[1], b[0]));
-    cross(r, s).abs() <= PARALLEL * (dot(r, r) * dot(s, s)).sqrt()
-}
-
-/// A place that two notches share.
-fn contact(a: &Segment, b: &Segment, reach: f64) -> Option<Place> {
-    let on = |at: &Place, [from, to]: &Segment| {
-        let along = difference(*to, *from);
-        let part = dot(difference(*at, *from), along) / dot(along, along);
-        let part = part.clamp(0.0, 1.0);
-        let nearest = [from[0] + part * along[0], from[1] + part * along[1]];
-        distance(*at, nearest) <= reach
-    };
-    let end = a.iter().find(|at| on(at, b)).or_else(|| b.iter().find(|at| on(at, a)));
-    if let Some(end) = end {
-        return Some(*end);
-    }
-    let (r, s, apart) = (difference(a[1], a[0]), difference(b[1], b[0]), difference(b[0], a[0]));
-    if is_parallel(a, b) {
-        return None;
-    }
-    let sine = cross(r, s);
-    let parts = [cross(apart, s) / sine, cross(apart, r) / sine];
-    let crosses = parts.iter().all(|part| (0.0..=1.0).contains(part));
-    crosses.then(|| [a[0][0] + parts[0] * r[0], a[0][1] + parts[0] * r[1]])
-}
-
-fn difference(a: Place, b: Place) -> Place {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-fn distance(a: Place, b: Place) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
-}
-
-fn dot(a: Place, b: Place) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-fn cross(a: Place, b: Place) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
 }
 
 #[cfg(test)]
