@@ -45,7 +45,7 @@ pub struct Filament {
         .plausible(&plausible::GRAVITY))]
     pub gravity: f64,
     /// Heat that passes to the air.
-    #[schemars(extend("otherwise" = "none", "condition" = "with `method = \"line\"`"))]
+    #[schemars(extend("otherwise" = "none"))]
     pub convection: Option<Convection>,
 }
 
@@ -194,6 +194,11 @@ fn free_fall() -> f64 {
 const LEAST_HEIGHT: f64 = 0.01;
 
 impl Filament {
+    /// Returns true if the fluid comes to rest for good: it yields or freezes.
+    pub fn comes_to_rest(&self) -> bool {
+        self.fluid.viscosity.yield_stress() > 0.0 || self.fluid.melting.is_some()
+    }
+
     /// Section of the outlet [m²].
     pub fn outlet(&self) -> f64 {
         FRAC_PI_4 * self.nozzle.diameter.powi(2)

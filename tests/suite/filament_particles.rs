@@ -185,3 +185,102 @@ conductivity = 0.0
     let [length, width] = ["length", "last_width"].map(|name| trial.get(&format!("ink.{name}")));
     assert!(length > 0.1e-3 && width > 0.9e-3 && width < 2.5e-3, "{length} {width}");
 }
+
+/// A thread that hangs from the nozzle gives heat to the air through its side and its end: with a small Biot number
+/// `h (T − T_a) (π D u t²/2 + π D² t/4)` in times in which it hardly cools.
+#[test]
+fn threads_in_air_cool_through_their_side() {
+    let (diameter, speed, coefficient, gap): (f64, f64, f64, f64) = (1e-3, 20e-3, 300.0, 60.0);
+    for (spacing, wanted) in [(0.25e-3, 0.93), (0.125e-3, 0.96)] {
+        let text =
+            strand(&format!("convection = {{ coefficient = {coefficient}, ambient = 280.0 }}"));
+        let text = text
+            .replace("viscosity = 5.0", "viscosity = 50.0")
+            .replace("conductivity = 0.2", "conductivity = 5.0")
+            .replace("height = 1e-3", "height = 8e-3")
+            .replace("x = [-1e-3, 1e-3]", "x = [0.0, 0.0]")
+            .replace("spacing = 0.2e-3", &format!("spacing = {spacing:e}\ngravity = 0.0"));
+        let mut trial = Trial::new(&text);
+        (0..5).for_each(|_| trial.step(0.02));
+        let time = 0.1;
+        let side = std::f64::consts::PI * diameter * 0.5 * speed * time * time;
+        let end = 0.25 * std::f64::consts::PI * diameter * diameter * time;
+        let lost = trial.get("ink.heat_lost") / (coefficient * gap * (side + end));
+        assert!((lost - wanted).abs() < 0.07, "{spacing}: {lost}");
+        let drift = trial.get("ink.heat_drift") / trial.get("ink.heat_lost");
+        assert!(drift.abs() < 1e-9, "{drift}");
+        assert_eq!(trial.get("ink.heat"), 0.0);
+    }
+}
+
+/// Paste that conducts heat sleeps as any other, and goes on cooling: long after it came to rest it has the temperature
+/// of plate and air, and heat balances to rounding.
+#[test]
+fn paste_at_rest_cools() {
+    let warm = "viscosity = 5.0, specific_heat = 2000.0, conductivity = 0.2";
+    let paste = "viscosity = { law = \"bingham\", yield_stress = 100.0, plastic_viscosity = 1.0 }, specific_heat = 2000.0, \
+                 conductivity = 0.5";
+    let text = strand("convection = { coefficient = 100.0, ambient = 293.15 }")
+        .replace(warm, paste)
+        .replace("height = 1e-3", "height = 0.9e-3")
+        .replace("spacing = 0.2e-3", "spacing = 0.25e-3")
+        .replace("time = [0.0, 0.1], x = [-1e-3, 1e-3]", "time = [0.0, 0.3], x = [-3e-3, 3e-3]");
+    let mut trial = Trial::new(&text);
+    (0..12).for_each(|_| trial.step(0.025));
+    assert!(trial.get("ink.resting") > 50.0, "{}", trial.get("ink.resting"));
+    let balance = |trial: &mut Trial| {
+        let heat = trial.get("ink.heat");
+        let [drift, received] = ["ink.heat_drift", "plate.heat_in"].map(|key| trial.get(key));
+        assert!(drift.abs() < 1e-9 * heat, "{drift} of {heat}");
+        assert!((received / heat - 1.0).abs() < 1e-9, "{received} of {heat}");
+    };
+    balance(&mut trial);
+    let early = trial.get("ink.min_temperature");
+    (0..10).for_each(|_| trial.step(1.0));
+    balance(&mut trial);
+    // All that is laid holds 12 mJ/K; what the nozzle holds stays warm beside it.
+    let [lost, heat] = ["ink.heat_lost", "ink.heat"].map(|key| trial.get(key));
+    let all = 0.785398e-6 * 6e-3 * 2e6 * (340.0 - 293.15);
+    assert!(early > 294.0 && trial.get("ink.min_temperature") < 294.0);
+    assert!(
+        lost > 0.05 * all && (0.9..1.3).contains(&((lost + heat) / all)),
+        "{lost} {heat} {all}"
+    );
+}
+
+/// Wax that freezes on a cold plate comes to rest there, and continues to the bit from a state in between.
+#[test]
+fn wax_freezes_and_rests() {
+    let warm = "density = 1000.0, viscosity = 5.0, specific_heat = 2000.0, conductivity = 0.2";
+    let wax = "density = 780.0, viscosity = 0.5, specific_heat = 2300.0, conductivity = 0.5, melting = { solidus = 330.0, \
+               liquidus = 332.0, latent_heat = 1e5 }";
+    let text = strand("convection = { coefficient = 100.0, ambient = 293.15 }")
+        .replace(warm, wax)
+        .replace("height = 1e-3", "height = 0.9e-3")
+        .replace("spacing = 0.2e-3", "spacing = 0.25e-3")
+        .replace("flow = 15.7e-9", "flow = 3e-9")
+        .replace("time = [0.0, 0.1], x = [-1e-3, 1e-3]", "time = [0.0, 1.6], x = [-3e-3, 3e-3]");
+    let scene = scene::parse(&text, "wax.toml").unwrap();
+    let [one, two] = [1, 2].map(|threads| Model::build(&scene, threads).unwrap());
+    let advance = |model: &Model, state: &mut State, steps: usize| {
+        let mut cache = Cache::default();
+        (0..steps).for_each(|_| model.step(state, &mut cache, 0.1).unwrap());
+    };
+    let mut whole = one.initial_state();
+    advance(&one, &mut whole, 16);
+    let mut halves = one.initial_state();
+    advance(&one, &mut halves, 8);
+    two.check_state(&halves).unwrap();
+    advance(&two, &mut halves, 8);
+    assert!(whole.bodies == halves.bodies);
+    let mut trial = Trial::new(&text);
+    (0..16).for_each(|_| trial.step(0.1));
+    let mut get = |key: &str| trial.get(&format!("ink.{key}"));
+    let [frozen, resting, heat] = ["solid_fraction", "resting", "heat"].map(&mut get);
+    assert!(frozen > 0.4 && resting > 50.0, "{frozen} {resting}");
+    let [drift, lost] = ["heat_drift", "heat_lost"].map(&mut get);
+    assert!(drift.abs() < 1e-9 * heat && lost > 0.0, "{drift} of {heat}, {lost}");
+    trial.set("ink.nozzle_temperature", 331.0);
+    let refusal = trial.try_step(0.1).unwrap_err().to_string();
+    assert!(refusal.contains("frozen") && refusal.contains("332"), "{refusal}");
+}

@@ -158,12 +158,11 @@ fn notes_on_particles(scene: &Scene, (name, filament): (&str, &Filament)) -> Vec
         Viscous::WithPressure { .. } => "pressure and viscosity are solved at the end of each step",
         _ => "pressure and viscosity are explicit, as that is cheaper",
     };
-    let fluid = &filament.fluid;
-    let cost = match fluid.viscosity.yield_stress() > 0.0 && fluid.conductivity == 0.0 {
-        true => "fluid that has come to rest takes no part in steps",
+    let cost = match filament.comes_to_rest() {
+        true => "fluid that has come to rest takes no part in steps, but for its heat",
         false => {
-            "all of them take part in every step, so the cost grows with the square of the length: only fluid that yields and \
-             conducts no heat comes to rest"
+            "all of them take part in every step, so the cost grows with the square of the length: only fluid that yields or \
+             freezes comes to rest"
         }
     };
     let splash = jet(scene, filament).map(|[reynolds, weber]| {

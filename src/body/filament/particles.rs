@@ -9,6 +9,7 @@ use crate::body::{
     Occasion, Reading, Received, Resources,
 };
 use crate::inputs::{InputLayout, InputPath, Motion};
+use crate::laws::Melting;
 use crate::method::filament::{Failure, LineTotals, Sliced, Slicing, Target, guard};
 use crate::method::sph::{self, DropletSph, UNKNOWNS, WarmPlace};
 use crate::port::{Surface, WallCells, WallExchange};
@@ -58,7 +59,7 @@ impl ParticleFilament {
             nozzle,
             most: filament.most,
             target: plan::target_of(scene, name),
-            watch: Watch::of(name, &filament.fluid, false),
+            watch: Watch::of(name, &filament.fluid, filament.fluid.melting.is_some()),
             traction,
             notes: forecast::notes(scene, (name, filament)),
             threads,
@@ -86,6 +87,11 @@ impl ParticleFilament {
             if temperature <= 0.0 {
                 return Err(Failure::BelowAbsoluteZero { temperature });
             }
+            if let Some(Melting { liquidus, .. }) = self.melting()
+                && temperature <= liquidus
+            {
+                return Err(Failure::Frozen { temperature, liquidus });
+            }
             let ends = [0.0, motion.duration].map(|s| motion.outlet(s)[2]);
             let (height, least) = (ends[0].min(ends[1]), self.slicing.layer);
             if height < least {
@@ -93,6 +99,10 @@ impl ParticleFilament {
             }
         }
         Ok(())
+    }
+
+    fn melting(&self) -> Option<Melting> {
+        self.sph.plan().fluid.freezing.map(|freezing| freezing.melting)
     }
 
     fn view(&self, state: &[f64]) -> Seen {
@@ -103,15 +113,21 @@ impl ParticleFilament {
         let stored = sums.heat - sums.heat_released;
         let density = self.sph.plan().fluid.density;
         let totals = sliced.totals(laid.fed.nozzle);
+        let volume: f64 = laid.volume.iter().sum();
         Seen {
             volume: laid.fed.volume,
             mass: density * laid.fed.volume,
             totals: LineTotals {
-                volume: laid.volume.iter().sum(),
+                volume,
                 hottest,
                 coldest,
+                frozen: if laid.volume.is_empty() {
+                    0.0
+                } else {
+                    sums.frozen_mass / (density * volume)
+                },
                 heat_stored: stored,
-                missing: stored + sums.heat_to_wall,
+                missing: stored + sums.heat_to_wall + sums.heat_to_air,
                 ..totals
             },
             deviation: (self.target.as_ref())
@@ -121,6 +137,7 @@ impl ParticleFilament {
             impulse: sums.impulse_to_wall,
             supplied: sums.heat_released,
             given: sums.heat_to_wall,
+            lost: sums.heat_to_air,
             exchanged: [
                 exchange.heat.iter().sum::<f64>() + exchange.heat_outside,
                 exchange.impulse.iter().map(|impulse| impulse[2]).sum(),
@@ -181,7 +198,9 @@ impl Body for ParticleFilament {
         checked.map_err(|failure| self.refused(failure))?;
         let insulated = Surface::held(&[self.sph.plan().reference_temperature()]);
         let surface = acts.below.unwrap_or(&insulated);
-        let rises = self.sph.advance_fed(state, &motions, surface, allowance);
+        let air =
+            self.nozzle.air(acts.path, acts.duration, self.sph.plan().reference_temperature());
+        let rises = self.sph.advance_fed(state, &motions, (surface, air), allowance);
         let rises = rises.map_err(|failure| self.failed(failure))?;
         Ok(self.given(state).map(|given| Given {
             falling: surface.falling_parts(&given.heat, &rises, acts.duration),

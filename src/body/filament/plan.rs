@@ -55,7 +55,7 @@ pub fn particles_of(
             conductivity: fluid.conductivity,
             surface_tension: tension,
             sound_speed: scene.sound_of_strand(filament),
-            freezing: None,
+            freezing: fluid.freezing(),
         },
         placement: Placement::Lattice,
         precision: Precision::Single,
@@ -74,6 +74,7 @@ pub fn particles_of(
             most: filament.most,
             fastest,
             temperature: filament.nozzle.temperature,
+            air: filament.convection.map_or(0.0, |convection| convection.coefficient),
         }),
         wall: Some(sph::Wall {
             cells: cells.unwrap_or(WallCells::Tiles { count: [1, 1], size: [PLATE, PLATE] }),

@@ -25,6 +25,7 @@ enum Offered {
     WithATarget,
     OfParticles,
     OfYieldingParticles,
+    OfRestingParticles,
 }
 
 /// A strand, as readings see it.
@@ -264,7 +265,7 @@ const TOTALS: [Total; 37] = [
         }),
     ),
     of(
-        Offered::OfYieldingParticles,
+        Offered::OfRestingParticles,
         total(
             "resting",
             "number of particles at rest, which take no part in steps",
@@ -307,10 +308,11 @@ pub fn offered_totals(
     let is_offered = |total: &Total| match total.of {
         Offered::All => true,
         Offered::OfHeat => filament.fluid.conductivity > 0.0,
-        Offered::Freezing => filament.fluid.melting.is_some() && !by_particles,
+        Offered::Freezing => filament.fluid.melting.is_some(),
         Offered::Yielding => yields && !by_particles,
         Offered::OfParticles => by_particles,
         Offered::OfYieldingParticles => yields && by_particles,
+        Offered::OfRestingParticles => filament.comes_to_rest() && by_particles,
         Offered::InAir => filament.convection.is_some(),
         Offered::OnASolid => scene.coupling_from(name).is_some(),
         Offered::WithATarget => scene.target_of(name).is_some(),

@@ -27,4 +27,10 @@ pub enum Failure {
     NegativeFlow { flow: f64 },
     #[error("the fluid comes at {}, below absolute zero", kelvin(*temperature))]
     BelowAbsoluteZero { temperature: f64 },
+    #[error(
+        "the fluid comes at {}, frozen (allowed: above its liquidus, {})",
+        kelvin(*temperature),
+        kelvin(*liquidus)
+    )]
+    Frozen { temperature: f64, liquidus: f64 },
 }

@@ -18,6 +18,8 @@ pub struct Released {
 
 /// Relative rounding of a sum of masses.
 const ROUNDING: f64 = 1e-9;
+/// Free surface over H² that no particle reaches.
+const LARGEST_AREA: f64 = 10.0;
 /// Viscous stress over ρ₀c₀² that no flow reaches which is much slower than sound.
 const LARGEST_STRESS: f64 = 1e3;
 
@@ -63,6 +65,7 @@ pub fn check(
         }
     }
     check_contents(&cloud, method)?;
+    check_areas(&cloud)?;
     if let Some(column) = column {
         check_origins(&cloud, column, drops)?;
     }
@@ -203,6 +206,15 @@ fn check_contents(cloud: &Cloud, method: &Method) -> Result<(), String> {
         }
     }
     Ok(())
+}
+
+/// Refuses free surfaces that no particle has.
+fn check_areas(cloud: &Cloud) -> Result<(), String> {
+    let areas = cloud.exposed.iter().flatten();
+    match areas.enumerate().find(|(_, area)| !(0.0..LARGEST_AREA).contains(*area)) {
+        Some((i, area)) => Err(format!("particle {i} with {area} of free surface over H²")),
+        None => Ok(()),
+    }
 }
 
 fn check_masses(cloud: &Cloud, expected: Released) -> Result<(), String> {

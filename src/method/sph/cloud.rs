@@ -43,6 +43,9 @@ pub struct Cloud {
     /// Heat contents, see [`Phases`](super::phases::Phases); `None` for fluids that stay liquid, whose contents are
     /// their temperatures.
     pub content: Option<Vec<f64>>,
+    /// Area of free surface of each particle over H², see [`exposure`](super::exposure); `None` where no heat passes to
+    /// the air.
+    pub exposed: Option<Vec<f64>>,
     /// Origin of each particle of a fluid that comes from a nozzle.
     pub origin: Option<Origin>,
 }
@@ -110,6 +113,8 @@ pub struct Ledger {
     pub arrest: Option<f64>,
     /// Iterations of pressure and viscosity so far; `None` where pressure is not solved.
     pub iterations: Option<f64>,
+    /// Heat given to the air [J]; `None` where none passes.
+    pub heat_to_air: Option<f64>,
     /// State of a nozzle.
     pub fed: Option<Fed>,
 }
@@ -129,6 +134,8 @@ pub struct HeadNumbers {
     pub freezes: bool,
     /// True if pressure is solved at the end of each step.
     pub solves_pressure: bool,
+    /// True if heat passes to the air.
+    pub cools: bool,
     /// True if fluid comes from a nozzle.
     pub fed: bool,
 }
@@ -213,6 +220,8 @@ impl Fields for Ledger {
         fields.extend(self.arrest.iter_mut().map(|time| (arrest, from_mut(time))));
         let iterations = body("iterations", "iterations of pressure and viscosity so far", 1);
         fields.extend(self.iterations.iter_mut().map(|count| (iterations, from_mut(count))));
+        let to_air = body("heat_to_air", "heat given to the air [J]", 1);
+        fields.extend(self.heat_to_air.iter_mut().map(|heat| (to_air, from_mut(heat))));
         fields.extend(self.fed.iter_mut().flat_map(Fed::fields));
         fields
     }
@@ -245,6 +254,8 @@ impl Fields for Cloud {
         let content =
             of("content", "heat content over the specific heat of the molten fluid [K]", 1);
         fields.extend(self.content.iter_mut().map(|list| (content, &mut list[..])));
+        let exposed = of("exposed", "area of free surface over H²", 1);
+        fields.extend(self.exposed.iter_mut().map(|list| (exposed, &mut list[..])));
         let layer = of("layer", "number of its layer in the nozzle", 1);
         let hold =
             of("hold", "0 for free particles, 1 for those in the nozzle, 2 for those that rest", 1);
@@ -268,6 +279,7 @@ impl Ledger {
             creep: head.stressed.then_some(0.0),
             arrest: head.freezes.then_some(0.0),
             iterations: head.solves_pressure.then_some(0.0),
+            heat_to_air: head.cools.then_some(0.0),
             fed: head.fed.then(Fed::default),
             ..Self::default()
         }
@@ -360,6 +372,7 @@ impl Cloud {
         self.moment.push([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]);
         self.stress.iter_mut().for_each(|list| list.push([0.0; 6]));
         self.content.iter_mut().for_each(|list| list.push(temperature));
+        self.exposed.iter_mut().for_each(|list| list.push(0.0));
         self.origin.iter_mut().for_each(|origin| {
             origin.layer.push(0.0);
             origin.hold.push(FREE);
@@ -381,6 +394,7 @@ impl Cloud {
         self.moment.extend(other.moment);
         self.stress.iter_mut().for_each(|list| list.extend(other.stress.iter().flatten()));
         self.content.iter_mut().for_each(|list| list.extend(other.content.iter().flatten()));
+        self.exposed.iter_mut().for_each(|list| list.extend(other.exposed.iter().flatten()));
         for (own, other) in self.origin.iter_mut().zip(other.origin) {
             own.layer.extend(other.layer);
             own.hold.extend(other.hold);
@@ -411,6 +425,7 @@ impl Cloud {
         permute.apply(&mut self.moment);
         self.stress.iter_mut().for_each(|list| permute.apply(list));
         self.content.iter_mut().for_each(|list| permute.apply(list));
+        self.exposed.iter_mut().for_each(|list| permute.apply(list));
         self.origin.iter_mut().for_each(|origin| {
             permute.apply(&mut origin.layer);
             permute.apply(&mut origin.hold);
@@ -433,6 +448,7 @@ impl Cloud {
             moment: vec![[0.0; 6]; count],
             stress: head.stressed.then(|| vec![[0.0; 6]; count]),
             content: head.freezes.then(|| vec![0.0; count]),
+            exposed: head.cools.then(|| vec![0.0; count]),
             origin: head.fed.then(|| Origin { layer: vec![0.0; count], hold: vec![FREE; count] }),
         }
     }
@@ -512,6 +528,7 @@ mod tests {
             stressed: true,
             freezes: true,
             solves_pressure: true,
+            cools: true,
             fed: true,
         };
         let mut cloud = Cloud::none(head);
@@ -525,6 +542,7 @@ mod tests {
             cloud.potential[last] = 0.125 * x;
             cloud.stress.as_mut().unwrap()[last] = [x; 6];
             cloud.content.as_mut().unwrap()[last] = 290.0 + x;
+            cloud.exposed.as_mut().unwrap()[last] = 0.75 * x;
             cloud.origin.as_mut().unwrap().layer[last] = x;
             cloud.origin.as_mut().unwrap().hold[last] = BY_NOZZLE;
             cloud.gradient[last] = [0.5, x, 0.25];
@@ -554,6 +572,7 @@ mod tests {
             creep: Some(0.5),
             arrest: Some(0.25),
             iterations: Some(12.0),
+            heat_to_air: Some(2.5),
             fed: Some(Fed { volume: 0.75, nozzle: [1.0, 2.0, 3.0], ..Fed::default() }),
             ..Ledger::default()
         };

@@ -5,6 +5,7 @@ mod extremes;
 mod fed;
 mod frozen;
 mod half_space;
+mod resting;
 mod sleep;
 mod totals;
 
@@ -57,14 +58,18 @@ struct Run<'a> {
     cloud: Cloud,
     ledger: Ledger,
     points: Option<WallPoints<'a>>,
+    /// Temperature of the air above the model's reference [K].
+    air: f64,
     allowance: &'a Allowance,
 }
 
 impl Run<'_> {
     /// Advances the particles that there are [s].
     fn advance(&mut self, duration: f64) -> Result<(), Failure> {
-        let Self { method, team, cloud, ledger, points, allowance } = self;
-        Stepper::new(method, team, cloud, ledger, points.as_mut()).advance(duration, allowance)
+        let Self { method, team, cloud, ledger, points, air, allowance } = self;
+        let mut stepper = Stepper::new(method, team, cloud, ledger, points.as_mut());
+        stepper.air = *air;
+        stepper.advance(duration, allowance)
     }
 }
 
@@ -272,7 +277,7 @@ impl DropletSph {
         if let (Some(points), Some(heat)) = (&mut points, &method.wall_heat) {
             points.resistance = heat.resistance_above(&surface);
         }
-        let mut run = Run { method, team, cloud, ledger, points, allowance };
+        let mut run = Run { method, team, cloud, ledger, points, air: 0.0, allowance };
         steps(&mut run)?;
         let Run { team, mut cloud, mut ledger, points, .. } = run;
         let (temperature, time) = (self.coldest(&cloud), ledger.time);
@@ -387,6 +392,7 @@ impl DropletSph {
             stressed: !self.method.flow.is_newtonian(),
             freezes: self.method.phases.is_some(),
             solves_pressure: self.method.solves_pressure,
+            cools: self.method.cooling.is_some(),
             fed: self.plan.feed.is_some(),
         }
     }

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 
 use super::cloud::Part;
 use super::continuity::ContinuityRates;
+use super::cooling::Cooling;
 use super::free_surface::Setting;
 use super::frozen::STICKING_PAIR;
 use super::images::Images;
@@ -69,6 +70,8 @@ pub struct Method {
     shares: StepShares,
     /// True if the fluid comes from a nozzle.
     pub fed: bool,
+    /// Heat that passes to the air; `None` if there is none.
+    pub cooling: Option<Cooling>,
     /// Largest stable step of density diffusion, over H/c₀.
     diffusive_step: f64,
 }
@@ -208,6 +211,7 @@ impl Method {
             points,
             shares,
             fed: plan.feed.is_some(),
+            cooling: Cooling::of(plan, &units),
             diffusive_step: diffusive_step(plan),
         }
     }
@@ -382,7 +386,7 @@ impl Method {
     }
 
     /// Conductive limit of the time step, for the phase of the larger diffusivity.
-    fn conductive_step(&self) -> f64 {
+    pub fn conductive_step(&self) -> f64 {
         let fastest = self.phases.map_or(1.0, |phases| phases.fastest());
         self.shares.conductive / (fastest * self.conduction)
     }

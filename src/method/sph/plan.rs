@@ -138,6 +138,8 @@ pub struct Feed {
     pub fastest: f64,
     /// Temperature of the fluid at time zero, the reference of the model [K].
     pub temperature: f64,
+    /// Coefficient of the heat that passes to the air [W/(m² K)].
+    pub air: f64,
 }
 
 impl DropletPlan {

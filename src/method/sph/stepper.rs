@@ -7,10 +7,12 @@
 //! slowly, acts as impulses between rounds of steps.
 
 mod densities;
+mod exposed;
 mod frozen;
 mod shift;
 mod wall;
 
+pub use self::densities::conducting;
 use self::densities::drift;
 use super::cloud::{Cloud, Ledger, Part, UNKNOWNS};
 use super::failure::Failure;
@@ -53,6 +55,9 @@ pub struct Stepper<'a, 'p> {
     pending_kicks: Vec<Times>,
     /// Frozen fluid.
     frozen: Pieces,
+    /// Temperature of the air above the reference [K], and whether free surfaces have been found.
+    pub air: f64,
+    exposed: bool,
     /// Velocities that held particles have lost, and whose impulse the wall has not received yet; empty where none was
     /// held.
     stopped: Vec<[f64; 3]>,
@@ -77,7 +82,8 @@ impl<'a, 'p> Stepper<'a, 'p> {
         let changes = surface.is_some_and(|surface| surface.changes());
         let walls = surface.into_iter().flat_map(|surface| &surface.base);
         let differ = differ(cloud.temperature.iter().chain(walls).copied());
-        let heats = method.conduction > 0.0 && (differ || changes);
+        let rests = points.as_ref().is_some_and(|points| !points.resting.is_empty());
+        let heats = method.conduction > 0.0 && (differ || changes || rests);
         Self {
             method,
             team,
@@ -93,6 +99,8 @@ impl<'a, 'p> Stepper<'a, 'p> {
             free_surface: FreeSurface::default(),
             pending_kicks: Vec::new(),
             frozen: Pieces::NONE,
+            air: 0.0,
+            exposed: false,
             stopped: Vec::new(),
         }
     }
@@ -222,8 +230,12 @@ impl<'a, 'p> Stepper<'a, 'p> {
             displacements = Displacements::along(&self.cloud.velocity, steps, self.team);
         }
         self.list(&displacements.times(dt))?;
+        self.find_exposed();
         self.drift_to_middle(dt);
         self.change_density_and_heat(dt);
+        if let Some(cooling) = &self.method.cooling {
+            cooling.act(self.method, self.cloud, self.ledger, (dt, self.air));
+        }
         self.frozen.update(self.method, self.cloud);
         let times = match self.method.implicit {
             true => Times::NONE,

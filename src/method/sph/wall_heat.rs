@@ -330,13 +330,14 @@ impl WallHeat {
 const HOTTER: f64 = 1.5;
 
 /// Temperatures of release, above the reference of a plan [K], for which the law of freezing is tabulated: those of its
-/// drops. Inputs may set others of drops on demand, between which the law interpolates.
+/// drops. Inputs may set others of drops on demand and of a nozzle, between which the law interpolates.
 fn starts(plan: &DropletPlan, phases: &Phases) -> Vec<f64> {
     let reference = plan.reference_temperature();
     let drops = plan.drops().map(|drop| drop.temperature - reference);
     let [_, liquidus] = phases.melting;
-    let asked = plan.demand.iter().flat_map(|_| [liquidus, (HOTTER - 1.0) * reference]);
-    drops.chain(asked).collect()
+    let is_set = plan.demand.is_some() || plan.feed.is_some();
+    let set = is_set.then_some([0.0, liquidus, (HOTTER - 1.0) * reference]);
+    drops.chain(set.into_iter().flatten()).collect()
 }
 
 /// Mean temperature of the columns below a point.

@@ -10,6 +10,7 @@ use std::f64::consts::TAU;
 use super::images::{copies, sides};
 use super::plan::{DropletPlan, Extent};
 use super::resistive_law::Resistance;
+use super::wall_heat::Touching;
 use crate::port::Cover;
 use crate::port::{CellHeat, Surface};
 use crate::port::{Domain, WallCells, WallExchange};
@@ -115,6 +116,8 @@ pub struct WallPoints<'a> {
     pub duration: f64,
     /// Thermal resistance of the contact; `None` for perfect contact.
     pub resistance: Option<Resistance>,
+    /// Fluid at rest outside the cloud of a step, with its heat content now.
+    pub resting: Vec<Touching>,
 }
 
 impl PointLattice {
@@ -230,6 +233,7 @@ impl<'a> WallPoints<'a> {
             time: 0.0,
             duration,
             resistance: None,
+            resting: Vec::new(),
         }
     }
 

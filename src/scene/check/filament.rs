@@ -121,12 +121,6 @@ fn code(checker: &mut Checker, path: &Path, (filament, own): (&Filament, &PathFi
 /// Refuses what particles do not compute.
 fn of_particles(checker: &mut Checker, path: &Path, (name, filament): (&str, &Filament)) {
     let fluid = &filament.fluid;
-    let allowed = "no `melting`, or `method = \"line\"`";
-    let message = "particles that come from a nozzle do not freeze";
-    checker.require(fluid.melting.is_none(), &path.at("fluid.melting"), message, allowed);
-    let message = "particles give no heat to the air";
-    let allowed = "no `convection`, or `method = \"line\"`";
-    checker.require(filament.convection.is_none(), &path.at("convection"), message, allowed);
     let stands = checker.scene.coupling_from(name).is_some();
     let message = "particles that conduct heat need a solid below";
     let allowed = "0, or a `[[coupling]]` with a solid";

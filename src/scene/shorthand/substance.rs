@@ -75,7 +75,7 @@ pub fn expand(source: &mut Source) -> Vec<(Path, Problem)> {
         let own = source.value(&fluid.key("melting")).is_some();
         expand_table(source, &fluid, Kind::Fluid, [start, None], &mut problems);
         let is_repeated = text(source, &body.key("method"))
-            .is_some_and(|method| method != "sph" && method != "line");
+            .is_some_and(|method| !["sph", "line", "particles"].contains(&method.as_str()));
         let insulates = number(source, &fluid.key("conductivity")) == Some(0.0);
         // A strand comes molten; one that does not is refused.
         let is_laid = source.value(&body.key("nozzle")).is_some();

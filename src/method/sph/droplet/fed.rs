@@ -62,11 +62,12 @@ impl DropletSph {
         &self,
         state: &mut Vec<f64>,
         motions: &[Motion],
-        surface: &Surface,
+        (surface, air): (&Surface, f64),
         allowance: &Allowance,
     ) -> Result<Vec<f64>, Failure> {
         let duration = motions.iter().map(|motion| motion.duration).sum();
         self.advance_by(state, surface, duration, allowance, |run| {
+            run.air = air - self.reference_temperature();
             motions.iter().try_for_each(|motion| self.follow(run, motion))
         })
     }
@@ -134,8 +135,10 @@ impl DropletSph {
             let velocity = self.velocity(motion, [from, to]);
             self.check_speed(velocity, run.ledger.time)?;
             self.drive_column(run, velocity, motion.temperature_at(0.5 * (from + to)));
-            let rest = self.put_to_sleep(run, to - from);
+            let mut rest = self.put_to_sleep(run, to - from);
+            self.lay_on_wall(run, &rest);
             run.advance(to - from)?;
+            self.warm_resting(run, &mut rest, to - from)?;
             run.cloud.append(rest);
             run.ledger.time = start + to;
             let now = fed(&mut run.ledger);
@@ -214,9 +217,11 @@ impl DropletSph {
             let (mass, given) = (cloud.mass[i], &mut fed(ledger).impulse);
             (0..3).for_each(|a| given[a] += momentum * mass * (velocity[a] - cloud.velocity[i][a]));
             cloud.velocity[i] = velocity;
-            ledger.heat_released += mass * heat * (rise - cloud.temperature[i]);
+            // In the nozzle fluid is molten, where contents are temperatures.
+            ledger.heat_released += mass * heat * (rise - cloud.contents()[i]);
             cloud.temperature[i] = rise;
             cloud.initial[i] = rise;
+            cloud.content.iter_mut().for_each(|content| content[i] = rise);
         }
     }
 

@@ -1,9 +1,10 @@
 //! Fluid of a strand that rests, and takes no part in steps.
 //!
-//! Fluid with a yield stress comes to rest for good. In cubes as wide as the kernel reaches, particles are awake up to
+//! Fluid with a yield stress comes to rest for good, and so does what freezes. In cubes as wide as the kernel reaches, particles are awake up to
 //! two cubes from any that moves faster than a limit, or is in the nozzle. Those up to four cubes away are held at
 //! rest: awake ones see all of their neighbours, and sound pressures and fits besides. The others leave the cloud of a
-//! step, so that its cost follows what moves. Their weight passes to the wall below them.
+//! step, so that its cost follows what moves. Their weight passes to the wall below them; their heat goes on, see
+//! [`resting`](super::resting).
 //!
 //! Places and speeds at the beginning of each part of a step decide which particles sleep, so that fluid which arrives
 //! beside a sleeping strand wakes it.
@@ -13,6 +14,7 @@ use std::collections::HashSet;
 use super::{DropletSph, Run};
 use crate::method::sph::cloud::Cloud;
 use crate::method::sph::feed::{ASLEEP, BY_NOZZLE, FREE};
+use crate::method::sph::frozen::RIGID;
 
 /// Speed below which fluid rests, over the expected fastest one.
 const REST: f64 = 2e-3;
@@ -23,9 +25,9 @@ const HELD: i32 = 4;
 type Cube = [i32; 3];
 
 impl DropletSph {
-    /// Returns true if fluid of this plan may sleep: it yields, and no heat passes on.
+    /// Returns true if fluid of this plan comes to rest for good: it yields or freezes.
     fn may_sleep(&self) -> bool {
-        self.method.flow.yield_stress() > 0.0 && self.method.conduction == 0.0
+        self.method.flow.yield_stress() > 0.0 || self.method.phases.is_some()
     }
 
     /// Takes particles that rest out of the cloud of a run, for a time [s] in which the others advance.
@@ -56,15 +58,23 @@ impl DropletSph {
         rest
     }
 
-    /// Cubes that hold a particle which moves, or one in the nozzle.
+    /// Cubes that hold a particle which moves, one in the nozzle, or fluid that flows under any stress.
     fn moving_cubes(&self, cloud: &Cloud) -> HashSet<Cube> {
         let fastest = self.plan.feed.map_or(0.0, |feed| feed.fastest);
         let limit = REST * fastest / self.method.units.speed;
         let moves = |i: &usize| {
             let in_nozzle = cloud.origin.as_ref().is_some_and(|own| own.hold[*i] == BY_NOZZLE);
-            in_nozzle || cloud.velocity[*i].iter().map(|v| v * v).sum::<f64>() > limit * limit
+            let is_fast = cloud.velocity[*i].iter().map(|v| v * v).sum::<f64>() > limit * limit;
+            in_nozzle || is_fast || self.flows(cloud, *i)
         };
         (0..cloud.len()).filter(moves).map(|i| cube(&cloud.position[i])).collect()
+    }
+
+    /// Returns true if a particle has neither a yield stress nor is frozen.
+    fn flows(&self, cloud: &Cloud, i: usize) -> bool {
+        let content = cloud.contents()[i];
+        let frozen = self.method.phases.map_or(0.0, |phases| phases.frozen(content));
+        self.method.flow.yield_stress() == 0.0 && frozen < RIGID
     }
 
     /// Stops a particle; the wall receives its momentum.

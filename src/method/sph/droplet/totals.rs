@@ -28,6 +28,8 @@ pub struct DropletTotals {
     pub heat_released: f64,
     /// Heat [J] and impulse [N s] transferred to the wall since time zero.
     pub heat_to_wall: f64,
+    /// Heat given to the air since time zero [J].
+    pub heat_to_air: f64,
     pub impulse_to_wall: [f64; 3],
     /// Impulse of gravity since time zero [N s].
     pub impulse_of_gravity: [f64; 3],
@@ -101,6 +103,7 @@ pub fn sums(plan: &DropletPlan, method: &Method, ledger: &Ledger, cloud: &Cloud)
     let mut totals = DropletTotals {
         surface_energy: ledger.surface_energy,
         heat_to_wall: ledger.heat_to_wall,
+        heat_to_air: ledger.heat_to_air.unwrap_or(0.0),
         impulse_to_wall: ledger.impulse_to_wall,
         impulse_of_gravity: ledger.impulse_of_gravity,
         heat_released: ledger.heat_released,

@@ -138,8 +138,11 @@ impl Pieces {
         let (Some(phases), Some(contents)) = (&method.phases, &cloud.content) else { return };
         let is_rigid = |content: &f64| phases.frozen(*content) >= RIGID;
         if self.free.is_empty() {
-            let was_rigid = |i: usize| self.bond(i).is_rigid();
-            if contents.iter().enumerate().all(|(i, content)| is_rigid(content) == was_rigid(i)) {
+            let stays = |(i, content): (usize, &f64)| match self.bond(i) {
+                Bond::Nozzle | Bond::Asleep => true,
+                bond => is_rigid(content) == bond.is_rigid(),
+            };
+            if contents.iter().enumerate().all(stays) {
                 return;
             }
         }
@@ -156,8 +159,14 @@ impl Pieces {
         }
         pieces.bonds = vec![Bond::None; cloud.len()];
         let places: Vec<_> = rigid.iter().map(|&i| cloud.position[i as usize]).collect();
+        // What sleeps rests on the wall, by particles that may have left the cloud of a step.
+        let sleeps =
+            |i: u32| cloud.origin.as_ref().is_some_and(|origin| origin.hold[i as usize] == ASLEEP);
         for set in connected(&places, &method.images, REACH * method.spacing) {
-            let held = set.members.iter().map(|&k| hold(method, places[k as usize][2]));
+            let held = set.members.iter().map(|&k| match sleeps(rigid[k as usize]) {
+                true => Bond::Wall,
+                false => hold(method, places[k as usize][2]),
+            });
             let bond = match held.clone().find(|bond| *bond == Bond::Wall) {
                 Some(wall) => wall,
                 None => held.max_by_key(|bond| bond.is_held()).unwrap_or_default(),

@@ -35,7 +35,7 @@ impl Stepper<'_, '_> {
             normalisation: method.normalisation,
             diffusion: method.diffusion(dt),
             tension_dimension: method.surface.as_ref().map(|_| method.dimension),
-            conduction: method.conduction / conducting::<MOMENTS>(method, &self.cloud.moment),
+            conduction: method.conduction / conducting(method, &self.cloud.moment),
         };
         let parts = self.cloud.parts(PART);
         let mut parts: Vec<_> = parts.into_iter().map(|part| (part, Vec::new())).collect();
@@ -77,8 +77,8 @@ const INSIDE: f64 = 0.85;
 /// Effective over nominal conductivity of the plain sums, as a mean over all particles well inside
 /// the fluid: 1 on a lattice, 0.95 once particles have settled. For a linear temperature, the sum
 /// of fluxes is the moment matrix.
-fn conducting<const MOMENTS: bool>(method: &Method, moments: &[[f64; 6]]) -> f64 {
-    if !MOMENTS {
+pub fn conducting(method: &Method, moments: &[[f64; 6]]) -> f64 {
+    if !method.needs_moments() {
         return 1.0;
     }
     let trace = |moment: &[f64; 6]| moment[..3].iter().sum::<f64>() / 3.0;
@@ -112,10 +112,16 @@ fn exchange_heat(
         };
         (0..part.mass.len()).filter_map(touching).collect::<Vec<_>>()
     };
-    let touching = team.map_each(&mut cloud.parts(PART), near).concat();
+    let mut touching = team.map_each(&mut cloud.parts(PART), near).concat();
+    let moving = touching.len();
+    touching.extend_from_slice(&points.resting);
     let changes = heat.exchange(&touching, points, dt, team);
-    for (touching, change) in touching.iter().zip(changes) {
-        cloud.heat(touching.particle, change, method.phases.as_ref());
+    touching.truncate(moving);
+    for (touching, change) in touching.iter().zip(&changes) {
+        cloud.heat(touching.particle, *change, method.phases.as_ref());
+    }
+    for (resting, change) in points.resting.iter_mut().zip(&changes[moving..]) {
+        resting.content += change;
     }
     touching
 }
