@@ -220,6 +220,43 @@ fn heat_is_balanced_through_freezing_and_melting() {
     assert!(arrest > 0.0 && arrest < 4e-4 && free == 0.0 && later > 8e-4, "{frozen:?}");
 }
 
+/// Tin on a warm plate freezes where an input, a flux or a load cools that, as on a plate that is cold at first.
+#[test]
+fn drops_freeze_whatever_cools_the_plate() {
+    let plate = r#"
+[body.plate]
+kind = "solid"
+shape = { disc = { radius = 0.4e-3, thickness = 50e-6 } }
+material = { model = "thermoelastic", density = 8900.0, specific_heat = 385.0, conductivity = 390.0 }
+initial_temperature = 600.0
+faces.bottom = { KEY }
+[[coupling]]
+from = "drop"
+to = "plate.top"
+traction = false
+"#;
+    let drop = &SCENE[..SCENE.find("[[wall]]").unwrap()];
+    let drop = drop.replace("initial_temperature = 520.0", "initial_temperature = 620.0");
+    let mut heats = Vec::new();
+    for (key, input, value) in [
+        ("temperature = 600.0", "plate.bottom.temperature", 400.0),
+        ("temperature = 400.0", "plate.bottom.temperature", 400.0),
+        ("flux = 0.0", "plate.bottom.flux", -2e8),
+    ] {
+        let mut trial = Trial::new(&format!("{drop}{}", plate.replace("KEY", key)));
+        (0..5).for_each(|_| trial.step(2e-5));
+        trial.set(input, value);
+        (0..45).for_each(|_| trial.step(2e-5));
+        let names = ["drop.solid_fraction", "drop.heat", "drop.mass"];
+        let [frozen, heat, mass] = names.map(|name| trial.get(name));
+        assert!(frozen > 0.99 && heat > mass * LATENT, "{key}: {frozen}, {heat} J");
+        heats.push(heat / mass);
+    }
+    // From 620 K to 400 K, with the latent heat, however it came to that.
+    let wanted = 244.0 * 220.0 + LATENT;
+    assert!(heats[..2].iter().all(|heat| off(*heat, wanted) < 0.01), "{heats:?} {wanted}");
+}
+
 /// Frozen drops rest to the bit under gravity, and press with their weight.
 #[test]
 fn frozen_drops_do_not_creep() {
