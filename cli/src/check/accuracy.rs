@@ -51,7 +51,10 @@ pub fn accuracy(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<String> {
         text.push(format!("{} {more} more, {most} at most", next.mark));
     }
     text.extend(scene.droplets().filter_map(|(name, droplet)| {
-        Some(of_drop(name, &Resolution::of(scene, (name, droplet))?, tolerance))
+        let own = of_drop(name, &Resolution::of(scene, (name, droplet))?, tolerance);
+        // Records and films of drops that overlap differ from particles by more.
+        let alone = droplet.is_replayed() && droplet.drops() > 1;
+        Some(format!("{own}{}", if alone { ", of a drop that overlaps no other" } else { "" }))
     }));
     text.extend(forecast(scene).filaments.iter().filter_map(|strand| {
         let error = strand.heat_error?;
