@@ -55,12 +55,16 @@ pub struct Fluid {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend(
         "otherwise" = "none: the fluid stays liquid",
-        "condition" = "with `method = \"sph\"` and a `conductivity`; below `initial_temperature`"
+        "condition" = "with particles or a line and a `conductivity`; below the fluid's first temperature; with a latent heat \
+                       of 4 % and more of the heat that warms the fluid from 0 K"
     ))]
     pub melting: Option<Melting>,
     /// Constants of the frozen fluid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("otherwise" = "those of the molten fluid", "condition" = "with `melting`"))]
+    #[schemars(extend(
+        "otherwise" = "those of the molten fluid",
+        "condition" = "with `melting`; within a factor of 50 of those of the molten fluid"
+    ))]
     pub frozen: Option<Frozen>,
     /// Freezing temperature of a fluid without `melting`, which stays liquid: a step below it warns [K].
     #[serde(default, skip_serializing_if = "Option::is_none")]

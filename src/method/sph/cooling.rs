@@ -23,7 +23,7 @@ impl Cooling {
         let conducts = plan.fluid.conductivity > 0.0;
         (air > 0.0 && conducts).then(|| Self {
             rate: air / (plan.fluid.density * plan.fluid.specific_heat * units.speed),
-            factor: exposure::factor(plan.kernel, plan.support),
+            factor: exposure::factor(plan.support),
         })
     }
 

@@ -2,23 +2,32 @@
 
 use super::images::Images;
 use super::lanes::{Lanes, lanes};
-use super::loops::{Local, PairSum};
+use super::loops::{Local, PairKind, PairSum, for_all_of};
 use super::neighbours::Block;
 use super::rings::Form;
-use crate::kernel::{Kernel, Shape};
+use crate::kernel::{Kernel, Shape, WendlandC2};
+use crate::runtime::parallel::Team;
 
 /// Area of free surface of each particle.
 ///
 /// `|∇c|` of the part c of space that fluid fills integrates to 1 across a free surface, about half of it on the side of
 /// the fluid. With `n_i = Σ V_j F x_ij` a particle of the volume V_i has the area `a s_i |n_i| V_i`. The part s_i is that
 /// of its [`outside`], so that uneven fluid inside counts for nothing, and the factor a makes the area of a flat lattice
-/// exact. Images beyond the wall fill space, too, so wetted wall is no free surface.
+/// exact. Images beyond the wall fill space, too, so wetted wall is no free surface. The kernel is Wendland's of degree 2,
+/// whatever that of the model.
 pub struct Exposure<'a> {
     pub images: &'a Images,
     /// Position, 0, 0, 0, volume and 0 of each particle.
     pub records: &'a [[f64; 8]],
     /// a σ with σ of the kernel.
     pub scale: f64,
+}
+
+impl Exposure<'_> {
+    /// `a |n_i| V_i` over H² of all particles.
+    pub fn areas(&self, blocks: &[Block], kind: PairKind, team: &Team) -> Vec<f64> {
+        for_all_of::<WendlandC2, Self>(self, blocks, kind, team, Vec::new())
+    }
 }
 
 impl PairSum for Exposure<'_> {
@@ -70,8 +79,8 @@ pub fn outside(least: f64) -> f64 {
     way * way * (3.0 - 2.0 * way)
 }
 
-/// Factor a of a kernel with a support radius over the distance of particles, in space.
-pub fn factor(kernel: Kernel, support: f64) -> f64 {
+/// Factor a for a support radius over the distance of particles, in space.
+pub fn factor(support: f64) -> f64 {
     let layers = support.ceil() as i32;
     let spacing = 1.0 / support;
     // −Σ V F and its moments across, of the layer of a lattice at a height above a particle.
@@ -79,7 +88,7 @@ pub fn factor(kernel: Kernel, support: f64) -> f64 {
         let along = (-layers..=layers).flat_map(|i| (-layers..=layers).map(move |j| [i, j]));
         let slopes = along.map(|[i, j]| {
             let r = spacing * f64::from(i * i + j * j + above * above).sqrt();
-            -kernel.gradient_factor(r, 1.0, 3)
+            -Kernel::WendlandC2.gradient_factor(r, 1.0, 3)
         });
         let (slope, height) = (slopes.sum::<f64>(), spacing * f64::from(above));
         [1, 2].map(|power| spacing.powi(3) * slope * height.powi(power))
@@ -100,7 +109,7 @@ mod tests {
     #[test]
     fn factors_are_those_of_a_lattice() {
         for (support, wanted) in [(3.0, 2.3278), (2.0, 2.15), (4.0, 2.3)] {
-            let factor = factor(Kernel::WendlandC2, support);
+            let factor = factor(support);
             assert!((factor / wanted - 1.0).abs() < 0.1, "{support}: {factor}");
         }
     }

@@ -2,10 +2,12 @@
 
 use super::images::Images;
 use super::lanes::{Lanes, lanes};
-use super::loops::{Local, PairSum};
+use super::loops::{Local, PairKind, PairSum, for_all_of};
 use super::neighbours::Block;
 use super::rings::Form;
-use crate::kernel::Shape;
+use crate::kernel::{Shape, WendlandC2};
+use crate::runtime::parallel::Team;
+use crate::scene::Precision;
 
 /// Conduction by pairs of which at least one particle has left the cloud of a step.
 ///
@@ -14,13 +16,23 @@ use crate::kernel::Shape;
 ///
 /// `(1 + r_i) dC_i/dt = 2 κ Σ V_j F (s_i + s_j − s_i s_j) (φ_i − φ_j)`.
 ///
-/// The sums are those of the flow's steps, which conduct within the cloud. So each pair counts once.
+/// The sums are those of the flow's steps, which conduct within the cloud, so each pair counts once. They are taken in
+/// double precision, in which both sides of a pair gain and lose the same over long times at rest, and with the kernel
+/// of all strands, Wendland's of degree 2.
 pub struct RestingHeat<'a> {
     pub images: &'a Images,
     /// Position, s, 0, 0, volume and φ of each particle.
     pub records: &'a [[f64; 8]],
     /// 2 κ σ with σ of the kernel.
     pub scale: f64,
+}
+
+impl RestingHeat<'_> {
+    /// `(1 + r) dC/dt` of all particles.
+    pub fn rates(&self, blocks: &[Block], kind: PairKind, team: &Team) -> Vec<f64> {
+        let kind = PairKind { precision: Precision::Double, ..kind };
+        for_all_of::<WendlandC2, Self>(self, blocks, kind, team, Vec::new())
+    }
 }
 
 impl PairSum for RestingHeat<'_> {

@@ -1,6 +1,6 @@
 //! Checks fluid, nozzle, path and target of each filament.
 
-use super::{Checker, fits, material, number};
+use super::{Checker, fits, freezing, material, number};
 use crate::laws::Viscosity;
 use crate::scene::filament::{Filament, FilamentMethod, PathFile, PathTable};
 use crate::scene::gcode::BadLine;
@@ -121,6 +121,9 @@ fn code(checker: &mut Checker, path: &Path, (filament, own): (&Filament, &PathFi
 /// Refuses what particles do not compute.
 fn of_particles(checker: &mut Checker, path: &Path, (name, filament): (&str, &Filament)) {
     let fluid = &filament.fluid;
+    if let Some(freezing) = fluid.freezing().filter(|_| checker.is_fine(path)) {
+        freezing::constants(checker, path, fluid, &freezing);
+    }
     let stands = checker.scene.coupling_from(name).is_some();
     let message = "particles that conduct heat need a solid below";
     let allowed = "0, or a `[[coupling]]` with a solid";

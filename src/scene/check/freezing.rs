@@ -1,7 +1,7 @@
-//! Checks what a droplet's fluid says of its freezing.
+//! Checks what the fluid of droplets, and of strands of particles, says of its freezing.
 
 use super::{Checker, material, number};
-use crate::laws::{Freezing, Melting};
+use crate::laws::{Fluid, Freezing, Melting};
 use crate::scene::droplet::{Droplet, DropletMethod};
 use crate::scene::locate::Path;
 
@@ -30,7 +30,7 @@ pub fn check(checker: &mut Checker, path: &Path, droplet: &Droplet) {
     checker.require(droplet.fluid.conductivity > 0.0, &at, message, allowed);
     if checker.is_fine(&at) {
         temperatures(checker, path, droplet, freezing.melting);
-        constants(checker, path, droplet, &freezing);
+        constants(checker, path, &droplet.fluid, &freezing);
     }
 }
 
@@ -58,8 +58,7 @@ fn temperatures(checker: &mut Checker, path: &Path, droplet: &Droplet, melting: 
 }
 
 /// Checks that both phases are alike enough for the law of contact, and that the latent heat matters.
-fn constants(checker: &mut Checker, path: &Path, droplet: &Droplet, freezing: &Freezing) {
-    let fluid = &droplet.fluid;
+pub fn constants(checker: &mut Checker, path: &Path, fluid: &Fluid, freezing: &Freezing) {
     let ratios = [
         ("fluid.frozen.conductivity", freezing.conductivity, fluid.conductivity),
         ("fluid.frozen.specific_heat", freezing.specific_heat, fluid.specific_heat),

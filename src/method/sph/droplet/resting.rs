@@ -9,13 +9,11 @@ use super::{DropletSph, Run};
 use crate::method::sph::cloud::Cloud;
 use crate::method::sph::failure::Failure;
 use crate::method::sph::feed::ASLEEP;
-use crate::method::sph::loops::{PairKind, for_all};
 use crate::method::sph::neighbours::{Displacements, Neighbours};
 use crate::method::sph::order::space_order;
 use crate::method::sph::resting_heat::RestingHeat;
 use crate::method::sph::stepper::conducting;
 use crate::method::sph::wall_heat::Touching;
-use crate::scene::Precision;
 
 impl DropletSph {
     /// Names fluid outside the cloud of a run to the wall that it touches.
@@ -115,9 +113,7 @@ impl DropletSph {
             records: &records,
             scale: 2.0 * conduction * method.normalisation,
         };
-        // Both sides of a pair lose and gain the same in double precision, which counts over long times at rest.
-        let pairs = PairKind { precision: Precision::Double, ..method.pairs() };
-        let rates = for_all(&pass, &neighbours.blocks, pairs, &run.team, Vec::new());
+        let rates = pass.rates(&neighbours.blocks, method.pairs(), &run.team);
         for (&n, rate) in order.iter().zip(rates) {
             let (into, i) = match (n as usize).checked_sub(rest.len()) {
                 None => (&mut *rest, n as usize),

@@ -18,7 +18,7 @@ impl Stepper<'_, '_> {
             records: &records,
             scale: cooling.factor * self.method.normalisation,
         };
-        let areas = self.over_pairs(&pass, Vec::new());
+        let areas = pass.areas(&self.neighbours.blocks, self.method.pairs(), self.team);
         self.records = records;
         self.exposed = true;
         let (Some(own), Some(origin)) = (&mut self.cloud.exposed, &self.cloud.origin) else {
