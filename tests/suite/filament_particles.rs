@@ -219,8 +219,8 @@ fn threads_in_air_cool_through_their_side() {
     }
 }
 
-/// Paste that conducts heat sleeps as any other, and goes on cooling: long after it came to rest it has the temperature
-/// of plate and air, and heat balances to rounding.
+/// Paste that conducts heat sleeps as any other, and goes on cooling: long after it came to rest it is nearly as cold as
+/// plate and air, and heat balances to rounding.
 #[test]
 fn paste_at_rest_cools() {
     let warm = "viscosity = 5.0, specific_heat = 2000.0, conductivity = 0.2";
@@ -244,10 +244,11 @@ fn paste_at_rest_cools() {
     let early = trial.get("ink.min_temperature");
     (0..10).for_each(|_| trial.step(1.0));
     balance(&mut trial);
-    // All that is laid holds 12 mJ/K; what the nozzle holds stays warm beside it.
+    // What the nozzle holds stays warm beside it, and warms plate and air, too.
     let [lost, heat] = ["ink.heat_lost", "ink.heat"].map(|key| trial.get(key));
     let all = 0.785398e-6 * 6e-3 * 2e6 * (340.0 - 293.15);
-    assert!(early > 294.0 && trial.get("ink.min_temperature") < 294.0);
+    let late = trial.get("ink.min_temperature");
+    assert!(early > 302.0 && (293.15..297.0).contains(&late), "{early} {late}");
     assert!(
         lost > 0.05 * all && (0.9..1.3).contains(&((lost + heat) / all)),
         "{lost} {heat} {all}"
@@ -258,14 +259,14 @@ fn paste_at_rest_cools() {
 #[test]
 fn wax_freezes_and_rests() {
     let warm = "density = 1000.0, viscosity = 5.0, specific_heat = 2000.0, conductivity = 0.2";
-    let wax = "density = 780.0, viscosity = 0.5, specific_heat = 2300.0, conductivity = 0.5, melting = { solidus = 330.0, \
-               liquidus = 332.0, latent_heat = 1e5 }";
+    let wax = "density = 780.0, viscosity = 0.5, specific_heat = 2300.0, conductivity = 1.0, melting = { solidus = 330.0, \
+               liquidus = 332.0, latent_heat = 4e4 }";
     let text = strand("convection = { coefficient = 100.0, ambient = 293.15 }")
         .replace(warm, wax)
         .replace("height = 1e-3", "height = 0.9e-3")
         .replace("spacing = 0.2e-3", "spacing = 0.25e-3")
         .replace("flow = 15.7e-9", "flow = 3e-9")
-        .replace("time = [0.0, 0.1], x = [-1e-3, 1e-3]", "time = [0.0, 1.6], x = [-3e-3, 3e-3]");
+        .replace("time = [0.0, 0.1], x = [-1e-3, 1e-3]", "time = [0.0, 2.4], x = [-3e-3, 3e-3]");
     let scene = scene::parse(&text, "wax.toml").unwrap();
     let [one, two] = [1, 2].map(|threads| Model::build(&scene, threads).unwrap());
     let advance = |model: &Model, state: &mut State, steps: usize| {
@@ -273,17 +274,18 @@ fn wax_freezes_and_rests() {
         (0..steps).for_each(|_| model.step(state, &mut cache, 0.1).unwrap());
     };
     let mut whole = one.initial_state();
-    advance(&one, &mut whole, 16);
+    advance(&one, &mut whole, 20);
     let mut halves = one.initial_state();
-    advance(&one, &mut halves, 8);
+    // In between some fluid rests.
+    advance(&one, &mut halves, 16);
     two.check_state(&halves).unwrap();
-    advance(&two, &mut halves, 8);
+    advance(&two, &mut halves, 4);
     assert!(whole.bodies == halves.bodies);
     let mut trial = Trial::new(&text);
-    (0..16).for_each(|_| trial.step(0.1));
+    (0..20).for_each(|_| trial.step(0.1));
     let mut get = |key: &str| trial.get(&format!("ink.{key}"));
     let [frozen, resting, heat] = ["solid_fraction", "resting", "heat"].map(&mut get);
-    assert!(frozen > 0.4 && resting > 50.0, "{frozen} {resting}");
+    assert!(frozen > 0.7 && resting > 50.0, "{frozen} {resting}");
     let [drift, lost] = ["heat_drift", "heat_lost"].map(&mut get);
     assert!(drift.abs() < 1e-9 * heat && lost > 0.0, "{drift} of {heat}, {lost}");
     trial.set("ink.nozzle_temperature", 331.0);

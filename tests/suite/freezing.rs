@@ -241,7 +241,7 @@ traction = false
     for (key, input, value) in [
         ("temperature = 600.0", "plate.bottom.temperature", 400.0),
         ("temperature = 400.0", "plate.bottom.temperature", 400.0),
-        ("flux = 0.0", "plate.bottom.flux", -2e8),
+        ("flux = 0.0", "plate.bottom.flux", -5e7),
     ] {
         let mut trial = Trial::new(&format!("{drop}{}", plate.replace("KEY", key)));
         (0..5).for_each(|_| trial.step(2e-5));
