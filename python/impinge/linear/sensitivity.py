@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import warnings
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 
@@ -11,13 +13,12 @@ from impinge.errors import UnitError
 from impinge.points import tell_of_points
 from impinge.unit import Unit
 
-from .rollout import Rollout, sizes_of_changes
+from .differences import Slopes, slopes
+from .rollout import Rollout
 
-Central = Callable[[float], tuple[np.ndarray, np.ndarray, np.ndarray]]
-
-_RATIO = 2.0  # between changes of a tableau
-_LONGEST = 12  # columns of one
+_FIRST = 1e-2  # change, relative to the value of an input or to its nominal value
 _SMALLER = 8  # times that a change which the unit refuses is made ten times smaller
+_NOTHING = 1e-9  # of an output: an error of this size under the first change is no matter
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,20 +43,18 @@ def step_sensitivity(
     """∂y(t+H)/∂u of a unit that can restore its state, at its present state and inputs, for inputs
     that are held over a step of H = `step` [s]; the unit is left as it was.
 
-    Central differences over nominal values, or as much as bounds allow, where three changes of an
-    input say that outputs are in proportion to them: that is exact. Elsewhere the change is halved
-    until the tableau of differences extrapolated to zero gets no better.
-
-    C. J. F. Ridders, Adv. Eng. Softw. 4 (1982), doi 10.1016/S0141-1195(82)80057-0.
+    Central differences, first over 1 % of the input's value or nominal value, whichever is larger:
+    3 K of a temperature. Outputs in proportion to the input are exact at once. For others the
+    change is made smaller until their error is small. A warning names entries whose error exceeds
+    them: noise hides these, or the slope jumps at the present input.
     """
     tell_of_points(unit.package, outputs, inputs)
     with Rollout(unit, inputs, outputs, step, 1) as rollout:
-        columns = [
-            _column(rollout, number, size)
-            for number, size in enumerate(np.abs(sizes_of_changes(rollout)))
-        ]
-        matrix, error, is_linear = (np.array(part) for part in zip(*columns, strict=True))
-        return Sensitivity(
+        columns = [_column(rollout, number) for number in range(len(rollout.input_names))]
+        parts = ((found.value, found.error, found.is_linear) for found in columns)
+        matrix, error, is_linear = (np.array(part) for part in zip(*parts, strict=True))
+        doubts = [_doubts(rollout, number, found) for number, found in enumerate(columns)]
+        sensitivity = Sensitivity(
             matrix.T,
             error.T,
             is_linear.T,
@@ -63,23 +62,31 @@ def step_sensitivity(
             tuple(rollout.output_names),
             step,
         )
+    for text in chain.from_iterable(doubts):
+        warnings.warn(text, stacklevel=2)
+    return sensitivity
 
 
-def _column(
-    rollout: Rollout, column: int, size: float
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    size = _allowed(rollout, column, size)
+def _column(rollout: Rollout, column: int) -> Slopes:
+    size, room = _sizes(rollout, column)
+    value = rollout.base[column]
+
+    def response(change: float) -> np.ndarray:
+        inputs = rollout.base.copy()
+        inputs[column] += change
+        return rollout.run(inputs[None, :])[1]
+
     for attempt in range(_SMALLER + 1):
         try:
-            return _differences(rollout, column, size / 10.0**attempt)
+            return slopes(response, value, size / 10.0**attempt, room if attempt == 0 else 0.0)
         except UnitError:
             if attempt == _SMALLER:
                 raise
     raise AssertionError("unreachable")
 
 
-def _allowed(rollout: Rollout, column: int, size: float) -> float:
-    """A change that stays within the bounds of the input on both sides."""
+def _sizes(rollout: Rollout, column: int) -> tuple[float, float]:
+    """The first change, and the largest that stays within the bounds of the input on both sides."""
     places = zip(rollout.inputs, rollout.write.slices, strict=True)
     variable = next(v for v, place in places if place.start <= column < place.stop)
     value = rollout.base[column]
@@ -91,54 +98,18 @@ def _allowed(rollout: Rollout, column: int, size: float) -> float:
             f"{rollout.input_names[column]} = {value} is at a bound"
             " (allowed: room on both sides for differences)"
         )
-    return min(size, room)
+    return min(_FIRST * max(abs(variable.nominal), abs(value)), room), room
 
 
-def _end(rollout: Rollout, column: int, change: float) -> np.ndarray:
-    inputs = rollout.base.copy()
-    inputs[column] += change
-    return rollout.run(inputs[None, :])[1]
-
-
-def _differences(
-    rollout: Rollout, column: int, size: float
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    middle = _end(rollout, column, 0.0)
-
-    def central(change: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """The slope, what rounding does to it, and what it misses if the response is no line."""
-        up, down = _end(rollout, column, change), _end(rollout, column, -change)
-        seen = np.maximum(np.maximum(np.abs(up), np.abs(down)), np.abs(middle))
-        rounding = 8.0 * np.finfo(float).eps * seen / change
-        return (up - down) / (2.0 * change), rounding, np.abs(up + down - 2.0 * middle) / change
-
-    slope, rounding, bend = central(size)
-    other, _, _ = central(size / _RATIO)
-    limit = 1e-9 * np.abs(slope) + 8.0 * rounding
-    is_linear = (bend <= limit) & (np.abs(other - slope) <= limit)
-    if is_linear.all():
-        return slope, rounding, is_linear
-    best, error = _extrapolated(central, size)
-    return np.where(is_linear, slope, best), np.where(is_linear, rounding, error), is_linear
-
-
-def _extrapolated(central: Central, size: float) -> tuple[np.ndarray, np.ndarray]:
-    """Neville's tableau of central differences, entry by entry the one of least error."""
-    slope, rounding, _ = central(size)
-    row = [slope]
-    best, error = slope, np.full_like(slope, np.inf)
-    for number in range(1, _LONGEST):
-        change = size / _RATIO**number
-        slope, rounding, _ = central(change)
-        above, row = row, [slope]
-        factor = 1.0
-        for order in range(number):
-            factor *= _RATIO**2
-            row.append((factor * row[order] - above[order]) / (factor - 1.0))
-            near = np.maximum(np.abs(row[-1] - row[-2]), np.abs(row[-1] - above[order]))
-            near = np.maximum(near, rounding)
-            better = near < error
-            best, error = np.where(better, row[-1], best), np.where(better, near, error)
-        if np.all(np.abs(row[-1] - above[-1]) >= 4.0 * error):
-            break
-    return best, error
+def _doubts(rollout: Rollout, column: int, found: Slopes) -> list[str]:
+    """Warnings of outputs whose slope is less than its error, unless they hardly change at all."""
+    is_lost = (found.error > 0.0) & (found.error >= np.abs(found.value))
+    is_lost &= found.error * _sizes(rollout, column)[0] > _NOTHING * found.scale
+    name = rollout.input_names[column]
+    return [
+        f"∂({rollout.output_names[row]})/∂({name}) = {found.value[row]:.3g}"
+        f" ± {found.error[row]:.2g} at {name} = {rollout.base[column]:g}: the error exceeds the"
+        " value; do not use it. The output jumps here, changes its slope, or has noise that hides"
+        " how it follows the input. Choose another state, or a smaller tolerance of its solver"
+        for row in np.flatnonzero(is_lost)
+    ]
