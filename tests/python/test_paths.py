@@ -332,6 +332,8 @@ def test_what_makes_no_sense_is_refused(scene, tmp_path):
         ({"spacing": 1e30}, ValueError, "a part of the target"),
         ({"target": []}, ValueError, "two or more places"),
         ({"target": [[0.0, 0.0], [1e-30, 0.0]]}, ValueError, "apart"),
+        ({"target": [[0.0, 0.0], [0.0, 0.0], [1e-2, 0.0]]}, ValueError, r"target\[1\] .* repeats"),
+        ({"target": [[0, 0], [1e-2, 0], [1e-2, 1e-12]]}, ValueError, r"repeats target\[1\]"),
         ({"coarse": float("nan")}, ValueError, "1 or more"),
         ({"run_out": -1e-3}, ValueError, "0 or more"),
         ({"flow": 0.0}, ValueError, "above 0"),

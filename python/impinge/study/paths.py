@@ -40,6 +40,7 @@ _GIVE_UP_OF = {"gauss-newton": 2.0}
 _DEFAULT = {"line": 0.5, "particles": 0.125}
 _LARGEST = {"line": 10.0, "particles": 0.25}
 _SLICE = 0.5
+_SAME = 1e-9  # m, along either axis: places that are no farther apart are one
 
 
 @dataclass(frozen=True)
@@ -234,9 +235,16 @@ def _places_of(target: Any) -> list[list[float]]:
     """The places of a target that stands for the scene's: two or more, apart."""
     places = np.asarray(target, float)
     is_list = places.ndim == 2 and places.shape[1] == 2 and len(places) >= 2
-    if not (is_list and np.all(np.abs(places) < 1e3) and np.ptp(places, axis=0).max() > 1e-9):
+    if not (is_list and np.all(np.abs(places) < 1e3) and np.ptp(places, axis=0).max() > _SAME):
         raise ValueError(
             f"target = {target!r} (allowed: two or more places [x, y] in metres, apart)"
+        )
+    repeated = np.flatnonzero(np.abs(np.diff(places, axis=0)).max(axis=1) <= _SAME)
+    if len(repeated):
+        n = int(repeated[0])
+        raise ValueError(
+            f"target[{n + 1}] = {places[n + 1].tolist()} repeats target[{n}] (allowed: places"
+            f" more than {_SAME:g} m from the one before)"
         )
     return places.tolist()
 
