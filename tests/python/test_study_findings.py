@@ -109,6 +109,21 @@ def test_warnings_that_differ_in_numbers_alone_are_one():
     assert same.is_alike and "numbers are those" not in str(same)
 
 
+def test_a_scene_as_written_and_with_parameters_set_warns_of_one_thing():
+    """What was not changed has a line, and numbers as written."""
+    texts = [
+        "the scene with its parameters as set: flaw[0].depth = 2e-5: missed [a]",
+        "scene.toml: flaw[0].depth = 2e-05: missed [a]",
+        "scene.toml:22: flaw[0].depth = 0.00002: missed [a]",
+    ]
+    (found,) = findings(table_of(texts))
+    assert found.rows == (0, 1, 2) and found.is_alike and found.text == texts[0]
+    (found,) = findings(table_of([*texts, texts[1].replace("2e-05", "3e-05")]))
+    assert found.rows == (0, 1, 2, 3) and not found.is_alike
+    (found,) = findings(table_of([f"UnitError: no\n  {text}" for text in texts], [1, 1, 1]))
+    assert found.rows == (0, 1, 2)
+
+
 def test_bodies_keys_and_ids_tell_warnings_apart():
     found = findings(
         table_of(["bed1: hot [a]", "bed2: hot [a]", "bed1: hot [b]", "layers.0.k: hot"])

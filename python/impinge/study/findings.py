@@ -18,6 +18,11 @@ _DONE, _FAILED = 0, 1
 _SHOWN = 3
 _LINES = re.compile(r"\n(?! )")  # lines that are indented go on with what is above
 _NUMBER = re.compile(r"(?<![\w.])[-−+]?\d+(?:\.\d+)*(?:e[-−+]?\d+)?")
+# Where a warning of a scene stands: in the text, or nowhere once parameters have changed it.
+_OF_SCENE = re.compile(
+    r"^( *)(?:the scene with its parameters as set|(?:[^\s:]*/)?scene\.toml(?::\d+)?): ",
+    re.MULTILINE,
+)
 _ID = re.compile(r" \[([a-z]\w*)\]$")
 
 
@@ -26,7 +31,8 @@ class Finding:
     """A warning of units, or the reason of failures, with the rows that it concerns.
 
     text: as the first of the rows has it. is_alike: whether the others have the same text; else
-        theirs differ from it in numbers alone.
+        theirs differ from it in numbers alone. Notation of numbers and lines of the scene do not
+        count: a row whose parameters are those of the scene names them as the scene does.
     rows: their numbers from 0, in the order of the table. count: of all rows of the study.
     places: what varies, with its values, in the first few of the rows.
     """
@@ -91,7 +97,7 @@ def findings(table: xr.Dataset) -> list[Finding]:
     gathered: dict[tuple[bool, str, int], dict[int, str]] = {}
     for row in np.flatnonzero(messages != ""):
         for has_failed, nth, text in _numbered(int(status[row]), str(messages[row])):
-            key = (has_failed, _NUMBER.sub("#", text), nth)
+            key = (has_failed, _without_numbers(text), nth)
             gathered.setdefault(key, {})[int(row)] = text
     found = [
         Finding(
@@ -100,7 +106,7 @@ def findings(table: xr.Dataset) -> list[Finding]:
             tuple(texts),
             len(status),
             tuple(_place(table, row) for row in list(texts)[:_SHOWN]),
-            len(set(texts.values())) == 1,
+            len(set(map(_plain, texts.values()))) == 1,
         )
         for (has_failed, _, _), texts in gathered.items()
     ]
@@ -135,9 +141,26 @@ def _numbered(status: int, message: str) -> Iterator[tuple[bool, int, str]]:
     seen: dict[str, int] = {}
     for has_failed, texts in ((True, reasons), (False, warned)):
         for text in texts:
-            alike = _NUMBER.sub("#", text)
+            alike = _without_numbers(text)
             seen[alike] = nth = seen.get(alike, -1) + 1
             yield has_failed, nth, text
+
+
+def _without_numbers(text: str) -> str:
+    """The part that texts share that differ in numbers, or in whether a scene was changed."""
+    return _NUMBER.sub("#", _OF_SCENE.sub(r"\1scene: ", text))
+
+
+def _plain(text: str) -> str:
+    """The text with its numbers written in one way."""
+
+    def number(found: re.Match[str]) -> str:
+        try:
+            return repr(float(found[0].replace("−", "-")))
+        except ValueError:
+            return found[0]
+
+    return _NUMBER.sub(number, _OF_SCENE.sub(r"\1scene: ", text))
 
 
 def _place(table: xr.Dataset, row: int) -> str:
