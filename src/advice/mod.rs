@@ -95,7 +95,9 @@ impl Reviewer<'_> {
     fn warn(&mut self, path: &Path, finding: Finding) {
         let mut problem = self.source.problem(path, String::new(), String::new());
         let line = problem.line;
-        problem.line = line.filter(|_| self.names_lines);
+        if !self.names_lines {
+            problem.forget_text();
+        }
         let subject = format!("{}: {finding}", problem.path);
         self.found.push((line, finding.at(problem.place()).of_subject(subject)));
     }

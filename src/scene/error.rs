@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::fmt;
 
 use super::excerpt::Excerpt;
+use crate::limits::number;
 
 /// One error of a scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -25,6 +26,16 @@ pub struct Problem {
 }
 
 impl Problem {
+    /// Forgets the line of a text that nobody wrote, such as that of a modified scene. The value is printed briefly: in
+    /// TOML's notation, extreme numbers have hundreds of digits.
+    pub(crate) fn forget_text(&mut self) {
+        self.line = None;
+        self.excerpt = None;
+        if let Ok(value) = self.value.parse() {
+            self.value = number(value);
+        }
+    }
+
     /// `FILE:LINE: KEY = VALUE`, without the parts that are not known.
     pub(crate) fn place(&self) -> String {
         let line = self.line.map_or(String::new(), |line| format!(":{line}"));

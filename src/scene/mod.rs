@@ -176,14 +176,7 @@ pub fn check(scene: &Scene) -> Result<(), SceneError> {
         excerpt: None,
     })?;
     check::check(scene, &Source::parse(&text, file)?, &Schema::of_scenes()).map_err(|mut error| {
-        for problem in &mut error.problems {
-            problem.line = None;
-            problem.excerpt = None;
-            // In TOML's notation, extreme numbers have hundreds of digits.
-            if let Ok(value) = problem.value.parse() {
-                problem.value = check::number(value);
-            }
-        }
+        error.problems.iter_mut().for_each(Problem::forget_text);
         error
     })
 }

@@ -5,13 +5,18 @@ mod cold;
 mod of_drops;
 
 use impinge::advice::{implausible_place, parse_with_warnings};
-use impinge::scene::parse;
+use impinge::scene::{Scene, parse};
 use impinge::warning::Warning;
 
 fn warnings(text: &str) -> Vec<String> {
     let (_, found) =
         parse_with_warnings(text, "scene.toml").unwrap_or_else(|e| panic!("{e}\n{text}"));
     found.iter().map(Warning::to_string).collect()
+}
+
+/// Warnings of a scene that was changed after it was read.
+fn of_changed(scene: &Scene) -> Vec<String> {
+    impinge::advice::warnings(scene).iter().map(Warning::to_string).collect()
 }
 
 /// Name, density, specific heat, conductivity, Young's modulus, Poisson's ratio, expansion.
@@ -218,6 +223,16 @@ fn a_warning_names_file_line_key_value_range_and_what_was_meant() {
           scene is meant to be this cold, set `cryogenic = true` [celsius]"
         ]
     );
+}
+
+#[test]
+fn values_of_changed_scenes_are_written_briefly() {
+    let text = edited(&plate(ALUMINA), "conductivity = 10.0", "conductivity = 1e-9");
+    let mut scene = parse(&text, "scene.toml").unwrap();
+    scene.stop_time *= 2.0;
+    let place = "the scene with its parameters as set: body.plate.material.conductivity = 1e-9: ";
+    let found = of_changed(&scene);
+    assert!(found.iter().any(|one| one.starts_with(place)), "{found:?}");
 }
 
 #[test]
