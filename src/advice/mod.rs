@@ -92,6 +92,11 @@ struct Reviewer<'a> {
 }
 
 impl Reviewer<'_> {
+    /// Returns true if the text has a value with its unit, so that nobody means it in another.
+    fn has_unit(&self, path: &Path, value: f64) -> bool {
+        self.scene.with_units.get(path) == Some(&value)
+    }
+
     fn warn(&mut self, path: &Path, finding: Finding) {
         let mut problem = self.source.problem(path, String::new(), String::new());
         let line = problem.line;

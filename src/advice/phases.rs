@@ -21,7 +21,10 @@ fn freezing(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet, cold: Cold)
     let Some(point) = droplet.fluid.freezes_at else { return };
     if start < point {
         reviewer.warn(path, warning::drop_starts_frozen(number(start)));
-    } else if cold != Cold::Meant && point < BESIDE_WARM && point + CELSIUS < start {
+        return;
+    }
+    let is_mistaken = point < BESIDE_WARM && point + CELSIUS < start;
+    if is_mistaken && cold != Cold::Meant && !reviewer.has_unit(path, point) {
         let meant = number(point + CELSIUS);
         let finding = warning::freezing_point_in_celsius(number(point), celsius(point), meant);
         reviewer.warn(path, finding);
@@ -33,7 +36,8 @@ fn boiling(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
     let start = droplet.initial_temperature;
     let Some(point) = droplet.fluid.boils_at.filter(|&point| point < start) else { return };
     let meant = point + CELSIUS;
-    let remedy = match point < BESIDE_WARM && start < meant {
+    let is_mistaken = point < BESIDE_WARM && start < meant && !reviewer.has_unit(path, point);
+    let remedy = match is_mistaken {
         true => format!("did you mean {} ({} °C)?", number(meant), number(point)),
         false => "lower `initial_temperature` below `boils_at`".to_owned(),
     };

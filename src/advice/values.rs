@@ -1,7 +1,7 @@
 //! Checks every number of a scene against its plausible range.
 
 use super::{Reviewer, implausible};
-use crate::limits::plausible::{Cold, STRAND_VISCOSITY};
+use crate::limits::plausible::{CRYOGENIC, Cold, STRAND_VISCOSITY};
 use crate::scene::locate::Path;
 use crate::scene::schema::Schema;
 
@@ -21,6 +21,10 @@ pub fn review(reviewer: &mut Reviewer, schema: &Schema, cold: Cold) {
         }
         let path = place.path();
         let Some(mut range) = limits.plausible(cold) else { return };
+        let is_cold = range.unit == "K" && (CRYOGENIC..range.lowest).contains(&value);
+        if is_cold && reviewer.has_unit(&path, value) {
+            return;
+        }
         if range.unit == STRAND_VISCOSITY.unit && is_of_strand(&path) {
             range = STRAND_VISCOSITY.clone();
         }

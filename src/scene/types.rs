@@ -11,6 +11,7 @@ use super::filament::{Filament, Target};
 use super::flaw::Flaw;
 use super::large_strain::{LargeStrain, name_kind};
 use super::lattice::Lattice;
+use super::locate::Path;
 use super::refinement::MeshFactors;
 use super::reservoir::Reservoir;
 use super::shorthand::NamedSubstance;
@@ -60,6 +61,10 @@ pub struct Scene {
     #[serde(skip)]
     #[schemars(skip)]
     pub substances: Vec<NamedSubstance>,
+    /// Numbers that the text has with their unit, in SI units.
+    #[serde(skip)]
+    #[schemars(skip)]
+    pub with_units: BTreeMap<Path, f64>,
     /// Tables `[material.NAME]` that solids and layers name.
     #[serde(default)]
     pub material: BTreeMap<String, Material>,

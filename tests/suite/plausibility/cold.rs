@@ -60,6 +60,26 @@ fn every_temperature_of_a_scene_in_celsius_is_warned_of() {
 }
 
 #[test]
+fn temperatures_with_their_unit_are_not_mistaken_for_others() {
+    let text = everything();
+    for at in places(&text, "293.15") {
+        for given in ["\"-40 °C\"", "\"−170 °C\"", "\"60 K\"", "\"-60 °F\""] {
+            let found = warnings(&with(&text, at, "293.15", given));
+            assert!(!found.iter().any(|w| w.contains("did you mean")), "{given}: {found:?}");
+        }
+        let found = warnings(&with(&text, at, "293.15", "\"0.5 K\""));
+        assert!(found.iter().any(|w| w.contains("plausible")), "{found:?}");
+    }
+    // Nor in a scene whose other values are changed; a value set anew has no unit.
+    let at = places(&text, "293.15")[0];
+    let mut scene = parse(&with(&text, at, "293.15", "\"-40 °C\""), "scene.toml").unwrap();
+    scene.stop_time *= 2.0;
+    assert_eq!(super::of_changed(&scene), [""; 0]);
+    scene.with_units.values_mut().for_each(|value| *value += 1.0);
+    assert!(super::of_changed(&scene)[0].contains("(233.15 °C)?"));
+}
+
+#[test]
 fn melting_points_and_tables_in_celsius_are_warned_of() {
     let text = everything();
     for (from, to, key) in [
