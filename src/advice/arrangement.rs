@@ -18,7 +18,7 @@ pub fn review(reviewer: &mut Reviewer) {
         caught(reviewer, &root.key("body").key(name), name);
     }
     for (name, droplet) in scene.droplets() {
-        if scene.wall_under(name).is_some() || scene.coupling_from(name).is_some() {
+        if scene.has_surface_below(name) {
             arrives(reviewer, &root.key("body").key(name), droplet);
         }
     }
@@ -42,7 +42,7 @@ pub fn review(reviewer: &mut Reviewer) {
 /// Warns of a droplet above a solid that it does not touch.
 fn caught(reviewer: &mut Reviewer, path: &Path, name: &str) {
     let scene = reviewer.scene;
-    if scene.wall_under(name).is_some() || scene.coupling_from(name).is_some() {
+    if scene.has_surface_below(name) {
         return;
     }
     let mut solids = scene.solids().map(|(solid, _)| solid);

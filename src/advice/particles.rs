@@ -27,7 +27,7 @@ pub fn review(reviewer: &mut Reviewer) {
         pairs(reviewer, &path, droplet);
         ringing(reviewer, &path, droplet);
         streams(reviewer, &path, droplet);
-        if scene.wall_under(name).is_some() || scene.coupling_from(name).is_some() {
+        if scene.has_surface_below(name) {
             coarse(reviewer, &path.key("spacing"), droplet);
             resolved(reviewer, &path.key("spacing"), (name, droplet));
         }

@@ -11,7 +11,7 @@ impl Scene {
     pub fn freezing_of(&self, name: &str) -> Option<Freezing> {
         let droplet = self.droplet(name)?;
         let conducts = droplet.fluid.conductivity > 0.0 && droplet.method == DropletMethod::Sph;
-        let stands = self.wall_under(name).is_some() || self.coupling_from(name).is_some();
+        let stands = self.has_surface_below(name);
         droplet.fluid.freezing().filter(|_| conducts && stands)
     }
 }

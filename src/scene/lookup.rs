@@ -200,6 +200,11 @@ impl Scene {
         self.coupling.iter().position(|coupling| coupling.from == droplet)
     }
 
+    /// Returns true if a wall or a body lies below a droplet; else its drops fall freely.
+    pub fn has_surface_below(&self, droplet: &str) -> bool {
+        self.wall_under(droplet).is_some() || self.coupling_from(droplet).is_some()
+    }
+
     /// Returns true if the surface below a droplet is modelled as round: a disc, or a wall of rings.
     fn is_round_below(&self, droplet: &str) -> bool {
         if let Some(wall) = self.wall_under(droplet) {

@@ -50,7 +50,8 @@ pub fn accuracy(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<String> {
         let (more, most) = (lines.len() - MOST, percent(next.error));
         text.push(format!("{} {more} more, {most} at most", next.mark));
     }
-    text.extend(scene.droplets().filter_map(|(name, droplet)| {
+    let landing = scene.droplets().filter(|(name, _)| scene.has_surface_below(name));
+    text.extend(landing.filter_map(|(name, droplet)| {
         let own = of_drop(name, &Resolution::of(scene, (name, droplet))?, tolerance);
         // Records and films of drops that overlap differ from particles by more.
         let alone = droplet.is_replayed() && droplet.drops() > 1;

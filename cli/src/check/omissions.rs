@@ -59,6 +59,10 @@ pub fn omissions(scene: &Scene, forecast: &Forecast) -> Vec<String> {
         let inertia = if rests { "inertia, " } else { "" };
         list.push(format!("{inertia}weight, creep, shrinkage and heat of lattices"));
     }
+    let free = droplets.iter().filter(|(name, _)| !scene.has_surface_below(name));
+    list.extend(free.map(|(name, _)| {
+        format!("an impact of {name}: nothing lies below it (`[[coupling]]` or `[[wall]]`)")
+    }));
     let heavy = |&(name, droplet): &(&str, &Droplet)| {
         let bond = bond(droplet);
         (droplet.gravity == 0.0 && bond > FELT && bond.is_finite())
@@ -67,7 +71,7 @@ pub fn omissions(scene: &Scene, forecast: &Forecast) -> Vec<String> {
     list.extend(droplets.iter().filter_map(heavy));
     let violent = |&(name, droplet): &(&str, &Droplet)| {
         let splash = splash(droplet);
-        (splash > SPLASHES && splash.is_finite())
+        (scene.has_surface_below(name) && splash > SPLASHES && splash.is_finite())
             .then(|| format!("splashing of {name}: We^½ Re^¼ is {splash:.0}, and drops splash above some {SPLASHES}"))
     };
     list.extend(droplets.iter().filter_map(violent));

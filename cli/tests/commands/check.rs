@@ -212,3 +212,19 @@ fn plane_droplet_is_reported_per_metre_of_depth() {
         assert!(head.contains(title), "`{title}` is missing in: {head}");
     }
 }
+
+#[test]
+fn drops_above_nothing_have_no_errors_of_an_impact() {
+    let place = Workplace::new();
+    let accuracy = "drop, by its particles";
+    fs::write(place.path("drop.toml"), DROP).unwrap();
+    let lands = place.call(&["check", "drop.toml"]).succeeds().stdout();
+    assert!(lands.contains(accuracy) && !lands.contains("nothing lies below"), "{lands}");
+    let free = DROP.split("[[wall]]").next().unwrap();
+    fs::write(place.path("drop.toml"), free).unwrap();
+    let falls = place.call(&["check", "drop.toml", "--verbose"]).succeeds().stdout();
+    assert!(!falls.contains(accuracy) && !falls.contains("splashing"), "{falls}");
+    let note = "an impact of drop: nothing lies below it (`[[coupling]]` or `[[wall]]`)";
+    assert!(falls.contains(note), "{falls}");
+    assert!(falls.contains("nothing lies below the drop, which falls freely"), "{falls}");
+}

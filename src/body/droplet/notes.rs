@@ -9,7 +9,7 @@ use crate::scene::{Droplet, Governing, PressureAdvance, Scene, ViscousAdvance, W
 /// Returns notes on choices and simplifications, with reasons: one sentence each.
 pub fn notes(scene: &Scene, name: &str, droplet: &Droplet) -> Vec<String> {
     let wall = scene.wall_under(name).map(|wall| &scene.wall[wall]);
-    let stands = wall.is_some() || scene.coupling_from(name).is_some();
+    let stands = scene.has_surface_below(name);
     let mut notes = vec![match droplet.mirrors() {
         _ if droplet.is_axisymmetric() => {
             "the drop is modelled in the plane of radius and height: particles are rings about the axis, films and \
@@ -24,6 +24,7 @@ pub fn notes(scene: &Scene, name: &str, droplet: &Droplet) -> Vec<String> {
         _ => "the whole drop is modelled: nothing makes it mirror itself, or the scene asks for it",
     }
     .to_owned()];
+    notes.extend((!stands).then(|| NOTHING_BELOW.to_owned()));
     notes.extend(note_on_box(scene, name, droplet));
     notes.extend(note_on_sound(droplet));
     notes.extend(note_on_viscosity(droplet));
@@ -53,6 +54,9 @@ pub fn notes(scene: &Scene, name: &str, droplet: &Droplet) -> Vec<String> {
     }
     notes
 }
+
+/// Note on a drop that meets nothing.
+const NOTHING_BELOW: &str = "nothing lies below the drop, which falls freely: a `[[coupling]]` or a `[[wall]]` lets it land";
 
 /// Notes how axisymmetric drops interact with a box.
 fn note_on_box(scene: &Scene, name: &str, droplet: &Droplet) -> Option<String> {

@@ -20,7 +20,7 @@ pub fn check(checker: &mut Checker, path: &Path, (name, droplet): (&str, &Drople
         return;
     }
     let scene = checker.scene;
-    let stands = scene.wall_under(name).is_some() || scene.coupling_from(name).is_some();
+    let stands = scene.has_surface_below(name);
     let message = "a recorded drop needs a wall or a solid below it";
     checker.require(
         stands,
