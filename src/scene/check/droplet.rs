@@ -1,9 +1,11 @@
 //! Checks size, fluid, particles and arrivals of each droplet.
 
+mod room;
+
+use room::meets;
+
 use super::{Checker, fits, freezing, number, replayed, viscosity};
-use crate::scene::droplet::{
-    Arrival, Droplet, DropletMethod, DropletSymmetry, LEAST_SOUND_OVER_FLOW,
-};
+use crate::scene::droplet::{Droplet, DropletMethod, DropletSymmetry, LEAST_SOUND_OVER_FLOW};
 use crate::scene::locate::Path;
 use crate::scene::types::{Footprint, Shape};
 
@@ -147,18 +149,11 @@ fn arrivals(checker: &mut Checker, path: &Path, name: &str, droplet: &Droplet) {
         if droplet.is_replayed() {
             continue;
         }
-        let free =
-            checker.scene.wall_under(name).is_none() && checker.scene.coupling_from(name).is_none();
+        let free = !checker.scene.has_surface_below(name);
         if let Some(other) = list[..i].iter().position(|other| meets(droplet, other, arrival, free))
         {
             let message = format!("the drop is released into that of arrivals[{other}]");
-            // Above one that has landed it has room from half a diameter on.
-            let height = 0.5 * droplet.diameter;
-            let allowed = match free || droplet.gap() >= height {
-                true => "a place or time apart, or a larger `height`".to_owned(),
-                false => format!("a place apart, or a `height` of the body >= {}", number(height)),
-            };
-            checker.refuse(&path, message, allowed);
+            checker.refuse(&path, message, room::ways(droplet, &list[..=i], free));
         }
     }
 }
@@ -167,22 +162,6 @@ fn direction(checker: &mut Checker, path: &Path, droplet: &Droplet) {
     let fine = droplet.dimension == 3 || droplet.impact_direction == 0.0;
     let message = "drops of a plane model move along x, against it at a negative angle";
     checker.require(fine, path, message, "0");
-}
-
-/// Returns true if a drop is released where an earlier one still is. The earlier drop falls freely, until its centre
-/// reaches the wall.
-fn meets(droplet: &Droplet, earlier: &Arrival, later: &Arrival, free: bool) -> bool {
-    let time = (later.time - earlier.time).max(0.0);
-    let [u, v, _] = droplet.velocity();
-    let speed = droplet.normal_speed();
-    let fall = speed * time + 0.5 * droplet.gravity * time * time;
-    let deepest = droplet.gap() + 0.5 * droplet.diameter;
-    let fall = if free { fall } else { fall.min(deepest) };
-    // Fluid on the wall is not assumed to move along it.
-    let aside = if free { time } else { time.min(droplet.fall_time(speed)) };
-    let along = |v: f64| if v == 0.0 { 0.0 } else { v * aside };
-    let apart = (later.x - earlier.x - along(u)).hypot(later.y - earlier.y - along(v));
-    !fits(droplet.diameter, apart.hypot(fall))
 }
 
 fn symmetry(checker: &mut Checker, path: &Path, name: &str, droplet: &Droplet) {
