@@ -53,7 +53,7 @@ pub struct Scene {
     #[serde(default)]
     pub naming: Naming,
     /// Marks an intentionally cold scene. In other scenes temperatures below 200 K, or below 250 K alongside warmer
-    /// ones, raise a warning that they may be in °C.
+    /// ones, raise a warning that they may be in °C if they have no unit.
     #[serde(default, skip_serializing_if = "is_false")]
     #[schemars(extend("otherwise" = "false"))]
     pub cryogenic: bool,
