@@ -224,11 +224,19 @@ impl Flaw {
         }
     }
 
-    /// Layer of a body, from the top, in which the flaw begins.
+    /// Layer of a body, from the top, in which the flaw begins: on an interface the layer above it, whatever the
+    /// rounding of the thicknesses that add up to its depth.
     pub fn layer(&self, solid: &Solid) -> usize {
         let strata = solid.strata();
-        let z = self.at[2];
+        let z = self.at[2] + SLACK * solid.shape.thickness();
         strata.iter().position(|layer| z >= layer.z[0]).unwrap_or(strata.len() - 1)
+    }
+
+    /// The flaw with its place inside of its layer, if it misses that by rounding.
+    pub fn settled(&self, solid: &Solid) -> Self {
+        let [bottom, top] = solid.strata()[self.layer(solid)].z;
+        let [x, y, z] = self.at;
+        Self { at: [x, y, z.clamp(bottom, top)], ..self.clone() }
     }
 
     /// Largest depth of an edge crack: from the face to the end of its layer or of the body [m].

@@ -459,3 +459,41 @@ fn many_flaws_are_read_like_a_few() {
         assert!((many[*n] - few).abs() < 1e-10 * scale, "{n}: {} {few}", many[*n]);
     }
 }
+
+/// A flaw on an interface lies in the layer above, also where thicknesses add up to less than its depth by rounding.
+#[test]
+fn mouths_on_interfaces_lie_in_the_layer_above() {
+    assert!(1e-4 + 3e-4 < 4e-4);
+    let layer = |young: &str, toughness: &str, thickness: &str| {
+        format!(
+            "{{ thickness = {thickness}, material = {{ model = \"thermoelastic\", density = 3980.0, \
+             specific_heat = 880.0, conductivity = 31.0, young = {young}, poisson = 0.2, \
+             expansion = 8e-6, toughness = {toughness} }} }}"
+        )
+    };
+    let layers = [
+        layer("340e9", "3e6", "1e-4"),
+        layer("340e9", "3e6", "3e-4"),
+        layer("70e9", "1e6", "16e-4"),
+    ];
+    let at = |name: &str, z: &str| {
+        let keys = format!("at = [2e-3, 0.0, {z}]\nnormal = [0.0, 1.0, 0.0]\ndepth = 1e-4");
+        flaw(name, &keys)
+    };
+    let text = format!(
+        "name = \"Coated\"\nstop_time = 1.0\nstep = 1.0\n[body.plate]\nkind = \"solid\"\n\
+         shape = {{ box = [4e-3, 4e-3, 2e-3] }}\ninitial_temperature = 293.15\n\
+         stress_free_temperature = 393.15\nlayers = [{}]\n[body.plate.faces]\nbottom = {{ roller = true }}\n\
+         front = {{ clamped = true }}\nback = {{ clamped = true }}\n{}",
+        layers.join(", "),
+        [at("above", "-3.9999e-4"), at("on", "-4e-4"), at("below", "-4.0001e-4")].concat()
+    );
+    let mut trial = Trial::new(&text);
+    trial.step(1.0);
+    for key in ["stress_intensity", "energy_release_rate", "safety"] {
+        let [above, on, below] =
+            ["above", "on", "below"].map(|name| trial.get(&format!("{name}.{key}")));
+        assert!(off(on, above) < 1e-3, "{key}: {on} for {above}");
+        assert!(off(below, above) > 0.3, "{key}: {below} beside {above}");
+    }
+}

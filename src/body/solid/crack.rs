@@ -198,6 +198,7 @@ impl Crack {
 
     /// Returns `None` for an edge crack away from faces, which a checked scene excludes.
     fn of(flaw: &Flaw, solid: &Solid, plan: &Plan) -> Option<Self> {
+        let flaw = &flaw.settled(solid);
         let [x, y, z] = flaw.unit_normal();
         let across = [x * x, y * y, z * z, 2.0 * x * y, 2.0 * y * z, 2.0 * x * z];
         let layer = flaw.layer(solid);

@@ -3,7 +3,7 @@
 use super::{Checker, SLACK, number, probe};
 use crate::scene::flaw::{Flaw, FlawGives, FlawShape};
 use crate::scene::locate::Path;
-use crate::scene::types::{FaceName, Solid};
+use crate::scene::types::{FaceName, Shape, Solid};
 
 /// Largest cosine between a crack plane's normal and that of its face.
 const TANGENTIAL: f64 = 1e-6;
@@ -94,8 +94,41 @@ fn penny(checker: &mut Checker, path: &Path, flaw: &Flaw, solid: &Solid) {
     });
     let message = "equal pennies in a row are not modelled";
     checker.require(flaw.spacing.is_none(), &path.at("spacing"), message, "`shape = \"edge\"`");
-    let message = format!("the crack reaches out of `{}`, or of its layer", flaw.body);
-    checker.require(is_inside, &path.at("at"), message, probe::inside(&solid.shape));
+    let out_of = match &solid.layers {
+        None => format!("`{}`", flaw.body),
+        Some(_) => {
+            format!("its layer of `{}`, from z = {} to {}", flaw.body, number(bottom), number(top))
+        }
+    };
+    let message = format!("the crack reaches out of {out_of}");
+    let allowed = centres(flaw, radius, &solid.shape, [bottom, top]);
+    checker.require(is_inside, &path.at("at"), message, allowed);
+}
+
+/// Places of the centre at which a penny of a radius [m] lies within its layer, or the radii of pennies for which there
+/// are any.
+fn centres(flaw: &Flaw, radius: f64, shape: &Shape, [bottom, top]: [f64; 2]) -> String {
+    // Half the extents of a penny along the axes, over its radius.
+    let [x, y, z] = flaw.unit_normal().map(|part| (1.0 - part * part).max(0.0).sqrt());
+    let (rooms, lateral): ([f64; 2], _) = match *shape {
+        Shape::Box([lx, ly, _]) => {
+            let rooms = [0.5 * lx, 0.5 * ly];
+            let [of_x, of_y] = [rooms[0] - radius * x, rooms[1] - radius * y].map(number);
+            ([rooms[0] / x, rooms[1] / y], format!("|x| <= {of_x}, |y| <= {of_y}"))
+        }
+        Shape::Disc(disc) => {
+            let most = number(disc.radius - radius);
+            ([disc.radius; 2], format!("sqrt(x² + y²) <= {most}"))
+        }
+    };
+    let most = rooms.into_iter().fold(0.5 * (top - bottom) / z, f64::min);
+    if radius >= most {
+        return format!("a `depth` below {} in the middle of its layer", number(most));
+    }
+    let [low, high] = [bottom + radius * z, top - radius * z].map(number);
+    let is_between = flaw.at[2] > bottom && flaw.at[2] < top && probe::contains(shape, flaw.at);
+    let smaller = if is_between { ", or a smaller `depth`" } else { "" };
+    format!("its centre in {lateral}, {low} <= z <= {high}{smaller}")
 }
 
 /// Safety needs the toughness of the layer.
