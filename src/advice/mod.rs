@@ -10,6 +10,7 @@ mod films;
 mod flaws;
 mod freezing;
 mod hardening;
+mod lattices;
 mod moved;
 mod particles;
 mod phases;
@@ -78,6 +79,7 @@ fn found(scene: &Scene, (source, names_lines): (&Source, bool), schema: &Schema)
     bending::review(&mut reviewer);
     stress_of_kernels::review(&mut reviewer);
     warm_bodies::review(&mut reviewer);
+    lattices::review(&mut reviewer);
     reviewer.found.sort_by_key(|(line, _)| *line);
     reviewer.found.into_iter().map(|(_, warning)| warning).collect()
 }

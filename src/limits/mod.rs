@@ -12,7 +12,7 @@ use schemars::{Schema, transform::Transform};
 use serde_json::{Map, Value, json};
 
 pub use bounds::{Bounds, End, Side};
-pub use digits::{number, two_digits};
+pub use digits::{number, two_digits, two_digits_below};
 use plausible::Range;
 
 /// Keywords in addition to those of JSON Schema.

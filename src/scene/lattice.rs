@@ -153,6 +153,19 @@ impl Lattice {
         vec![BodyInput { key, words, quantity, start: 0.0, bounds: place().bounds() }]
     }
 
+    /// Most particles of a lattice.
+    pub const MOST_PARTICLES: f64 = 1e6;
+
+    /// Number of particles of hexagons that fill the strip.
+    pub fn particles(&self) -> f64 {
+        self.length * self.depth / (0.75_f64.sqrt() * self.spacing * self.spacing)
+    }
+
+    /// Distance of particles at which as many as a lattice may have fill the strip [m].
+    pub fn least_spacing(&self) -> f64 {
+        (self.length * self.depth / (0.75_f64.sqrt() * Self::MOST_PARTICLES)).sqrt()
+    }
+
     /// Volume without the notch [m³].
     pub fn volume(&self) -> f64 {
         self.length * self.depth * self.thickness

@@ -89,6 +89,10 @@ rules! {
     "{elements} across the {extent} m of a slender body: its bending is wrong by {error}";
     "did you mean a `mesh.spacing` of {fine} m or less?"
 
+    Check links_store_more_than_their_law(excess, law, fine, beyond)
+    "up to its strength a link this long stores {excess} the area below its law, {law} J/m², and its break takes both: \
+     cracks take too much energy, and loads are too high"; "set a `spacing` of {fine} m or less{beyond}"
+
     Check pressure_is_spurious(body)
     "`{body}` hardly changes its volume, and its pressure swings from point to point: normal stresses that are read may be \
      wrong by many times their value, though displacements are right";

@@ -1,6 +1,7 @@
 //! Strips of concrete as lattices of links that soften and break.
 
-use impinge::model::State;
+use impinge::advice::parse_with_warnings;
+use impinge::model::{State, forecast};
 
 use crate::common::Trial;
 
@@ -397,4 +398,40 @@ fn pieces_that_meet_gain_no_energy() {
     let [work, drift, damped] = ["mechanical_work", "energy_drift", "damped_energy"].map(of);
     assert!(drift.abs() < 0.02 * work, "{drift} J of {work} J");
     assert!(damped >= 0.0, "{damped}");
+}
+
+/// Warnings of a scene that begin with `links_`, with their texts.
+fn warned(text: &str) -> Vec<(&'static str, String)> {
+    let (_, found) = parse_with_warnings(text, "scene.toml").unwrap();
+    let own = found.iter().filter(|own| own.finding().id.starts_with("links_"));
+    own.map(|own| (own.finding().id, own.to_string())).collect()
+}
+
+/// Links that store much up to their strength take more than the area below their law, which is warned of with a
+/// spacing that does; notes have the area itself.
+#[test]
+fn links_too_long_for_their_law_are_warned_of() {
+    let brittle = CONCRETE.replace("9.05e-6, 197e-6", "1e-6, 20e-6").replace("4.5e6", "10e6");
+    // They store s f/(E (w₂ + α₁ w₃)) = 0.01 · 10/(30e3 · 3.6e-6) of it.
+    let text = pulled(&brittle, "spacing = 1e-2");
+    let found = warned(&text);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(
+        found[0].1,
+        "scene.toml:11: body.strip.spacing = 1e-2: up to its strength a link this long stores 93 % of the area below \
+         its law, 18 J/m², and its break takes both: cracks take too much energy, and loads are too high; set a \
+         `spacing` of 0.0027 m or less [links_store_more_than_their_law]"
+    );
+    assert_eq!(warned(&pulled(&brittle, "spacing = 2.7e-3")), []);
+    assert_eq!(warned(&pulled(CONCRETE, "spacing = 1e-2")), []);
+    let notes = |text: &str| {
+        forecast(&impinge::scene::parse(text, "scene.toml").unwrap()).lattices.remove(0).notes
+    };
+    let said = "the area below their law is 18 J/m², a link takes 34.7 J/m², with what it stores up to that, and a \
+                crack";
+    assert!(notes(&text).iter().any(|note| note.contains(said)), "{:?}", notes(&text));
+    let glass = CONCRETE.replace("9.05e-6, 197e-6", "1e-8, 2e-7").replace("4.5e6", "50e6");
+    let found = warned(&pulled(&glass, "spacing = 5e-3"));
+    let said = "stores 230 times the area below its law, 0.9 J/m²";
+    assert!(found[0].1.contains(said) && found[0].1.contains("more than a million"), "{found:?}");
 }

@@ -1,7 +1,7 @@
 //! Cost of lattices, and notes on their model.
 
 use super::plan;
-use crate::limits::number;
+use crate::limits::{number, two_digits, two_digits_below};
 use crate::method::lattice::{LatticePlan, MovingLattice};
 use crate::scene::{Lattice, LatticeArrangement, LatticeSupport, Scene};
 
@@ -109,7 +109,7 @@ fn ligament(plan: &LatticePlan) -> String {
     })
 }
 
-/// Energy of a crack over the area below the law of a link, in strips that are pulled until they are in two, at ν = 0 to
+/// Energy of a crack over that of a link per area, in strips that are pulled until they are in two, at ν = 0 to
 /// 0.2, about the middle of samples from 0.84 to 1.24, from 1.24 to 1.74 and from 0.91 to 1.37
 /// (`tests/verification/lattice.rs`): a crack that begins at two places takes more than a straight one. At ν = 1/3, where
 /// links do not bend, `along` takes half of that.
@@ -125,8 +125,12 @@ fn share_of_crack(arrangement: LatticeArrangement) -> f64 {
 fn energy(lattice: &Lattice, plan: &LatticePlan) -> String {
     let (strength, energy) = plan.strength_and_energy();
     let tenths = |value: f64| number((value * 10.0).round() / 10.0);
+    let area = plan.softening.area().map_or_else(String::new, |area| {
+        format!("the area below their law is {} J/m², ", two_digits(area))
+    });
+    let stored = if area.is_empty() { "" } else { ", with what it stores up to that" };
     format!(
-        "links soften at {} MPa, and the area below their law is {} J/m²; a crack takes some {} J/m², a quarter more or less \
+        "links soften at {} MPa; {area}a link takes {} J/m²{stored}, and a crack some {} J/m², a quarter more or less \
          by sample",
         number((strength / 1e4).round() / 100.0),
         tenths(energy),
@@ -179,10 +183,10 @@ fn stability(plan: &LatticePlan) -> Option<String> {
     let law = plan.softening.of_link(spacing, plan.sheet.young, 1.0);
     (law.knee - 1.0 < SLOW_ENOUGH).then(|| {
         format!(
-            "links stretch by only {:.2} times their elastic limit to the knee of their law, so that they break one by one \
-             with jumps of the load: a `spacing` of {:.1e} or less makes them soften",
-            law.knee - 1.0,
-            spacing * (law.knee - 1.0) / SLOW_ENOUGH
+            "links stretch by only {} times their elastic limit to the knee of their law, so that they break one by \
+             one with jumps of the load: a `spacing` of {} or less makes them soften",
+            two_digits(law.knee - 1.0),
+            two_digits_below(spacing * (law.knee - 1.0) / SLOW_ENOUGH)
         )
     })
 }

@@ -49,7 +49,8 @@ pub struct SofteningKeys {
         .condition("of `openings`"))]
     pub strength: Option<f64>,
     /// Openings at the knee, w₂, and without force, w₃, beyond the elongation at the strength [m]. A crack takes 0.8 to
-    /// 1.4 times the energy below this law, by the arrangement; `check --verbose` says how much.
+    /// 1.4 times the energy below this law, by the arrangement, and as much of that which links store up to their
+    /// strength; `check --verbose` says how much.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = positive("m", "the opening of a link")
         .plausible(&plausible::OPENING)
@@ -81,7 +82,8 @@ pub struct SofteningKeys {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum SofteningModel {
-    /// The opening: the energy of a crack is the same for every spacing.
+    /// The opening: the energy of a crack is the same for every spacing at which links store little up to their
+    /// strength.
     Openings,
     /// The stretch: the energy of a crack grows with the spacing, to which constants have to be fitted.
     Stretches,

@@ -81,7 +81,8 @@ pub enum SofteningLaw {
         /// α₁ [1].
         share: f64,
     },
-    /// Openings, a cohesive law: the energy of a crack is that of the material, whatever the length of links.
+    /// Openings, a cohesive law: the energy of a crack is that of the material, whatever the length of links, as long
+    /// as they store little of it up to their strength.
     Openings {
         /// Stress f_t at which links along it soften [Pa].
         strength: f64,
@@ -107,6 +108,28 @@ impl SofteningLaw {
             }
         }
     }
+
+    /// Area below a law over openings, `½ f_t (w₂ + α₁ w₃)` [J/m²]; `None` over stretches, whose area grows with the
+    /// length of links.
+    pub fn area(&self) -> Option<f64> {
+        match *self {
+            Self::Stretches { .. } => None,
+            Self::Openings { strength, ends: [knee, end], share } => {
+                Some(0.5 * strength * (knee + share * end))
+            }
+        }
+    }
+
+    /// Energy that a link of given length [m] stores up to its strength, over the area below a law over openings:
+    /// `s f_t/(E (w₂ + α₁ w₃))`. Its break takes both.
+    pub fn stored_share(&self, length: f64, young: f64) -> Option<f64> {
+        match *self {
+            Self::Stretches { .. } => None,
+            Self::Openings { strength, .. } => {
+                Some(0.5 * length * strength * strength / young / self.area()?)
+            }
+        }
+    }
 }
 
 #[cfg(test)]
@@ -121,6 +144,19 @@ mod tests {
             let stretch = ratio * LAW.onset;
             let found = LAW.stretch_of(LAW.damage(stretch).0);
             assert!((found / stretch - 1.0).abs() < 1e-9, "{ratio}: {found}");
+        }
+    }
+
+    /// The energy of a link of any length is the area below its law and what it stores up to its strength.
+    #[test]
+    fn links_take_the_area_and_what_they_store() {
+        let law = SofteningLaw::Openings { strength: 4.5e6, ends: [9.05e-6, 197e-6], share: 0.13 };
+        for length in [1e-4, 6e-3, 10.0] {
+            let own = law.of_link(length, 30e9, 1.0);
+            let taken = own.energy() * 30e9 * length * own.onset * own.onset;
+            let stored = law.stored_share(length, 30e9).unwrap();
+            let wanted = law.area().unwrap() * (1.0 + stored);
+            assert!((taken / wanted - 1.0).abs() < 1e-12, "{length}: {taken} {wanted}");
         }
     }
 

@@ -69,8 +69,8 @@ const EASY: usize = 6;
 const LENGTHENED: f64 = 1.5;
 
 impl LatticePlan {
-    /// Stress at which a link softens along itself [Pa], and the area below its law, the energy that it takes per area
-    /// [J/m²].
+    /// Stress at which a link softens along itself [Pa], and the energy that it takes per area [J/m²]: the area below
+    /// its law and what it stores up to its strength.
     pub fn strength_and_energy(&self) -> (f64, f64) {
         let young = self.sheet.young;
         let spacing = self.strip.fitted_spacing();

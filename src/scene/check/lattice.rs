@@ -5,8 +5,6 @@ use crate::laws::fracture::{SofteningKeys, SofteningModel};
 use crate::scene::lattice::{Lattice, LatticeControl, LatticeNotch, LatticeSupport};
 use crate::scene::locate::Path;
 
-/// Most particles of a lattice.
-const MOST_PARTICLES: f64 = 1e6;
 /// Least number of particles over the depth.
 const LEAST_LAYERS: f64 = 4.0;
 /// Least depth below the load of a bent strip, over the spacing: links within two spacings of the load stay intact, and
@@ -80,11 +78,14 @@ fn spacing(checker: &mut Checker, path: &Path, lattice: &Lattice) {
     let message = "particles so far apart resolve no bending";
     let path = path.key("spacing");
     checker.require(fits(lattice.spacing, most), &path, message, format!("up to {}", number(most)));
-    let area = lattice.length * lattice.depth;
-    let count = area / (0.75_f64.sqrt() * lattice.spacing * lattice.spacing);
-    let least = (area / (0.75_f64.sqrt() * MOST_PARTICLES)).sqrt();
+    let (count, least) = (lattice.particles(), lattice.least_spacing());
     let message = format!("{} particles would fill the strip", number(count.ceil()));
-    checker.require(count <= MOST_PARTICLES, &path, message, format!(">= {}", number(least)));
+    checker.require(
+        count <= Lattice::MOST_PARTICLES,
+        &path,
+        message,
+        format!(">= {}", number(least)),
+    );
 }
 
 fn notch(checker: &mut Checker, path: &Path, lattice: &Lattice) {
