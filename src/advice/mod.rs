@@ -35,6 +35,7 @@ use crate::scene::{self, Scene, SceneError};
 use crate::warning::{self, Finding, Warning};
 
 pub use films::MEASURED_FILMS;
+pub use lattices::LatticeErrors;
 pub use moved::implausible_place;
 pub use power::implausible_power;
 pub use pressure::may_be_solved;

@@ -166,6 +166,12 @@ impl Lattice {
         (self.length * self.depth / (0.75_f64.sqrt() * Self::MOST_PARTICLES)).sqrt()
     }
 
+    /// Distances of particles that a crack may run: from the tip of the notch to the upper face.
+    pub fn ligament(&self) -> f64 {
+        let below = self.notch.map_or(0.0, |notch| notch.depth);
+        (self.depth - below) / self.spacing
+    }
+
     /// Volume without the notch [m³].
     pub fn volume(&self) -> f64 {
         self.length * self.depth * self.thickness

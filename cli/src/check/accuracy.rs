@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use impinge::advice::{HeatError, Resolution};
+use impinge::advice::{HeatError, LatticeErrors, Resolution};
 use impinge::model::forecast;
 use impinge::model::tolerance::{BodyEstimate, percent, warned_from};
 use impinge::scene::Scene;
@@ -66,6 +66,11 @@ pub fn accuracy(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<String> {
             100.0 * error
         ))
     }));
+    text.extend(
+        scene
+            .lattices()
+            .map(|(name, lattice)| of_lattice(name, &LatticeErrors::of(lattice), tolerance)),
+    );
     if text.iter().any(|line| line.starts_with('≈')) {
         text.push("(≈: near the tolerance, or beyond it by measurements of others)".to_owned());
     }
@@ -95,6 +100,28 @@ fn of_drop(name: &str, resolution: &Resolution, tolerance: f64) -> String {
     }
     let mark = if worst <= tolerance { '✓' } else { '≈' };
     format!("{mark} {name}, by its particles: {}", parts.join(", "))
+}
+
+/// Errors of a lattice by its particles: of its stiffness, of its largest load if it is bent, and of the energy of a
+/// crack.
+fn of_lattice(name: &str, errors: &LatticeErrors, tolerance: f64) -> String {
+    let LatticeErrors { stiffness, energy, peak, rows, enough } = *errors;
+    let worst = stiffness.max(energy).max(peak.unwrap_or(0.0));
+    let mark = if worst <= tolerance { '✓' } else { '≈' };
+    let [of_stiffness, of_energy] = [stiffness, energy].map(part_or_factor);
+    let of_break = match peak.map(part_or_factor) {
+        Some(peak) => format!("largest load {peak}, work of a break {of_energy}"),
+        None => format!("energy of a crack {of_energy}"),
+    };
+    let finer = enough.map_or_else(String::new, |rows| format!("; take {rows:.0} or more"));
+    format!(
+        "{mark} {name}, by its {rows:.0} particles over the depth: stiffness {of_stiffness}, {of_break}{finer}"
+    )
+}
+
+/// An error as a part, or as the factor of a quantity that is a multiple of what it should be.
+fn part_or_factor(error: f64) -> String {
+    if error < 2.0 { percent(error) } else { format!("a factor of {:.0}", 1.0 + error) }
 }
 
 /// Errors by output, the largest first; elements of an array are one line.

@@ -228,3 +228,29 @@ fn drops_above_nothing_have_no_errors_of_an_impact() {
     assert!(falls.contains(note), "{falls}");
     assert!(falls.contains("nothing lies below the drop, which falls freely"), "{falls}");
 }
+
+#[test]
+fn check_reports_errors_of_lattices() {
+    let place = Workplace::new();
+    let lattice = |keys: &str| {
+        let text = format!(
+            "name = \"Strip\"\nstop_time = 1.0\nstep = 0.1\n[body.strip]\nkind = \"lattice\"\nlength = 0.25\n\
+             depth = 0.08\nthickness = 0.1\n{keys}\nmaterial = {{ density = 2300.0, young = 30e9, poisson = 0.2, \
+             softening = {{ model = \"openings\", strength = 4e6, openings = [1e-5, 2e-4], share = 0.15 }} }}\n"
+        );
+        fs::write(place.path("lattice.toml"), text).unwrap();
+        place.call(&["check", "lattice.toml"]).succeeds().stdout()
+    };
+    const BENT: &str = "support = { three_point = { span = 0.2 } }";
+    let bent = lattice(&format!("spacing = 1e-2\n{BENT}"));
+    let said = "accuracy      ≈ strip, by its 8 particles over the depth: stiffness 18 %, largest load 3.0 %, work of \
+                a break 31 %; take 16 or more";
+    assert!(bent.contains(said), "{bent}");
+    let notched = format!("spacing = 2.5e-3\n{BENT}\ncontrol = \"opening\"\nnotch.depth = 2e-2");
+    let fine = lattice(&notched);
+    let said = "by its 32 particles over the depth: stiffness 4.4 %, largest load 2.0 %, work of a break 3.5 %\n";
+    assert!(fine.contains(said), "{fine}");
+    let pulled = lattice("spacing = 1e-2\nsupport = \"ends\"\ninertia = true");
+    let said = "strip, by its 8 particles over the depth: stiffness 8.0 %, energy of a crack 25 %";
+    assert!(pulled.contains(said), "{pulled}");
+}
