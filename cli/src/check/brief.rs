@@ -5,13 +5,13 @@ use std::fmt::Write;
 use impinge::model::tolerance::BodyEstimate;
 use impinge::model::{Forecast, Timeline};
 use impinge::output::FilesForecast;
-use impinge::scene::Scene;
+use impinge::scene::{Lattice, Scene};
 
 use super::accuracy::accuracy;
 use super::cost::Preparation;
 use super::omissions::omissions;
 use super::words::key;
-use crate::units::{engineering, megabytes};
+use crate::units::{engineering, lasting, megabytes};
 
 /// Results of the check that the report shows.
 pub struct Findings<'f> {
@@ -36,7 +36,9 @@ pub fn brief(scene: &Scene, findings: &Findings) -> String {
         }
     };
     add("models", &[models(scene, findings.forecast)]);
-    add("takes", &[findings.preparation.cost(findings.forecast, findings.files.table_time)]);
+    let cost = findings.preparation.cost(findings.forecast, findings.files.table_time);
+    let costs: Vec<_> = [cost].into_iter().chain(by_inputs(scene, findings.forecast)).collect();
+    add("takes", &costs);
     add("writes", &[writes(&findings.files, scene)]);
     add("not modelled", &omissions(scene, findings.forecast));
     add("accuracy", &accuracy(scene, findings.estimates));
@@ -100,6 +102,23 @@ fn models(scene: &Scene, forecast: &Forecast) -> String {
         solids.chain(droplets).chain(large_strains).chain(filaments).chain(lattices).collect();
     if all.is_empty() { "nothing with an extent".to_owned() } else { all.join("; ") }
 }
+
+/// Times of lattices in equilibrium beyond those of their default input, zero, at which no link softens.
+fn by_inputs(scene: &Scene, forecast: &Forecast) -> Vec<String> {
+    let of_lattice = |(name, lattice): (&str, &Lattice)| {
+        let own = forecast.lattices.iter().find(|own| own.name == name)?;
+        let input = lattice.inputs().into_iter().next()?;
+        let (more, key) = (lasting(own.time_per_metre? * MICROMETRE), input.key);
+        Some(format!(
+            "for the {key} that `{name}.{key}` has by default, {}: up to some {more} more for each µm of it",
+            input.start
+        ))
+    };
+    scene.lattices().filter_map(of_lattice).collect()
+}
+
+/// [m]
+const MICROMETRE: f64 = 1e-6;
 
 fn writes(files: &FilesForecast, scene: &Scene) -> String {
     // With the file from which a report is made.

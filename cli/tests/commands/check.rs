@@ -230,7 +230,7 @@ fn drops_above_nothing_have_no_errors_of_an_impact() {
 }
 
 #[test]
-fn check_reports_errors_of_lattices() {
+fn check_reports_errors_of_lattices_and_the_displacement_of_its_forecast() {
     let place = Workplace::new();
     let lattice = |keys: &str| {
         let text = format!(
@@ -246,11 +246,18 @@ fn check_reports_errors_of_lattices() {
     let said = "accuracy      ≈ strip, by its 8 particles over the depth: stiffness 18 %, largest load 3.0 %, work of \
                 a break 31 %; take 16 or more";
     assert!(bent.contains(said), "{bent}");
+    let said = "for the displacement that `strip.displacement` has by default, 0: up to some";
+    assert!(bent.contains(said), "{bent}");
     let notched = format!("spacing = 2.5e-3\n{BENT}\ncontrol = \"opening\"\nnotch.depth = 2e-2");
     let fine = lattice(&notched);
     let said = "by its 32 particles over the depth: stiffness 4.4 %, largest load 2.0 %, work of a break 3.5 %\n";
     assert!(fine.contains(said), "{fine}");
+    assert!(
+        fine.contains("for the opening that `strip.opening` has by default, 0: up to"),
+        "{fine}"
+    );
     let pulled = lattice("spacing = 1e-2\nsupport = \"ends\"\ninertia = true");
     let said = "strip, by its 8 particles over the depth: stiffness 8.0 %, energy of a crack 25 %";
     assert!(pulled.contains(said), "{pulled}");
+    assert!(!pulled.contains("by default"), "{pulled}");
 }

@@ -17,8 +17,10 @@ pub struct LatticeForecast {
     pub steps: f64,
     /// Memory [B].
     pub memory: f64,
-    /// Time of all steps of the default experiment [s].
+    /// Time of all steps of the default experiment, whose inputs are zero [s].
     pub run_time: f64,
+    /// Time per length of what the input of a strip in equilibrium prescribes, while links soften [s/m].
+    pub time_per_metre: Option<f64>,
     /// Notes on choices and simplifications.
     pub notes: Vec<String>,
 }
@@ -29,6 +31,9 @@ const MEMORY: f64 = 4000.0;
 /// Time of an unknown in a communication step [s]: some two steps of three iterations each, measured on beams of 1600
 /// to 15 000 unknowns.
 const STEP: f64 = 6e-6;
+/// Time of an unknown in a step of the strip's own in which links soften [s]: 5e-6 to 12e-6 were measured on beams of
+/// 1700 to 12 000 unknowns that are bent until they are in two, and 1e-6 where they break at once.
+const OWN_STEP: f64 = 8e-6;
 /// Memory of a particle in motion with its links [B], and its time in a time step [s].
 const MOVING_MEMORY: f64 = 1000.0;
 const MOVING: f64 = 6e-8;
@@ -57,6 +62,8 @@ impl LatticeForecast {
             steps,
             memory,
             run_time: of_step * steps,
+            time_per_metre: (!lattice.inertia)
+                .then(|| OWN_STEP * unknowns as f64 / plan.longest_step()),
             notes: notes(lattice),
         }
     }
