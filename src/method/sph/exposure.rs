@@ -96,7 +96,7 @@ pub fn factor(support: f64) -> f64 {
     let sum = |from: i32, to: i32, power: usize| -> f64 {
         (from..=to).map(|above| of_layer(above)[power]).sum()
     };
-    // What the layers above a particle lack is what it has of those below.
+    // At a surface the sum over the layers below a particle stands alone: those above are missing.
     let of_depth = |depth: i32| outside(sum(-layers, depth, 1)) * sum(depth + 1, layers, 0);
     1.0 / (spacing * (0..layers).map(of_depth).sum::<f64>())
 }
