@@ -13,8 +13,9 @@ const BALANCED: f64 = 1e-9;
 /// The same with particle conduction, which conserves heat only approximately on graded meshes.
 const BALANCED_BY_PARTICLES: f64 = 5e-2;
 
-/// Totals of a body with a history of deformation.
-const IS_FLOW: [&str; 19] = [
+/// Totals of solids that are listed: of those that melt, deform for good or crack.
+const OF_SOLIDS: [&str; 20] = [
+    ".liquid_volume",
     ".max_plastic_strain",
     ".plastic_work",
     ".dissipated",
@@ -146,7 +147,7 @@ pub fn balance_table(balances: &[Balance]) -> String {
 }
 
 /// Formats the totals at `state` that [`Ranges`](super::ranges::Ranges) does not follow as a table: those of droplets
-/// and reservoirs, and what flows of solids that yield.
+/// and reservoirs, and some of solids.
 pub fn totals_table(model: &Model, state: &State, cache: &mut Cache) -> Result<String, ModelError> {
     let mut rows = Vec::new();
     let registry = Registry::of(model.scene());
@@ -157,8 +158,8 @@ pub fn totals_table(model: &Model, state: &State, cache: &mut Cache) -> Result<S
         let body = model.scene().body.keys().nth(output.body);
         let scene = model.scene();
         let is_shown = body.is_none_or(|name| {
-            let is_flow = || IS_FLOW.iter().any(|key| variable.name.ends_with(key));
-            !is_loaded(scene, name) && (scene.solid(name).is_none() || is_flow())
+            let is_listed = || OF_SOLIDS.iter().any(|key| variable.name.ends_with(key));
+            !is_loaded(scene, name) && (scene.solid(name).is_none() || is_listed())
         });
         if is_total && is_shown {
             let value = model.output(state, cache, output)?;
