@@ -95,9 +95,9 @@ struct Reviewer<'a> {
 }
 
 impl Reviewer<'_> {
-    /// Returns true if the text has a value with its unit, so that nobody means it in another.
-    fn has_unit(&self, path: &Path, value: f64) -> bool {
-        self.scene.with_units.get(path) == Some(&value)
+    /// Returns true if the text has a temperature [K] in degrees Celsius or Fahrenheit, so that nobody meant others.
+    fn is_in_degrees(&self, path: &Path, temperature: f64) -> bool {
+        self.scene.in_degrees.get(path) == Some(&temperature)
     }
 
     fn warn(&mut self, path: &Path, finding: Finding) {

@@ -24,7 +24,7 @@ fn freezing(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet, cold: Cold)
         return;
     }
     let is_mistaken = point < BESIDE_WARM && point + CELSIUS < start;
-    if is_mistaken && cold != Cold::Meant && !reviewer.has_unit(path, point) {
+    if is_mistaken && cold != Cold::Meant && !reviewer.is_in_degrees(path, point) {
         let meant = number(point + CELSIUS);
         let finding = warning::freezing_point_in_celsius(number(point), celsius(point), meant);
         reviewer.warn(path, finding);
@@ -36,7 +36,7 @@ fn boiling(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
     let start = droplet.initial_temperature;
     let Some(point) = droplet.fluid.boils_at.filter(|&point| point < start) else { return };
     let meant = point + CELSIUS;
-    let is_mistaken = point < BESIDE_WARM && start < meant && !reviewer.has_unit(path, point);
+    let is_mistaken = point < BESIDE_WARM && start < meant && !reviewer.is_in_degrees(path, point);
     let remedy = match is_mistaken {
         true => format!("did you mean {} ({} °C)?", number(meant), number(point)),
         false => "lower `initial_temperature` below `boils_at`".to_owned(),

@@ -22,7 +22,7 @@ pub fn review(reviewer: &mut Reviewer, schema: &Schema, cold: Cold) {
         let path = place.path();
         let Some(mut range) = limits.plausible(cold) else { return };
         let is_cold = range.unit == "K" && (CRYOGENIC..range.lowest).contains(&value);
-        if is_cold && reviewer.has_unit(&path, value) {
+        if is_cold && reviewer.is_in_degrees(&path, value) {
             return;
         }
         if range.unit == STRAND_VISCOSITY.unit && is_of_strand(&path) {

@@ -154,7 +154,7 @@ pub(crate) fn parse_located(source: &mut Source, schema: &Schema) -> Result<Scen
         large_strain::with_names(source, |source| decode::decode(source, schema, misread));
     let mut scene = decoded?;
     scene.substances = source.substances().to_vec();
-    scene.with_units = source.numbers().clone();
+    scene.in_degrees = shorthand::in_degrees(source);
     scene.store_surfaces_below();
     scene.store_parts();
     check::check(&scene, source, schema)?;

@@ -53,7 +53,7 @@ pub struct Scene {
     #[serde(default)]
     pub naming: Naming,
     /// Marks an intentionally cold scene. In other scenes temperatures below 200 K, or below 250 K alongside warmer
-    /// ones, raise a warning that they may be in °C if they have no unit.
+    /// ones, raise a warning that they may be in °C unless they are written so.
     #[serde(default, skip_serializing_if = "is_false")]
     #[schemars(extend("otherwise" = "false"))]
     pub cryogenic: bool,
@@ -61,10 +61,10 @@ pub struct Scene {
     #[serde(skip)]
     #[schemars(skip)]
     pub substances: Vec<NamedSubstance>,
-    /// Numbers that the text has with their unit, in SI units.
+    /// Temperatures that the text has in degrees Celsius or Fahrenheit [K].
     #[serde(skip)]
     #[schemars(skip)]
-    pub with_units: BTreeMap<Path, f64>,
+    pub in_degrees: BTreeMap<Path, f64>,
     /// Tables `[material.NAME]` that solids and layers name.
     #[serde(default)]
     pub material: BTreeMap<String, Material>,

@@ -1,6 +1,8 @@
 //! Numbers with units and names of substances in scenes: each gives what its numbers and tables give, to the bit, and
 //! what cannot be meant is refused at its place.
 
+use std::collections::BTreeMap;
+
 use impinge::advice::parse_with_warnings;
 use impinge::limits::number;
 use impinge::scene::{Scene, parse};
@@ -21,7 +23,7 @@ fn with(text: &str, from: &str, to: &str) -> String {
 
 /// The scene without the names of its substances.
 fn anonymous(text: &str) -> Scene {
-    Scene { substances: Vec::new(), ..read(text) }
+    Scene { substances: Vec::new(), in_degrees: BTreeMap::new(), ..read(text) }
 }
 
 fn refusal(text: &str) -> String {
@@ -46,12 +48,12 @@ fn numbers_with_units_read_as_their_si_values() {
         ("tolerance = 1e-3", "tolerance = \"0.1 %\""),
     ];
     let text = pairs.iter().fold(PLATE.to_owned(), |text, (from, to)| with(&text, from, to));
-    assert_eq!(read(&text), read(PLATE));
+    assert_eq!(anonymous(&text), read(PLATE));
     assert_eq!(parse_with_warnings(&text, "scene.toml").unwrap().1, Vec::new());
 
     let table = "conductivity = { temperature = [300.0, 373.15], value = [10.0, 9.0] }";
     let units = "conductivity = { temperature = [300, \"100 °C\"], value = [\"10 W/m/K\", \"0.009 W/mm/K\"] }";
-    let [si, units] = [table, units].map(|to| read(&with(PLATE, "conductivity = 10.0", to)));
+    let [si, units] = [table, units].map(|to| anonymous(&with(PLATE, "conductivity = 10.0", to)));
     assert_eq!(si, units);
 }
 

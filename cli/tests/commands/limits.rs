@@ -77,7 +77,7 @@ fn too_little_address_space_is_refused() {
     fs::write(place.path("scene.toml"), coarse).unwrap();
     let program = env!("CARGO_BIN_EXE_impinge");
     let mut done = 0;
-    for megabytes in (30..=186).step_by(26) {
+    for megabytes in (40..=196).step_by(26) {
         let limited = format!(
             "ulimit -v {megabytes}000; exec {program} run scene.toml --until 2e-7 --overwrite \
              --set solver.threads=3"

@@ -5,6 +5,8 @@ mod quantity;
 mod substance;
 mod unit;
 
+use std::collections::BTreeMap;
+
 use toml::de::DeValue;
 
 use super::error::Problem;
@@ -45,6 +47,16 @@ pub fn expand(source: &mut Source, schema: &Schema) -> Vec<(Path, Problem)> {
         }
     }
     problems
+}
+
+/// Temperatures [K] for which the text has degrees Celsius or Fahrenheit.
+pub fn in_degrees(source: &Source) -> BTreeMap<Path, f64> {
+    let has_degrees = |path: &Path| {
+        let value = source.value(path);
+        matches!(value, Some(DeValue::String(text)) if text.contains('°'))
+    };
+    let numbers = source.numbers().iter().filter(|(path, _)| has_degrees(path));
+    numbers.map(|(path, number)| (path.clone(), *number)).collect()
 }
 
 fn collect_texts(value: &DeValue, path: &Path, texts: &mut Vec<(Path, String)>) {
