@@ -3,7 +3,8 @@
 //! `cargo bench --bench strand [-- FLUID ACROSS LENGTH THREADS SPEED HEIGHT]`: a nozzle of 1 mm lays a straight strand
 //! of LENGTH diameters and, with a SPEED below zero, goes round a corner of 90° in its middle. ACROSS particles lie
 //! over the nozzle, which moves SPEED times as fast as its fluid comes, HEIGHT diameters above the plate. FLUID is one
-//! of `thick` (10 Pa s), `thin` (1 Pa s), `paste`, `honey`, `chocolate`, `pdms`, `water` and `tin`.
+//! of `thick` (10 Pa s), `thin` (1 Pa s), `paste`, `honey`, `chocolate`, `pdms`, `water`, `tin` and `warm`, a paste that
+//! cools on glass.
 
 use std::env;
 use std::time::Instant;
@@ -17,7 +18,21 @@ use common::Trial;
 const DIAMETER: f64 = 1e-3;
 const OUTLET: f64 = 0.785_398e-6;
 
-/// Constants of a fluid without heat, and the speed at which it comes [m/s].
+/// Glass below a strand that cools.
+const PLATE: &str = r#"
+[body.plate]
+kind = "solid"
+shape = { box = [LENGTH, 6e-3, 1e-3] }
+material = { substance = "soda-lime-glass", at = 300.0 }
+initial_temperature = 293.15
+mesh = { spacing = 1e-3, order = 1 }
+[[coupling]]
+from = "ink"
+to = "plate.top"
+traction = false
+"#;
+
+/// Constants of a fluid but for those of heat, and the speed at which it comes [m/s].
 fn fluid(name: &str) -> (&'static str, f64) {
     match name {
         "thick" => ("density = 1000.0, viscosity = 10.0", 0.02),
@@ -46,6 +61,10 @@ fn fluid(name: &str) -> (&'static str, f64) {
         "tin" => (
             "density = 6970.0, viscosity = 1.9e-3, surface_tension = 0.544, contact_angle = \"140°\"",
             0.1,
+        ),
+        "warm" => (
+            "density = 1000.0, viscosity = { law = \"bingham\", yield_stress = 100.0, plastic_viscosity = 1.0 }",
+            0.02,
         ),
         other => panic!("{other}: no fluid of this bench"),
     }
@@ -81,14 +100,18 @@ fn main() {
         false => format!("[[-{half}, 0.0], [{half}, 0.0]]"),
     };
     let step = 0.4 * DIAMETER / moves;
+    let (conductivity, plate) = match name {
+        "warm" => (0.5, PLATE.replace("LENGTH", &format!("{:e}", (length + 4.0) * DIAMETER))),
+        _ => (0.0, String::new()),
+    };
     let mut trial = Trial::on_threads(
         &format!(
             "name = \"Strand\"\nstop_time = {time}\nstep = {step}\n[body.ink]\n\
              kind = \"filament\"\nmethod = \"particles\"\n\
-             fluid = {{ {constants}, specific_heat = 2000.0, conductivity = 0.0 }}\n\
-             nozzle = {{ diameter = 1e-3, height = {:e}, temperature = 293.0, flow = {flow:e} }}\n\
+             fluid = {{ {constants}, specific_heat = 2000.0, conductivity = {conductivity} }}\n\
+             nozzle = {{ diameter = 1e-3, height = {:e}, temperature = 340.0, flow = {flow:e} }}\n\
              path = {{ time = [{times}], x = [{x}], y = [{y}] }}\nmost = {:e}\nspacing = {:e}\n\
-             [[target]]\nof = \"ink\"\nline = {target}\n",
+             [[target]]\nof = \"ink\"\nline = {target}\n{plate}",
             height * DIAMETER,
             1.05 * flow * time,
             DIAMETER / across
