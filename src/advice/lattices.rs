@@ -31,10 +31,7 @@ fn storing(reviewer: &mut Reviewer, path: &Path, lattice: &Lattice) {
     if stored <= MOST_STORED {
         return;
     }
-    let excess = match stored < 2.0 {
-        true => format!("{} of", percent(stored)),
-        false => format!("{} times", two_digits(stored)),
-    };
+    let excess = times(stored);
     let fine = lattice.spacing * MOST_STORED / stored;
     let beyond = if fine < lattice.least_spacing() { BEYOND } else { "" };
     let (area, fine) = (two_digits(area), two_digits_below(fine));
@@ -48,6 +45,14 @@ fn stored(lattice: &Lattice) -> Option<f64> {
     law.stored_share(lattice.spacing, lattice.material.young)
 }
 
+/// A part of something in words: `40 % of` or `130 times`.
+fn times(part: f64) -> String {
+    match part < 2.0 {
+        true => format!("{} of", percent(part)),
+        false => format!("{} times", two_digits(part)),
+    }
+}
+
 /// Remedy where that many particles are too many.
 const BEYOND: &str = ", more than a million particles here: make the strip smaller, or take a solid with `fracture` \
                       for a material this brittle";
@@ -58,9 +63,13 @@ fn bending(reviewer: &mut Reviewer, path: &Path, lattice: &Lattice) {
     let stiffening = stiffening(lattice);
     if stiffening > MOST_STIFFENING {
         let fine = lattice.spacing * (MOST_STIFFENING / stiffening).sqrt();
-        let (ratio, share) = (number(lattice.material.poisson), percent(stiffening));
-        let (fine, above) = (two_digits_below(fine), number(least_ratio(lattice)));
-        let found = warning::links_stiffen_bending(ratio, share, fine, above);
+        let (ratio, share) = (number(lattice.material.poisson), times(stiffening));
+        let above = number(least_ratio(lattice));
+        let finer = match fine < lattice.least_spacing() {
+            true => String::new(),
+            false => format!(", or a `spacing` of {} m or less", two_digits_below(fine)),
+        };
+        let found = warning::links_stiffen_bending(ratio, share, above, finer);
         reviewer.warn(&path.at("material.poisson"), found);
     }
 }

@@ -85,6 +85,11 @@ rules! {
      the step, which it reaches a step late";
     "send the derivatives of the places with each step (`SetRealInputDerivatives`), or take shorter steps"
 
+    Step strand_freezes_at_outlet()
+    "fluid freezes right below the outlet, and the nozzle goes on pressing it out: densities, forces and shapes there are \
+     wrong, and steps may fail";
+    "raise the temperature of the fluid, raise the nozzle or move it faster, or cool the strand less"
+
     Step particles_lack_neighbours(fallback, particles, support)
     "{fallback} of {particles} particles conduct by the plain operator, as they have too few neighbours for the \
      corrected one: temperatures are wrong by tens of per cent, or grow without end";

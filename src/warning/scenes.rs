@@ -93,9 +93,9 @@ rules! {
     "up to its strength a link this long stores {excess} the area below its law, {law} J/m², and its break takes both: \
      cracks take too much energy, and loads are too high"; "set a `spacing` of {fine} m or less{beyond}"
 
-    Check links_stiffen_bending(ratio, share, fine, above)
-    "at a ratio of {ratio} links resist bending by themselves, which adds {share} to the stiffness of the strip in \
-     bending"; "set a `spacing` of {fine} m or less, or a ratio of {above} or more"
+    Check links_stiffen_bending(ratio, share, above, finer)
+    "at a ratio of {ratio} links resist bending by themselves, and make the strip stiffer by {share} its stiffness in \
+     bending"; "set a ratio of {above} or more{finer}"
 
     Check pressure_is_spurious(body)
     "`{body}` hardly changes its volume, and its pressure swings from point to point: normal stresses that are read may be \

@@ -292,3 +292,20 @@ fn wax_freezes_and_rests() {
     let refusal = trial.try_step(0.1).unwrap_err().to_string();
     assert!(refusal.contains("frozen") && refusal.contains("332"), "{refusal}");
 }
+
+/// Air so cold that fluid freezes at the outlet is warned of.
+#[test]
+fn fluid_that_freezes_at_the_outlet_is_warned_of() {
+    let warm = "density = 1000.0, viscosity = 5.0, specific_heat = 2000.0, conductivity = 0.2";
+    let wax = "density = 780.0, viscosity = 0.5, specific_heat = 2300.0, conductivity = 1.0, melting = { solidus = 330.0, \
+               liquidus = 332.0, latent_heat = 4e4 }";
+    let warned = |coefficient: &str| {
+        let air = format!("convection = {{ coefficient = {coefficient}, ambient = 253.15 }}");
+        let text = strand(&air).replace(warm, wax).replace("spacing = 0.2e-3", "spacing = 0.25e-3");
+        let mut trial = Trial::new(&text);
+        (0..3).for_each(|_| trial.step(0.02));
+        let told = trial.model.warnings(&trial.state);
+        told.iter().any(|one| one.finding().id == "strand_freezes_at_outlet")
+    };
+    assert!(warned("1e5") && !warned("50.0"));
+}

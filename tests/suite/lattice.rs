@@ -491,8 +491,8 @@ fn beams_that_links_stiffen_are_warned_of() {
     assert_eq!(warned(&text), []);
     let bent = text.replace("\"ends\"", "{ three_point = { span = 0.18 } }");
     let found = warned(&bent);
-    let said = "at a ratio of -0.99 links resist bending by themselves, which adds 139 % to the stiffness of the strip \
-                in bending; set a `spacing` of 0.0031 m or less, or a ratio of -0.93 or more";
+    let said = "at a ratio of -0.99 links resist bending by themselves, and make the strip stiffer by 139 % of its \
+                stiffness in bending; set a ratio of -0.93 or more, or a `spacing` of 0.0031 m or less";
     assert!(found.len() == 1 && found[0].1.contains(said), "{found:?}");
     assert_eq!(warned(&bent.replace("8.333333e-3", "3.1e-3")), []);
     assert_eq!(warned(&bent.replace("-0.99", "-0.93")), []);

@@ -402,7 +402,8 @@ class Unit:
         """Goes back to a state of this instance."""
         self._must_be_able("states")
         if not isinstance(state, State):
-            raise UnitError(f"{state!r} is no state; unit.state() saves one")
+            kind = type(state).__name__
+            raise UnitError(f"{kind} is no state: unit.state() saves one, and load() takes bytes of save()")
         if not state.belongs_to(self):
             raise UnitError("the state belongs to another unit, or has been freed")
         self.slave.set_state(state.handle)

@@ -268,6 +268,7 @@ impl Advice for ParticleFilament {
         let beyond = self.traction.is_some() && (heat_outside != 0.0 || impulse_outside[2] != 0.0);
         plan::nozzle_warnings([fed.jump, self.slicing.segment], fed.late == 1.0)
             .chain(beyond.then(warning::strand_beyond_edge))
+            .chain(self.sph.freezes_at_outlet(state).then(warning::strand_freezes_at_outlet))
             .map(|finding| finding.at(&self.name).whatever_its_numbers())
             .collect()
     }

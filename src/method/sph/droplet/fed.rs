@@ -5,6 +5,7 @@ use crate::inputs::Motion;
 use crate::method::sph::cloud::{Cloud, Ledger, cloud_of, ledger_of};
 use crate::method::sph::failure::Failure;
 use crate::method::sph::feed::{ASLEEP, BY_NOZZLE, Column, FREE, Fed};
+use crate::method::sph::frozen::RIGID;
 use crate::method::sph::plan::Feed;
 use crate::port::Surface;
 use crate::runtime::allowance::Allowance;
@@ -105,6 +106,26 @@ impl DropletSph {
             laid.resting += usize::from(origin.hold[i] == ASLEEP);
         }
         laid
+    }
+
+    /// Returns true if fluid that comes is frozen within a distance of particles below the outlet.
+    pub fn freezes_at_outlet(&self, state: &[f64]) -> bool {
+        let fed = self.fed(state);
+        let (Some(phases), true) = (&self.method.phases, fed.flowing == 1.0) else { return false };
+        let cloud = cloud_of(state, self.head(), &Team::new(1));
+        let Some(origin) = &cloud.origin else { return false };
+        let outlet = fed.nozzle.map(|x| x / self.method.units.length);
+        let radius =
+            0.5 * self.plan.feed.map_or(0.0, |feed| feed.diameter) / self.method.units.length;
+        let is_below = |[x, y, z]: [f64; 3]| {
+            let down = outlet[2] - z;
+            (x - outlet[0]).hypot(y - outlet[1]) < radius
+                && (0.0..self.method.spacing).contains(&down)
+        };
+        (0..cloud.len()).any(|i| {
+            let is_frozen = phases.frozen(cloud.contents()[i]) >= RIGID;
+            origin.hold[i] != BY_NOZZLE && is_frozen && is_below(cloud.position[i])
+        })
     }
 
     /// Thickness of a layer in the nozzle [m].
