@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use impinge::model::{Cache, Model, State};
+use impinge::model::{Cache, Model, State, forecast};
 use impinge::scene;
 
 use crate::common::Trial;
@@ -308,4 +308,18 @@ fn fluid_that_freezes_at_the_outlet_is_warned_of() {
         told.iter().any(|one| one.finding().id == "strand_freezes_at_outlet")
     };
     assert!(warned("1e5") && !warned("50.0"));
+}
+
+/// A plate whose constants depend on the temperature costs more than the strand, which `check` notes.
+#[test]
+fn nonlinear_plates_below_strands_are_noted() {
+    let costs = |material: &str| {
+        let text = strand("").replace("material = \"soda-lime-glass\"", material);
+        let text = text.replace("spacing = 1e-3, order", "spacing = 1e-4, order");
+        let scene = scene::parse(&text, "strand.toml").unwrap();
+        let notes = &forecast(&scene).filaments[0].notes;
+        notes.iter().any(|note| note.contains("heat is not linear"))
+    };
+    assert!(costs("material = \"aluminium\""));
+    assert!(!costs("material = { substance = \"aluminium\", at = 300.0 }"));
 }

@@ -6,6 +6,7 @@ use crate::body::droplet::{PARTICLE_MEMORY, exchange_time, is_large};
 use crate::body::link;
 use crate::body::solid::plan as solid_plan;
 use crate::body::threads_for;
+use crate::limits::two_digits;
 use crate::method::fem::Plan;
 use crate::method::sph::{DropletSph, Viscous};
 use crate::scene::{Filament, FilamentMethod, Scene};
@@ -26,6 +27,8 @@ pub struct FilamentForecast {
     pub notes: Vec<String>,
 }
 
+/// Time of a solid from which on a note says why [s].
+const LONG: f64 = 30.0;
 /// Memory of a segment in the state, its copies and its place on the plate [B].
 const SEGMENT: f64 = 1000.0;
 /// Time of a segment in a step [s], measured on wax above a plate of 2500 nodes.
@@ -62,8 +65,7 @@ impl FilamentForecast {
         let exchanges = steps * parts as f64;
         let exchange = scene.step / parts as f64;
         let hot = filament.nozzle.temperature;
-        let of_solid =
-            below.map_or(0.0, |(_, plan)| exchanges * exchange_time(&plan, exchange, hot));
+        let (of_solid, dear) = cost_of_solid(below.as_ref(), exchanges, exchange, hot);
         Self {
             name: name.to_owned(),
             count: segments,
@@ -71,7 +73,7 @@ impl FilamentForecast {
             memory: SEGMENT * segments as f64,
             run_time: STEP * exchanges * laid + of_solid,
             heat_error,
-            notes: notes(scene, (name, filament)),
+            notes: notes(scene, (name, filament)).into_iter().chain(dear).collect(),
         }
     }
 }
@@ -87,8 +89,7 @@ impl FilamentForecast {
         let exchanges = (scene.stop_time / scene.step).ceil() * parts as f64;
         let exchange = scene.step / parts as f64;
         let hot = filament.nozzle.temperature;
-        let of_solid =
-            below.map_or(0.0, |(_, plan)| exchanges * exchange_time(&plan, exchange, hot));
+        let (of_solid, dear) = cost_of_solid(below.as_ref(), exchanges, exchange, hot);
         // Half of the particles in the mean.
         let mean = 0.5 * expected_volume(scene, filament) / sph.spacing.powi(3);
         let moving = match filament.fluid.viscosity.yield_stress() > 0.0 {
@@ -109,9 +110,30 @@ impl FilamentForecast {
             memory: PARTICLE_MEMORY * count as f64,
             run_time: of_fluid + of_solid,
             heat_error: None,
-            notes: notes(scene, (name, filament)),
+            notes: notes(scene, (name, filament)).into_iter().chain(dear).collect(),
         }
     }
+}
+
+/// Time of the solid below [s] in a number of exchanges of some length [s] with a fluid of a temperature [K], and a note
+/// if that is long because its heat is not linear.
+fn cost_of_solid(
+    below: Option<&(f64, Plan)>,
+    exchanges: f64,
+    exchange: f64,
+    hot: f64,
+) -> (f64, Option<String>) {
+    let Some((_, plan)) = below else { return (0.0, None) };
+    let time = exchanges * exchange_time(plan, exchange, hot);
+    let is_dear = plan.newton.is_some() && time > LONG;
+    let note = is_dear.then(|| {
+        format!(
+            "{} s of that are the solid's below, whose heat is not linear: constants of one temperature (`at` of its \
+             substance) take a fraction of it",
+            two_digits(time)
+        )
+    });
+    (time, note)
 }
 
 /// Volume that comes in the default experiment [m³].
