@@ -28,7 +28,7 @@ pub struct FilamentForecast {
 }
 
 /// Time of a solid from which on a note says why [s].
-const LONG: f64 = 30.0;
+const LONG: f64 = 5.0;
 /// Memory of a segment in the state, its copies and its place on the plate [B].
 const SEGMENT: f64 = 1000.0;
 /// Time of a segment in a step [s], measured on wax above a plate of 2500 nodes.

@@ -52,8 +52,8 @@ pub fn expand(source: &mut Source, schema: &Schema) -> Vec<(Path, Problem)> {
 /// Temperatures [K] for which the text has degrees Celsius or Fahrenheit.
 pub fn in_degrees(source: &Source) -> BTreeMap<Path, f64> {
     let has_degrees = |path: &Path| {
-        let value = source.value(path);
-        matches!(value, Some(DeValue::String(text)) if text.contains('°'))
+        let Some(DeValue::String(text)) = source.value(path) else { return false };
+        ["°C", "°F"].iter().any(|unit| text.contains(unit))
     };
     let numbers = source.numbers().iter().filter(|(path, _)| has_degrees(path));
     numbers.map(|(path, number)| (path.clone(), *number)).collect()
