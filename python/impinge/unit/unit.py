@@ -403,7 +403,7 @@ class Unit:
         self._must_be_able("states")
         if not isinstance(state, State):
             kind = type(state).__name__
-            raise UnitError(f"{kind} is no state: unit.state() saves one, and load() takes bytes of save()")
+            raise UnitError(f"{kind} is no state: state() saves one; load() takes bytes of save()")
         if not state.belongs_to(self):
             raise UnitError("the state belongs to another unit, or has been freed")
         self.slave.set_state(state.handle)

@@ -146,7 +146,6 @@ impl ParticleFilament {
             particles: sums,
             resting: laid.resting,
             density,
-            ..Seen::default()
         }
     }
 
