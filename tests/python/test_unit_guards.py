@@ -235,5 +235,5 @@ def test_a_step_that_ctrl_c_breaks_into_leaves_a_unit_that_goes_on(pack, monkeyp
 
 
 def test_what_is_no_state_is_refused(pack):
-    with Unit(pack("tiles")) as unit, pytest.raises(UnitError, match="None is no state"):
+    with Unit(pack("tiles")) as unit, pytest.raises(UnitError, match="NoneType is no state"):
         unit.restore(None)
