@@ -110,7 +110,7 @@ def test_warnings_that_differ_in_numbers_alone_are_one():
 
 
 def test_a_scene_as_written_and_with_parameters_set_warns_of_one_thing():
-    """What was not changed has a line, and numbers as written."""
+    """A warning of what was not changed has a line, and numbers as they were written."""
     texts = [
         "the scene with its parameters as set: flaw[0].depth = 2e-5: missed [a]",
         "scene.toml: flaw[0].depth = 2e-05: missed [a]",

@@ -18,7 +18,7 @@ _DONE, _FAILED = 0, 1
 _SHOWN = 3
 _LINES = re.compile(r"\n(?! )")  # lines that are indented go on with what is above
 _NUMBER = re.compile(r"(?<![\w.])[-−+]?\d+(?:\.\d+)*(?:e[-−+]?\d+)?")
-# Where a warning of a scene stands: in the text, or nowhere once parameters have changed it.
+# A warning of a scene has a line of its text, or none once parameters have changed that.
 _OF_SCENE = re.compile(
     r"^( *)(?:the scene with its parameters as set|(?:[^\s:]*/)?scene\.toml(?::\d+)?): ",
     re.MULTILINE,
