@@ -113,11 +113,7 @@ impl<const HEAT: bool, const MOMENTS: bool> PairSum for Continuity<'_, HEAT, MOM
         let own = &self.records[i];
         let annex = if HEAT || MOMENTS { self.annexes[i] } else { [0.0; 4] };
         let here = Here {
-            position: lanes([
-                own[0] - block.centre[0],
-                own[1] - block.centre[1],
-                own[2] - block.centre[2],
-            ]),
+            position: lanes(block.about(own)),
             velocity: lanes([own[3], own[4], own[5]]),
             density: L::constant(own[7]),
             gradient: lanes([annex[0], annex[1], annex[2]]),

@@ -52,8 +52,7 @@ impl PairSum for Exposure<'_> {
         local: &Local<L::Real>,
     ) -> f64 {
         let own = &self.records[block.first + k];
-        let at: [L; 3] =
-            lanes([own[0] - block.centre[0], own[1] - block.centre[1], own[2] - block.centre[2]]);
+        let at: [L; 3] = lanes(block.about(own));
         let mut sums = [L::constant(0.0); 3];
         for places in block.neighbours(k).into_iter().flatten() {
             let [x, y, z, _, _, _, volume, _] = local.gather(places);

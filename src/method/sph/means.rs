@@ -48,8 +48,7 @@ impl PairSum for Means<'_> {
         local: &Local<L::Real>,
     ) -> f64 {
         let own = &self.records[block.first + k];
-        let here: [L; 3] =
-            lanes([own[0] - block.centre[0], own[1] - block.centre[1], own[2] - block.centre[2]]);
+        let here: [L; 3] = lanes(block.about(own));
         let centre = L::constant(block.centre[0]);
         let mut sum = L::constant(0.0);
         for list in block.neighbours(k) {

@@ -86,11 +86,7 @@ impl<const FROZEN: bool> PairSum for Momentum<'_, FROZEN> {
     ) -> Accelerations {
         let own = &self.records[block.first + k];
         let here = Here::<L> {
-            position: lanes([
-                own[0] - block.centre[0],
-                own[1] - block.centre[1],
-                own[2] - block.centre[2],
-            ]),
+            position: lanes(block.about(own)),
             velocity: lanes([own[3], own[4], own[5]]),
             pressure: L::constant(own[7]),
             viscosity: L::constant(self.viscosity),

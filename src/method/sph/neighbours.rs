@@ -83,6 +83,12 @@ impl Block {
         }
     }
 
+    /// Position of a record about the origin of the block.
+    #[inline(always)]
+    pub fn about(&self, record: &[f64; 8]) -> [f64; 3] {
+        [0, 1, 2].map(|a| record[a] - self.centre[a])
+    }
+
     pub fn sources(&self) -> &[Source] {
         &self.sources
     }

@@ -57,8 +57,7 @@ impl PairSum for RestingHeat<'_> {
         local: &Local<L::Real>,
     ) -> f64 {
         let own = &self.records[block.first + k];
-        let at: [L; 3] =
-            lanes([own[0] - block.centre[0], own[1] - block.centre[1], own[2] - block.centre[2]]);
+        let at: [L; 3] = lanes(block.about(own));
         let [left, potential] = [own[3], own[7]].map(L::constant);
         let mut sum = L::constant(0.0);
         for places in block.neighbours(k).into_iter().flatten() {

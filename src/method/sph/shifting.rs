@@ -63,8 +63,7 @@ impl PairSum for Crowding<'_> {
         local: &Local<L::Real>,
     ) -> CrowdingSums {
         let own = &self.records[block.first + k];
-        let at: [L; 3] =
-            lanes([own[0] - block.centre[0], own[1] - block.centre[1], own[2] - block.centre[2]]);
+        let at: [L; 3] = lanes(block.about(own));
         let here = Here { position: at, fullness: L::constant(own[7]) };
         let centre = L::constant(block.centre[0]);
         let mut lanes = Sums::none();

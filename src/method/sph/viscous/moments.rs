@@ -39,11 +39,7 @@ impl PairSum for Moments<'_> {
     ) -> [f64; 15] {
         let own = &self.records[block.first + k];
         let here = Here::<L> {
-            position: lanes([
-                own[0] - block.centre[0],
-                own[1] - block.centre[1],
-                own[2] - block.centre[2],
-            ]),
+            position: lanes(block.about(own)),
             narrowing: L::constant(self.weights.narrowing),
             centre: L::constant(block.centre[0]),
         };

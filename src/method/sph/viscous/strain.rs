@@ -61,11 +61,7 @@ impl PairSum for Strain<'_> {
     ) -> Elongation {
         let own = &self.records[block.first + k];
         let here = Here::<L> {
-            position: lanes([
-                own[0] - block.centre[0],
-                own[1] - block.centre[1],
-                own[2] - block.centre[2],
-            ]),
+            position: lanes(block.about(own)),
             velocity: lanes([own[3], own[4], own[5]]),
             viscosity: L::constant(own[7]),
             narrowing: L::constant(self.weights.narrowing),

@@ -65,11 +65,7 @@ impl PairSum for Stress<'_> {
         let i = block.first + k;
         let (own, annex) = (&self.records[i], &self.annexes[i]);
         let here = Here::<L> {
-            position: lanes([
-                own[0] - block.centre[0],
-                own[1] - block.centre[1],
-                own[2] - block.centre[2],
-            ]),
+            position: lanes(block.about(own)),
             form: Form6::of([own[3], own[4], own[5], own[6], own[7], annex[0]]),
             narrowing: L::constant(self.weights.narrowing),
             centre: L::constant(block.centre[0]),
