@@ -37,15 +37,43 @@ impl Cooling {
         (dt, air): (f64, f64),
     ) {
         let Some(areas) = std::mem::take(&mut cloud.exposed) else { return };
+        let steepest = method.phases.map_or(1.0, |phases| phases.steepest());
         let mut lost = 0.0;
         for (i, area) in areas.iter().enumerate().filter(|(_, area)| **area > 0.0) {
             let part = dt * self.rate * area / cloud.mass[i];
-            let change = part / (1.0 + part) * (air - cloud.temperature[i]);
+            let change = change(part, air - cloud.temperature[i], steepest);
             cloud.heat(i, change, method.phases.as_ref());
             lost -= cloud.mass[i] * change;
         }
         cloud.exposed = Some(areas);
         let unit = copies(method.mirrors) * method.units.energy() / method.heat_unit;
         ledger.heat_to_air.iter_mut().for_each(|sum| *sum += unit * lost);
+    }
+}
+
+/// Change of a heat content [K] in an implicit step: `dt h A/(m c)` is a part of the difference from the air [K], which
+/// the temperature approaches and never passes, as it rises by at most `steepest` with the content.
+fn change(part: f64, difference: f64, steepest: f64) -> f64 {
+    part / (1.0 + steepest * part) * difference
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::phases::Phases;
+    use super::*;
+
+    #[test]
+    fn no_step_is_so_long_that_fluid_becomes_colder_than_the_air() {
+        let phases = Phases { melting: [-20.0, -5.0], latent: 240.0, heat: 0.05, conduction: 1.9 };
+        for part in [1e-3, 0.3, 20.0, 1e9] {
+            let air = -90.0;
+            let (mut content, mut rise) = (-3.0, -3.0);
+            for _ in 0..40_000 {
+                let by = change(part, air - rise, phases.steepest());
+                phases.heat(&mut content, &mut rise, by);
+                assert!((air - 1e-9..=-3.0).contains(&rise), "{part}: {rise}");
+            }
+            assert!(rise < air + 1e-3, "{part}: {rise}");
+        }
     }
 }

@@ -91,6 +91,11 @@ impl Phases {
         ((molten - content) / (molten - frozen)).clamp(0.0, 1.0)
     }
 
+    /// Largest rise of the temperature with the content.
+    pub fn steepest(&self) -> f64 {
+        self.heat.recip().max(1.0)
+    }
+
     /// Largest diffusivity of a phase over that of the molten one.
     pub fn fastest(&self) -> f64 {
         (self.conduction / self.heat).max(1.0)

@@ -223,7 +223,7 @@ mod tests {
 
     /// Both fall at one speed: above the wall no height keeps them apart.
     #[test]
-    fn no_height_is_named_where_none_helps() {
+    fn heights_that_do_not_help_are_not_named() {
         let refusal =
             parsed(1e-3, "{ time = 0.0 }, { time = 20e-6, x = 60e-6 }", "", true).unwrap_err();
         assert!(
