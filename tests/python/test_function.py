@@ -234,6 +234,29 @@ def test_algebraic_loops_of_functions_are_found_and_solved():
         assert master.run(1.0).attrs["order_of_units"] == "a b"
 
 
+def test_a_large_pressure_does_not_decide_on_a_small_displacement():
+    """p = 10⁹ Pa + 10⁸ Pa/m u and u = 1 mm + 0.9 u + s at once: u = 10 mm, and s, a displacement
+    of a half of itself, is zero."""
+    law = Function(
+        lambda p, u, s: {"force": 1e9 + 1e8 * u, "way": 1e-3 + 0.9 * u + s, "slip": 0.5 * s},
+        {"p": "Pa", "u": "m", "s": "m"},
+        {"force": "Pa", "way": "m", "slip": "m"},
+    )
+    same = Function(
+        lambda force, way, slip: {"p": force, "u": way, "s": slip},
+        {"force": "Pa", "way": "m", "slip": "m"},
+        {"p": "Pa", "u": "m", "s": "m"},
+    )
+    ring = [(f"law.{a}", f"same.{a}") for a in ("force", "way", "slip")]
+    ring += [(f"same.{a}", f"law.{a}") for a in ("p", "u", "s")]
+    outputs = ["law.way", "law.force", "law.slip"]
+    with Master({"law": law, "same": same}, ring, step=1.0, outputs=outputs) as master:
+        result = master.run(2.0)
+    assert result["law.way"].values == pytest.approx(np.full(3, 1e-2), rel=1e-5)
+    assert result["law.force"].values == pytest.approx(np.full(3, 1e9 + 1e6), rel=1e-6)
+    assert np.abs(result["law.slip"].values).max() < 1e-8
+
+
 # Memories
 
 

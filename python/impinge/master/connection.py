@@ -28,7 +28,9 @@ class Connection:
     mean: whether the source is a mean over the last step, so that it belongs to the whole step
         rather than to its end. What is left out is read from the description of impinge's units.
     scale: of which residuals and errors are a share; if left out, the largest magnitude at the
-        start, at the ends of accepted steps and of what is judged, but not of earlier guesses.
+        start, at the ends of accepted steps and of what is judged, but not of earlier guesses. In
+        an algebraic loop it is the largest magnitude of what is judged, among the connections
+        whose targets have the same unit of measurement.
     unit: the unit of measurement of what `map` returns, such as "W/m2". With it, `map` takes the
         source's values in the source's own unit; without it, in the target's.
     """
@@ -75,6 +77,7 @@ class Link:
         told = units[self.source_unit].is_mean(self.source)
         self.is_mean = told if connection.mean is None else connection.mean
         self.nominal = abs(target.nominal)
+        self.unit = target.unit
         self.place = slice(0, 0)
         self.largest = 0.0  # magnitude at the start and at the ends of accepted steps
 

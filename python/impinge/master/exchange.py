@@ -14,6 +14,7 @@ from impinge.master.graph import components, follows_at_once
 from impinge.master.participant import Participant
 
 _MOST = 50
+_ROUNDING = 1e-15  # of the largest magnitude of any guess
 
 
 class Exchange:
@@ -81,15 +82,15 @@ class Exchange:
         places = np.concatenate([np.arange(k.place.start, k.place.stop) for k in group])
         mixing = LeastSquares(depth=20, reuse=0, relaxation=1.0)
         mixing.begin()
+        seen = np.zeros(len(places))
         for _ in range(_MOST):
             x = inputs[places].copy()
             self._write(group, inputs)
             self._pass(group, inputs)
             g = inputs[places].copy()
-            scales = np.concatenate(
-                [np.full(k.size, k.connection.scale or _size(g, x) or k.nominal) for k in group]
-            )
-            if (np.abs(g - x) <= tolerance * scales).all():
+            scales = _scales(group, np.maximum(np.abs(g), np.abs(x)))
+            seen = np.maximum(seen, scales)
+            if (np.abs(g - x) <= np.maximum(tolerance * scales, _ROUNDING * seen)).all():
                 # Units have x. What follows from it was not checked as an input itself, and in
                 # loops of large gain is worse.
                 inputs[places] = x
@@ -99,5 +100,19 @@ class Exchange:
         raise MasterError(f"the algebraic loop of {names} does not converge in {_MOST} iterations")
 
 
-def _size(g: np.ndarray, x: np.ndarray) -> float:
-    return float(max(np.abs(g).max(), np.abs(x).max()))
+def _scales(group: Sequence[Link], sizes: np.ndarray) -> np.ndarray:
+    """The scale of each input of a loop, where these are their present magnitudes: as given, else
+    the largest magnitude of all inputs in the same unit of measurement, so that what should be
+    zero is compared with others of its kind, and a pressure does not decide on a displacement."""
+    ends = np.cumsum([link.size for link in group])
+    own = [float(sizes[end - link.size : end].max()) for link, end in zip(group, ends, strict=True)]
+    largest: dict[object, float] = {}
+    kinds = [link.unit or id(link) for link in group]
+    for kind, size in zip(kinds, own, strict=True):
+        largest[kind] = max(largest.get(kind, 0.0), size)
+    return np.concatenate(
+        [
+            np.full(link.size, link.connection.scale or largest[kind] or link.nominal)
+            for link, kind in zip(group, kinds, strict=True)
+        ]
+    )
