@@ -220,6 +220,7 @@ impl Unit {
     pub fn reset(&mut self) -> Answer {
         self.drop_run();
         self.forget_answers();
+        self.said.clear();
         self.is_settled = false;
         self.series = None;
         self.texts.clear();
