@@ -53,6 +53,15 @@ DROPS = {
         "density = 780, viscosity = 0.05, specific_heat = 2500, conductivity = 0.15,"
         " surface_tension = 0.026, contact_angle = 0.6",
     ),
+    "wax that freezes, 0.5 Pa s": (
+        0.05,
+        2e-3,
+        0.5,
+        1e-4,
+        "density = 780, viscosity = 0.5, specific_heat = 2200, conductivity = 0.15,"
+        " surface_tension = 0.025, contact_angle = 0.5,"
+        " melting = { solidus = 330.0, liquidus = 333.0, latent_heat = 1.9e5 }",
+    ),
     "water, 0.001 Pa s": (
         0.005,
         2e-3,

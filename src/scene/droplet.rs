@@ -99,7 +99,7 @@ pub struct Droplet {
     pub viscous: ViscousAdvance,
     /// Advance of pressure in time; `implicit` is quick for fluid that is thick, slow or at rest.
     #[serde(default)]
-    #[schemars(extend("condition" = "`implicit` without `melting` of the fluid and without `viscous = \"explicit\"`"))]
+    #[schemars(extend("condition" = "`implicit` without `viscous = \"explicit\"`"))]
     pub pressure: PressureAdvance,
     /// δ of the density diffusion [1].
     #[serde(default = "default_density_diffusion")]

@@ -159,15 +159,16 @@ fn balance(drop: &DropletSph, state: &[f64]) -> ([f64; 3], f64) {
     (sum, norm(totals.impulse_to_wall) + norm(totals.momentum) + norm(totals.impulse_of_gravity))
 }
 
-fn both(plan: DropletPlan) -> [DropletPlan; 2] {
-    [Viscous::Explicit, Viscous::Implicit { rate: 1.0 }]
+/// The plan with each way to advance viscosity and pressure.
+fn each(plan: DropletPlan) -> [DropletPlan; 3] {
+    [Viscous::Explicit, Viscous::Implicit { rate: 1.0 }, Viscous::WithPressure { rate: 1.0 }]
         .map(|viscous| DropletPlan { viscous, ..plan.clone() })
 }
 
 #[test]
 fn frozen_drop_on_a_plate_does_not_move() {
     let gravity = [0.0, 0.0, -98.1];
-    for plan in both(walled(DropletPlan { gravity, ..plan() })) {
+    for plan in each(walled(DropletPlan { gravity, ..plan() })) {
         let drop = DropletSph::new(plan.clone(), 1);
         let start = particles(&plan, ball([0.0, 0.0, 3.2], 3.5), |_| [0.0; 3]);
         let mut state = drop.state_of(&start);
@@ -201,7 +202,7 @@ fn thrown_frozen_ball_leaves_its_momentum_to_the_wall_that_it_meets() {
 fn free_ball_keeps_momentum_energy_and_shape_over_a_turn() {
     let spin = [200.0, -300.0, 250.0];
     let turn = std::f64::consts::TAU / norm(spin);
-    for plan in both(plan()) {
+    for plan in each(plan()) {
         let drop = DropletSph::new(plan.clone(), 1);
         let velocity = |x| minus(turning(x, spin), [0.1, -0.2, 0.3]);
         let start = particles(&plan, ball([0.0; 3], 3.3), velocity);
@@ -254,7 +255,7 @@ fn tumbling_slab_keeps_its_energy_on_average() {
 #[test]
 fn free_ball_falls_like_a_point() {
     let gravity = [1.0, -2.0, -9.81];
-    for plan in both(DropletPlan { gravity, ..plan() }) {
+    for plan in each(DropletPlan { gravity, ..plan() }) {
         let drop = DropletSph::new(plan.clone(), 1);
         let start =
             particles(&plan, ball([0.0; 3], 3.0), |x| turning(x, TURNED.map(|s| 300.0 * s)));
@@ -278,7 +279,7 @@ fn free_ball_falls_like_a_point() {
 
 #[test]
 fn balls_that_meet_become_one() {
-    for plan in both(plan()) {
+    for plan in each(plan()) {
         let drop = DropletSph::new(plan.clone(), 1);
         let left = |x: [f64; 3]| x[0] < 0.0;
         let balls = |x| ball([-4.0, 0.0, 0.0], 2.5)(x).or(ball([4.0, 0.0, 2.0], 2.5)(x));
@@ -385,7 +386,7 @@ fn piece_across_a_period_moves_as_one() {
 #[test]
 fn liquid_on_a_frozen_layer_balances_with_the_wall() {
     let gravity = [0.3, 0.0, -2.0];
-    for plan in both(DropletPlan { gravity, ..channel() }) {
+    for plan in each(DropletPlan { gravity, ..channel() }) {
         let drop = DropletSph::new(plan.clone(), 1);
         let fall = |x: [f64; 3]| if x[2] > 3.0 { [0.1, 0.0, -0.4] } else { [0.0; 3] };
         let start = particles(&plan, layers(3.0, 8.0), fall);
@@ -403,7 +404,7 @@ fn liquid_on_a_frozen_layer_balances_with_the_wall() {
 
 #[test]
 fn saved_states_continue_with_the_same_bits() {
-    for plan in both(DropletPlan { gravity: [0.3, 0.0, -2.0], ..channel() }) {
+    for plan in each(DropletPlan { gravity: [0.3, 0.0, -2.0], ..channel() }) {
         let fields = particles(
             &plan,
             |x| layers(3.0, 6.0)(x).or(ball([6.0, 0.0, 10.2], 2.5)(x)),
@@ -435,7 +436,7 @@ fn saved_states_continue_with_the_same_bits() {
 fn film_sticks_to_the_surface_of_a_frozen_layer() {
     let fluid = Fluid { viscosity: 1.0.into(), ..plan().fluid };
     let (height, gravity, viscosity) = (6.0 * SPACING, 10.0, 1.0 / DENSITY);
-    for plan in both(DropletPlan { gravity: [gravity, 0.0, 0.0], fluid, ..channel() }) {
+    for plan in each(DropletPlan { gravity: [gravity, 0.0, 0.0], fluid, ..channel() }) {
         let drop = DropletSph::new(plan.clone(), 1);
         let start = particles(&plan, layers(3.0, 9.0), |_| [0.0; 3]);
         let mut state = drop.state_of(&start);
@@ -459,8 +460,8 @@ fn liquid_around_a_piece_drags_it_and_keeps_momentum() {
     let paste = Fluid { viscosity: serde_json::from_str(paste).unwrap(), ..plan().fluid };
     let implicit = Viscous::Implicit { rate: 100.0 };
     let paste = DropletPlan { fluid: paste, viscous: implicit, ..plan() };
-    let [explicit, implicit] = both(plan());
-    for plan in [explicit, implicit, paste] {
+    let [explicit, implicit, solved] = each(plan());
+    for plan in [explicit, implicit, solved, paste] {
         // Shifting conserves no angular momentum.
         let plan = DropletPlan { shifting: false, ..plan };
         let drop = DropletSph::new(plan.clone(), 1);

@@ -62,7 +62,7 @@ fn method(checker: &mut Checker, path: &Path, droplet: &Droplet) {
     checker.refuse(path, message, allowed);
 }
 
-/// Refuses to solve pressure without viscosity, and of fluids that freeze.
+/// Refuses to solve pressure without viscosity, or with a speed of sound that is not that of the model.
 fn pressure(checker: &mut Checker, droplet_path: &Path, droplet: &Droplet) {
     if droplet.viscous == ViscousAdvance::Explicit {
         let message = "pressure is solved together with viscosity, which is explicit here";
@@ -76,11 +76,6 @@ fn pressure(checker: &mut Checker, droplet_path: &Path, droplet: &Droplet) {
         let message = "pressure is solved with the speed of sound of the model";
         let allowed = "no `sound_speed`, or `pressure = \"explicit\"`";
         checker.refuse(&droplet_path.at("fluid.sound_speed"), message, allowed);
-    }
-    if droplet.fluid.melting.is_some() {
-        let message = "pressure is not solved for fluids that freeze";
-        let allowed = "\"explicit\", or no `melting` of the fluid";
-        checker.refuse(&droplet_path.key("pressure"), message, allowed);
     }
 }
 
