@@ -19,8 +19,7 @@ pub fn reynolds(droplet: &Droplet) -> f64 {
 /// Returns true if a drop's particles may have their pressure solved at the end of steps, and their fluid is thick
 /// enough.
 pub fn may_be_solved(droplet: &Droplet) -> bool {
-    let takes =
-        droplet.fluid.sound_speed.is_none() && droplet.viscous != ViscousAdvance::Explicit;
+    let takes = droplet.fluid.sound_speed.is_none() && droplet.viscous != ViscousAdvance::Explicit;
     takes && droplet.has_particles() && reynolds(droplet) <= THIN
 }
 

@@ -12,6 +12,7 @@ mod resting;
 mod snapshot;
 mod swinging;
 mod totals;
+mod trials;
 mod warming;
 
 pub use forecast::{LargeStrainForecast, contact_interval};
@@ -20,6 +21,7 @@ pub use plan::refinement;
 pub use resting::RestingBody;
 pub use swinging::SwingingBody;
 pub use totals::offered_totals;
+pub use trials::SmallTrials;
 
 use crate::body::{BodyError, Reading};
 use crate::method::large_strain::Failure;

@@ -12,6 +12,7 @@ mod order;
 mod report;
 pub mod responses;
 mod sample;
+mod small;
 pub mod twin;
 
 use std::convert::Infallible;

@@ -12,7 +12,7 @@ pub struct Order {
     pub far: [Finer; 2],
     /// Error over the difference to a mesh √2 as coarse, and the difference to one twice as coarse over the error,
     /// where errors fall unevenly.
-    coarser: [f64; 2],
+    pub coarser: [f64; 2],
     /// True if errors through the thickness fall evenly.
     is_smooth: bool,
 }

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::choice::{COARSEST_TRIED, Levels, Trials, factors, open, search};
 use super::estimate::{Estimate, OutputError};
 use super::resolve;
+use super::small;
 use super::twin::{Physics, Twin};
 use crate::body::{forecast, warnings_on_landing, warnings_on_strands};
 use crate::quantity::{Quantity, percent};
@@ -44,13 +45,14 @@ impl BodyEstimate {
 /// Returns a scene with all its meshes chosen and their errors included, and the error estimates of each solid.
 pub fn estimates(scene: &Scene) -> (Scene, Vec<BodyEstimate>) {
     let mut resolved = resolve(scene).scene;
-    let estimates: Vec<_> =
+    let mut estimates: Vec<_> =
         resolved.with_fields().map(|(name, _)| estimate(&resolved, name)).collect();
     for one in &estimates {
         let own = MeshFactors::of([1.0; 2]);
         let factors = resolved.refinement.entry(one.body.clone()).or_insert(own);
         factors.estimated_error = one.worst();
     }
+    estimates.extend(resolved.body.keys().filter_map(|name| small::estimate(&resolved, name)));
     (resolved, estimates)
 }
 

@@ -20,6 +20,18 @@ pub enum Mechanics {
     Sph,
 }
 
+impl Mechanics {
+    /// The key of a scene.
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::Fem => "fem",
+            Self::Rkpm => "rkpm",
+            Self::Efg => "efg",
+            Self::Sph => "sph",
+        }
+    }
+}
+
 /// Settings of smoothed particles of large strain.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]

@@ -1,0 +1,140 @@
+//! A body alone, in equilibrium under small inputs, one after the other.
+//!
+//! Errors of the linear response to these by a mesh are those of any small load, and of the same size under larger ones.
+//! What a mesh lacks of plastic flow, of relaxation and of waves does not show.
+
+use super::plan;
+use crate::inputs::InputLayout;
+use crate::quantity::Quantity;
+use crate::scene::{Body, HeldFace, LargeStrain, Mechanics, Scene};
+
+/// Strain of the trials: far below that of yield, and far above rounding.
+const STRAIN: f64 = 1e-5;
+
+/// The trials of a body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SmallTrials {
+    scene: Scene,
+    name: String,
+    /// Inputs, one alone in each trial; the first trial has none.
+    pub inputs: Vec<Vec<f64>>,
+    /// Gravity of a further trial, for bodies on which nothing else acts [m/s²].
+    pub gravity: Option<f64>,
+}
+
+impl SmallTrials {
+    /// The trials of a solid of large strain, or the reason why it has none; `None` for other bodies.
+    pub fn of(scene: &Scene, name: &str) -> Option<Result<Self, &'static str>> {
+        let solid = scene.large_strain(name)?;
+        Some(match obstacle(solid) {
+            Some(why) => Err(why),
+            None => Self::at_rest(scene, name, solid),
+        })
+    }
+
+    fn at_rest(scene: &Scene, name: &str, solid: &LargeStrain) -> Result<Self, &'static str> {
+        let mut twin = scene.alone(name);
+        twin.solver.threads = 1;
+        let own = resting(solid);
+        let [shear, weight] = stiffness_and_weight(&own);
+        let rest: Vec<f64> =
+            own.inputs().iter().map(|input| unloaded(&own, input.quantity)).collect();
+        let mut inputs = vec![rest.clone()];
+        for (place, input) in own.inputs().iter().enumerate() {
+            let change = match input.quantity {
+                Quantity::Displacement => STRAIN * own.smallest(),
+                Quantity::Temperature => warming(&own),
+                _ => STRAIN * shear,
+            };
+            let mut trial = rest.clone();
+            trial[place] += change;
+            inputs.push(trial);
+        }
+        let is_weighed = solid.gravity > 0.0 && inputs.len() == 1;
+        let gravity = is_weighed.then(|| STRAIN * shear / weight);
+        if inputs.len() == 1 && gravity.is_none() {
+            return Err("nothing acts on the body by itself");
+        }
+        twin.body.insert(name.to_owned(), Body::LargeStrain(Box::new(own)));
+        Ok(Self { scene: twin, name: name.to_owned(), inputs, gravity })
+    }
+
+    /// The scene of the body with nodes nearer to each other by a factor, under gravity [m/s²].
+    pub fn scene(&self, finer: f64, gravity: f64) -> Scene {
+        let mut scene = self.scene.clone();
+        if let Some(Body::LargeStrain(solid)) = scene.body.get_mut(&self.name) {
+            solid.mesh.spacing = Some(solid.spacing() / finer);
+            solid.gravity = gravity;
+        }
+        scene
+    }
+
+    /// The same trials with another discretisation, where the body may have it.
+    pub fn with(&self, mechanics: Mechanics) -> Option<Self> {
+        let mut other = self.clone();
+        let Some(Body::LargeStrain(solid)) = other.scene.body.get_mut(&self.name) else {
+            return None;
+        };
+        let is_free = solid.layers.is_none() && !solid.is_of_concrete();
+        if !is_free || solid.mechanics == mechanics {
+            return None;
+        }
+        (solid.mechanics, solid.rkpm, solid.sph) = (mechanics, None, None);
+        Some(other)
+    }
+
+    pub fn mechanics(&self) -> Option<Mechanics> {
+        Some(self.scene.large_strain(&self.name)?.mechanics)
+    }
+
+    /// Places of the inputs among those of the scene.
+    pub fn place(&self) -> std::ops::Range<usize> {
+        InputLayout::of(&self.scene).of_body(&self.name)
+    }
+}
+
+/// Why the errors of a body cannot be estimated from small inputs.
+fn obstacle(solid: &LargeStrain) -> Option<&'static str> {
+    let is_held = solid.faces.values().any(HeldFace::is_held);
+    match () {
+        () if solid.part().is_some() => Some("its nodes come from a file"),
+        () if solid.is_above() => Some("the body moves freely"),
+        () if !is_held => Some("no face holds the body"),
+        () => None,
+    }
+}
+
+/// The body in equilibrium, without heat flow.
+fn resting(solid: &LargeStrain) -> LargeStrain {
+    let mut own = solid.clone();
+    own.inertia = false;
+    (own.motion, own.friction, own.conductance_below) = (None, None, None);
+    own.start = Default::default();
+    own.gravity = 0.0;
+    for face in own.faces.values_mut() {
+        (face.temperature, face.flux, face.convection) = (None, None, None);
+    }
+    own
+}
+
+/// The softest shear modulus [Pa], and the stress by a unit of gravity [kg/m²].
+fn stiffness_and_weight(solid: &LargeStrain) -> [f64; 2] {
+    let layers = plan::layers(solid);
+    let shear = layers.iter().map(|layer| layer.law.shear).fold(f64::INFINITY, f64::min);
+    let density = layers.iter().map(|layer| layer.density).fold(0.0, f64::max);
+    [shear, density * solid.smallest()]
+}
+
+/// Value of an input without effect.
+fn unloaded(solid: &LargeStrain, quantity: Quantity) -> f64 {
+    if quantity == Quantity::Temperature { solid.initial_temperature } else { 0.0 }
+}
+
+/// Change of the temperature by which the layer that expands most strains by [`STRAIN`]; nothing where none does [K].
+fn warming(solid: &LargeStrain) -> f64 {
+    let start = solid.initial_temperature;
+    let slope = |stretch: f64| (stretch - 1.0).abs();
+    let thermal = solid.thermal();
+    let most = thermal.iter().map(|own| slope(own.stretch(start + 1.0))).fold(0.0, f64::max);
+    if most > 0.0 { STRAIN / most } else { 0.0 }
+}
