@@ -62,8 +62,8 @@ pub struct Model {
     schedule: Vec<Group>,
     /// For each running maximum, the place of its body and its number within the body.
     peaks: Vec<(usize, usize)>,
-    /// Largest memory of a step of the droplets and the solids of large strain [B].
-    memory_of_droplets: usize,
+    /// Largest memory of a step that is made on a thread of its own [B].
+    memory_of_steps: usize,
     /// Chosen meshes, kept for models that need the same.
     #[expect(dead_code, reason = "held for others")]
     choices: Vec<Arc<Choice>>,
@@ -119,15 +119,9 @@ impl Model {
         let pairs: Vec<_> =
             joints.iter().map(|joint| joint.sides.each_ref().map(|side| side.body)).collect();
         let schedule = Group::all(bodies.len(), &links, &pairs);
-        let Forecast { droplets, large_strains, filaments, lattices, .. } = forecast(scene);
         let places = bodies.iter().enumerate();
         let peaks = places.flat_map(|(place, body)| (0..body.peaks()).map(move |n| (place, n)));
         let peaks = peaks.collect();
-        let of_droplets = droplets.iter().map(|droplet| droplet.memory).sum::<f64>();
-        let of_large_strains = large_strains.iter().map(|body| body.memory).sum::<f64>();
-        let of_filaments = filaments.iter().map(|body| body.memory).sum::<f64>();
-        let of_lattices = lattices.iter().map(|body| body.memory).sum::<f64>();
-        let memory_of_droplets = of_droplets + of_large_strains + of_filaments + of_lattices;
         Ok(Self {
             scene: scene.clone(),
             layout,
@@ -136,7 +130,7 @@ impl Model {
             joints,
             schedule,
             peaks,
-            memory_of_droplets: memory_of_droplets as usize,
+            memory_of_steps: forecast(scene).memory_of_steps() as usize,
             choices: Vec::new(),
             errors: scene.body.keys().map(|_| MadeOnce::new()).collect(),
         })

@@ -40,6 +40,63 @@ impl Forecast {
     }
 }
 
+/// What a body needs.
+pub struct Need<'a> {
+    pub name: &'a str,
+    /// [B]
+    pub memory: f64,
+    /// Its size in words, and what makes it smaller.
+    pub size: String,
+    pub remedy: &'static str,
+    /// Places in a file of the body; `None` of a solid with a mesh, whose files have cells.
+    pub particles: Option<usize>,
+}
+
+impl Forecast {
+    /// The needs of all bodies.
+    pub fn needs(&self) -> Vec<Need<'_>> {
+        let solids = self.bodies.iter().map(|body| {
+            let unknowns: f64 = body.unknowns.iter().map(|&count| count as f64).sum();
+            Need {
+                name: &body.name,
+                memory: body.memory,
+                size: format!("{unknowns:.2e} unknowns"),
+                remedy: "a larger `mesh.spacing`",
+                particles: None,
+            }
+        });
+        let droplets = self.droplets.iter().map(|droplet| Need {
+            name: &droplet.name,
+            memory: droplet.memory,
+            size: format!("{:.2e} particles", droplet.particles as f64),
+            remedy: "a larger `spacing`",
+            particles: Some(droplet.drawn),
+        });
+        let large_strains = self.large_strains.iter().map(|body| Need {
+            name: &body.name,
+            memory: body.memory,
+            size: format!("{:.2e} nodes", body.nodes as f64),
+            remedy: "a larger `mesh.spacing`",
+            particles: Some(body.drawn),
+        });
+        let filaments = self.filaments.iter().map(|body| Need {
+            name: &body.name,
+            memory: body.memory,
+            size: format!("{:.2e} {}", body.count as f64, body.of),
+            remedy: "a smaller `most` or a larger `spacing`",
+            particles: Some(body.count),
+        });
+        let lattices = self.lattices.iter().map(|body| Need {
+            name: &body.name,
+            memory: body.memory,
+            size: format!("{} particles", body.particles),
+            remedy: "a larger `spacing`",
+            particles: Some(body.particles),
+        });
+        solids.chain(droplets).chain(large_strains).chain(filaments).chain(lattices).collect()
+    }
+}
+
 /// Estimates the cost of a scene without building it.
 pub fn forecast(scene: &Scene) -> Forecast {
     let solids = scene.solids().map(|(name, solid)| {

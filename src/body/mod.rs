@@ -29,7 +29,7 @@ pub use droplet::{
 pub use error::BodyError;
 pub use exchanges::ExchangeForecast;
 pub use filament::{FilamentForecast, warnings_on_strands};
-pub use forecast::{BodyForecast, DropletForecast, Forecast, ParticleForecast, forecast};
+pub use forecast::{BodyForecast, DropletForecast, Forecast, Need, ParticleForecast, forecast};
 pub use large_strain::{LargeStrainForecast, SmallTrials};
 pub use lattice::LatticeForecast;
 pub use link::{Joint, Link, MOST_PARTS, Side};

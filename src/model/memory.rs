@@ -1,6 +1,7 @@
 //! Checks that a scene fits into the available memory before anything large is built.
 
 use super::{Forecast, Model, ModelError, State, forecast};
+use crate::body::Need;
 use crate::runtime::address_space::{self, ARENA, PRODUCTS, SPARE, TooLittle};
 use crate::runtime::thread::{SPACE, STACK};
 use crate::scene::Scene;
@@ -18,51 +19,11 @@ impl Forecast {
         self.needs().iter().map(|need| need.memory).sum()
     }
 
-    fn needs(&self) -> Vec<Need<'_>> {
-        let solids = self.bodies.iter().map(|body| {
-            let unknowns: f64 = body.unknowns.iter().map(|&count| count as f64).sum();
-            Need {
-                name: &body.name,
-                memory: body.memory,
-                size: format!("{unknowns:.2e} unknowns"),
-                remedy: "a larger `mesh.spacing`",
-            }
-        });
-        let droplets = self.droplets.iter().map(|droplet| Need {
-            name: &droplet.name,
-            memory: droplet.memory,
-            size: format!("{:.2e} particles", droplet.particles as f64),
-            remedy: "a larger `spacing`",
-        });
-        let large_strains = self.large_strains.iter().map(|body| Need {
-            name: &body.name,
-            memory: body.memory,
-            size: format!("{:.2e} nodes", body.nodes as f64),
-            remedy: "a larger `mesh.spacing`",
-        });
-        let filaments = self.filaments.iter().map(|body| Need {
-            name: &body.name,
-            memory: body.memory,
-            size: format!("{:.2e} {}", body.count as f64, body.of),
-            remedy: "a smaller `most` or a larger `spacing`",
-        });
-        let lattices = self.lattices.iter().map(|body| Need {
-            name: &body.name,
-            memory: body.memory,
-            size: format!("{} particles", body.particles),
-            remedy: "a larger `spacing`",
-        });
-        solids.chain(droplets).chain(large_strains).chain(filaments).chain(lattices).collect()
+    /// Memory of the bodies whose steps are made on a thread of their own, where there are any [B].
+    pub(super) fn memory_of_steps(&self) -> f64 {
+        let needs = self.needs().into_iter();
+        needs.filter(|need| need.particles.is_some()).fold(0.0, |sum, need| sum + need.memory)
     }
-}
-
-/// Memory need of a body.
-struct Need<'a> {
-    name: &'a str,
-    /// [B]
-    memory: f64,
-    size: String,
-    remedy: &'static str,
 }
 
 /// Refuses a scene whose forecast memory exceeds the `available` one [B] or the scene's own limit, or whose address
@@ -113,8 +74,8 @@ impl Model {
     /// Refuses a step for which there is too little address space.
     pub(super) fn expect_room_to_step(&self, state: &State) -> Result<(), TooLittle> {
         let deep = self.bodies.iter().any(|body| body.steps_are_deep());
-        let droplets = if deep { STACK + SPARE + self.memory_of_droplets } else { 0 };
-        address_space::expect(droplets + self.room(state))
+        let own = if deep { STACK + SPARE + self.memory_of_steps } else { 0 };
+        address_space::expect(own + self.room(state))
     }
 
     /// Memory to read or copy a state [B].

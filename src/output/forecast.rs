@@ -51,14 +51,9 @@ impl FilesForecast {
             let numbers = if body.unknowns[1] > 0 { OF_NODE[0] } else { OF_NODE[1] };
             (sections * body.drawn) as f64 * numbers
         });
-        let droplets = forecast.droplets.iter().map(|body| body.drawn as f64 * OF_PARTICLE);
-        let large_strains =
-            forecast.large_strains.iter().map(|body| body.drawn as f64 * OF_PARTICLE);
-        let filaments = forecast.filaments.iter().map(|body| body.count as f64 * OF_PARTICLE);
-        let lattices = forecast.lattices.iter().map(|body| body.particles as f64 * OF_PARTICLE);
-        let strands = large_strains.chain(filaments).chain(lattices);
-        let of_body: Vec<f64> =
-            solids.chain(droplets).chain(strands).filter(|numbers| *numbers > 0.0).collect();
+        let particles = forecast.needs().into_iter().filter_map(|need| need.particles);
+        let particles = particles.map(|drawn| drawn as f64 * OF_PARTICLE);
+        let of_body: Vec<f64> = solids.chain(particles).filter(|numbers| *numbers > 0.0).collect();
         let series = if times > 0 { of_body.len() } else { 0 };
         Self {
             // The table, the files of each body with their list, and the list of all if there are several.

@@ -91,7 +91,7 @@ fn layers_freeze_as_half_spaces_do() {
     for (temperatures, [growth, _]) in CASES {
         let exact = tin_on_steel(temperatures);
         assert!(off(exact.growth(), growth) < 2e-3, "{} {growth}", exact.growth());
-        for (across, tolerated) in sweep(&[(0.2, 0.01), (2.0, 0.03), (8.0, 0.012)], &[0, 1]) {
+        for (across, tolerated) in sweep(&[(0.2, 0.008), (2.0, 0.021), (8.0, 0.009)], &[0, 1]) {
             let time = 1e-4;
             let spacing = exact.front(time) / across;
             let mut layer = layer(&exact, (spacing, time), None);
@@ -108,14 +108,14 @@ fn layers_freeze_as_half_spaces_do() {
                 worst[0], worst[1]
             );
             assert!(
-                worst[0] < tolerated && worst[1] < 0.2,
+                worst[0] < tolerated && worst[1] < 0.1,
                 "{temperatures:?}, {across}: {worst:?}"
             );
         }
     }
 }
 
-/// The same through a resistance, against cells of a thousandth of the layer.
+/// The same through a resistance, against an enthalpy method of 800 cells a body.
 #[test]
 fn layers_freeze_through_a_resistance() {
     let time = 1e-4;
@@ -147,7 +147,7 @@ fn layers_freeze_through_a_resistance() {
                 let biot = conductance * spacing / MOLTEN.conductivity;
                 println!("{temperatures:?}, Bi {biot:.2}, {across} across: {errors:.4?}");
                 for [heat, front] in &errors {
-                    assert!(heat.abs() < 0.015 && front.abs() < 0.1, "{errors:?}");
+                    assert!(heat.abs() < 0.012 && front.abs() < 0.1, "{errors:?}");
                 }
             }
         }

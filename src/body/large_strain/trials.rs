@@ -47,7 +47,8 @@ impl SmallTrials {
                 _ => STRAIN * shear,
             };
             let mut trial = rest.clone();
-            trial[place] += change;
+            // Sides bulge under one sign alone, and a largest extent is not linear.
+            trial[place] += change.copysign(input.start - rest[place]);
             inputs.push(trial);
         }
         let is_weighed = solid.gravity > 0.0 && inputs.len() == 1;
@@ -85,6 +86,14 @@ impl SmallTrials {
 
     pub fn mechanics(&self) -> Option<Mechanics> {
         Some(self.scene.large_strain(&self.name)?.mechanics)
+    }
+
+    /// Usual size of a force, or of one per metre of depth: that of an even strain.
+    pub fn force(&self) -> f64 {
+        let Some(solid) = self.scene.large_strain(&self.name) else { return 0.0 };
+        let [shear, _] = stiffness_and_weight(solid);
+        let across = solid.smallest();
+        STRAIN * shear * if solid.dimension == 2 { across } else { across * across }
     }
 
     /// Places of the inputs among those of the scene.

@@ -1,4 +1,6 @@
-//! The width of a strand of section A that spreads on a plate, by the balance of the forces on its half-width x.
+//! The width of a strand of section A that spreads on a plate. Its points move in proportion to their distance from the
+//! centre line, and the half-width x follows from the balance of generalised forces: −dE/dx of the energies E of the
+//! section, and its dissipation over ẋ.
 //!
 //! Per length of the strand, with ρ density, g gravity, σ surface tension, θ_e contact angle and τ_y yield stress:
 //! - gravity drives with `F_g = c ρgA²/x²`; c is 0.26108 of the profile `(1 − s²)^{1/3}` that a Newtonian current keeps

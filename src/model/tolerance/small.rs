@@ -14,6 +14,8 @@ use crate::variables::{Output, Registry, Slot};
 const LONGEST: f64 = 4.0;
 /// Part of the error of a mesh from which on another discretisation is no better.
 const BETTER: f64 = 0.5;
+/// Part of the usual force of a trial below which a force is zero but for rounding.
+const FAINT: f64 = 1e-6;
 
 /// Estimates the errors of the outputs of a solid of large strain; `None` for other bodies.
 pub fn estimate(scene: &Scene, name: &str) -> Option<BodyEstimate> {
@@ -41,10 +43,11 @@ fn of_trials(
         );
     }
     let ((finer, more), factor) = other_mesh(trials)?;
-    let solve = |trials: &SmallTrials, finer: f64| {
-        responses(trials, finer, &watched).map_err(|error| error.to_string())
+    let solve = |finer: f64, watched: &[Watched]| {
+        responses(trials, finer, watched).map_err(|error| error.to_string())
     };
-    let (own, other) = (solve(trials, 1.0)?, solve(trials, finer)?);
+    let (watched, own) = clear(trials, &watched, &solve(1.0, &watched)?);
+    let other = solve(finer, &watched)?;
     let errors: Vec<f64> =
         differences(&own, &other, &watched).into_iter().map(|part| factor * part).collect();
     if errors.iter().any(|error| !error.is_finite()) {
@@ -63,6 +66,21 @@ fn of_trials(
         through: 0.0,
     });
     Ok((outputs.collect(), notes))
+}
+
+/// Outputs without forces that are zero but for rounding, and their responses.
+fn clear(trials: &SmallTrials, watched: &[Watched], own: &Responses) -> (Vec<Watched>, Responses) {
+    let least = FAINT * trials.force();
+    let is_clear = |place: &usize| {
+        let is_force =
+            matches!(watched[*place].quantity, Quantity::Force | Quantity::ForcePerLength);
+        !is_force || own.iter().any(|rows| rows[1][*place].abs() >= least)
+    };
+    let places: Vec<usize> = (0..watched.len()).filter(is_clear).collect();
+    let of_row = |row: &Vec<f64>| places.iter().map(|&place| row[place]).collect();
+    let of_trial = |rows: &Vec<Vec<f64>>| rows.iter().map(of_row).collect();
+    let watched = places.iter().map(|&place| watched[place].clone()).collect();
+    (watched, own.iter().map(of_trial).collect())
 }
 
 /// A mesh to compare with: how much finer it is, in words, too, and the error of the body's own mesh over the difference
