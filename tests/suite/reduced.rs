@@ -290,6 +290,45 @@ fn footprints_move_within_their_range() {
     assert!(refused.contains("moves spot, whose footprint a reduced model holds"), "{refused}");
 }
 
+/// Loads that start with an amount, on planes of symmetry, at other supporting points of their ranges and between them,
+/// keep the tolerance wherever they go.
+#[test]
+fn footprints_keep_the_tolerance_off_the_place_where_they_start() {
+    const TOLERANCE: f64 = 1e-3;
+    for [x, least] in [[0.0, -3e-4], [1e-4, -3e-4], [0.0, 0.0]] {
+        let start = format!("start = {{ x = {x:e}, y = 0.0, heat_flux = 3e7 }}");
+        let text = mechanical(&format!("range = {{ x = [{least:e}, 3e-4] }}"))
+            .replace("\"stress\", \"max_principal\", \"displacement\"", "\"stress\"")
+            .replace("\"pressure\", \"shear\"", "")
+            .replace("start = { x = 1e-4, y = -5e-5 }", &start);
+        for place in [3e-4, 0.8 * least, 1.3e-4, x] {
+            let [mut full, mut reduced] =
+                ["full", "reduced"].map(|level| Trial::new(&at(level, &text, TOLERANCE)));
+            let (mut apart, mut range) = ([0.0_f64; 2], [0.0_f64; 2]);
+            for _ in 0..10 {
+                for trial in [&mut full, &mut reduced] {
+                    trial.set("spot.x", place);
+                    trial.step(1e-4);
+                }
+                for (n, key) in ["temperature", "stress_xx"].into_iter().enumerate() {
+                    let [wanted, found] =
+                        [&mut full, &mut reduced].map(|trial| trial.get(&format!("a.{key}")));
+                    let rest = if n == 0 { 300.0 } else { 0.0 };
+                    apart[n] = apart[n].max((wanted - found).abs());
+                    range[n] = range[n].max((wanted - rest).abs());
+                }
+            }
+            for n in 0..2 {
+                let part = apart[n] / range[n];
+                assert!(part < TOLERANCE, "{x:e} to {place:e}: {part:e} of {n}");
+            }
+            let bound = reduced.get("plate.error_bound_temperature");
+            assert!(apart[0] <= bound && bound < 10.0 * TOLERANCE * range[0], "{bound:e}");
+            assert!(reduced.heat_residual("plate") < 1e-12);
+        }
+    }
+}
+
 #[test]
 fn derivatives_are_the_limit_of_differences_and_states_go_on_to_the_bit() {
     let text = at("reduced", &mechanical(""), 1e-3);

@@ -91,8 +91,13 @@ impl<'a> Full<'a> {
         })
     }
 
-    /// Computes the reduced model; `sizes` are the initial sizes of the drives.
-    pub fn reduce(&self, values: &Values, sizes: &[f64]) -> Result<Reduction, BodyError> {
+    /// Computes the reduced model for inputs as large as those at the `start`.
+    pub fn reduce(
+        &self,
+        values: &Values,
+        drives: &Drives,
+        start: &[f64],
+    ) -> Result<Reduction, BodyError> {
         let modes = modes_of(&self.fem)?;
         let sources = |loads: &SolidLoads| modes.sources(&self.take, loads);
         let clumped =
@@ -113,14 +118,16 @@ impl<'a> Full<'a> {
             offsets.push(row.offset);
         }
         let kinds: Vec<Kind> = values.kinds().collect();
-        let experiment = Experiment { kinds: &kinds, drives: &self.drive_kinds, sizes };
+        let amounts = drives.amounts(start);
+        let experiment =
+            Experiment { kinds: &kinds, drive_kinds: &self.drive_kinds, drives, amounts };
         let tolerance = self.scene.fidelity.tolerance;
         let request = Request {
             clumped: &clumped,
             residues: &residues,
             slow: &slow,
             direct: &direct,
-            start: sizes,
+            start: &drives.values(start),
             missed: &missed,
             horizon: self.scene.stop_time,
             allowed: &|ranges| experiment.allowed(tolerance, ranges),
@@ -230,11 +237,12 @@ struct Row {
     offset: f64,
 }
 
-/// Kinds of outputs and drives, and initial sizes of drives.
+/// Kinds of outputs and drives, and the initial amount of each drive, which may be anywhere in its range.
 struct Experiment<'a> {
     kinds: &'a [Kind],
-    drives: &'a [DriveKind],
-    sizes: &'a [f64],
+    drive_kinds: &'a [DriveKind],
+    drives: &'a Drives,
+    amounts: Vec<f64>,
 }
 
 impl Experiment<'_> {
@@ -247,11 +255,21 @@ impl Experiment<'_> {
     /// The same under a unit of one drive. The largest range is that under any drive of its kind, because one cell of
     /// many may reach an output that another hardly reaches.
     fn range_under(&self, single: &[Vec<f64>], [k, j]: [usize; 2]) -> f64 {
-        let like = (0..self.drives.len()).filter(|&other| self.drives[other] == self.drives[j]);
+        let kinds = self.drive_kinds;
+        let like = (0..kinds.len()).filter(|&other| kinds[other] == kinds[j]);
         let under = |j: usize| single.iter().map(|ranges| ranges[j]).collect::<Vec<f64>>();
         let largest = like.map(|j| self.largest(&under(j), k)).fold(0.0, f64::max);
         let range = single[k][j].max(LEAST_RANGE * largest);
         if range > 0.0 { range } else { f64::INFINITY }
+    }
+
+    /// Range that counts for an output while a drive acts: over the default experiment or, for a footprint that may be
+    /// elsewhere then, under the drive alone if that is larger.
+    fn range_while(&self, ranges: &Ranges, [k, j]: [usize; 2]) -> f64 {
+        let together = self.range(&ranges.together, k);
+        let alone = self.amounts[j] * self.range_under(&ranges.single, [k, j]);
+        let moves = self.drives.list[j].member.is_some();
+        if moves && alone.is_finite() { together.max(alone) } else { together }
     }
 
     /// Largest range of any output of the same kind.
@@ -260,31 +278,35 @@ impl Experiment<'_> {
         of_kind.map(|(_, range)| *range).fold(0.0, f64::max)
     }
 
-    /// Allowed error of each output for each drive. The errors of an output sum to a share of its range over the
-    /// default experiment. For a drive that starts from zero, the range under a unit of it counts.
+    /// Allowed error of each output for each drive. The errors of an output sum to a share of its range, wherever
+    /// footprints are. For a drive that starts from zero, the range under a unit of it counts.
     fn allowed(&self, tolerance: f64, ranges: &Ranges) -> Vec<Vec<f64>> {
-        let Self { kinds, sizes, .. } = *self;
-        let active = sizes.iter().filter(|&&size| size != 0.0).count() as f64;
-        let of_pair = |k: usize, j: usize| match sizes[j] != 0.0 {
-            true => tolerance * self.range(&ranges.together, k) / (active * sizes[j].abs()),
-            false => tolerance * self.range_under(&ranges.single, [k, j]),
+        let groups = self.drives.groups();
+        let active = groups.iter().filter(|group| self.amounts[group[0]] != 0.0).count() as f64;
+        let of_pair = |k: usize, j: usize| {
+            let (amount, spread) = (self.amounts[j], self.drives.spread(j));
+            match amount != 0.0 {
+                true => tolerance * self.range_while(ranges, [k, j]) / (active * spread * amount),
+                false => tolerance * self.range_under(&ranges.single, [k, j]) / spread,
+            }
         };
-        (0..kinds.len()).map(|k| (0..sizes.len()).map(|j| of_pair(k, j)).collect()).collect()
+        let drives = 0..self.amounts.len();
+        (0..self.kinds.len()).map(|k| drives.clone().map(|j| of_pair(k, j)).collect()).collect()
     }
 
-    /// Error bound of each output over its range: over the default experiment, or under a single drive that starts from
-    /// zero, whichever is larger.
+    /// Error bound of each output over its range: over the default experiment, with footprints anywhere in their ranges,
+    /// or under a single drive that starts from zero, whichever is larger.
     fn errors(&self, system: &ReducedSystem, ranges: &Ranges) -> Vec<f64> {
-        let Self { kinds, sizes, .. } = *self;
-        let start: Vec<f64> = sizes.iter().map(|size| size.abs()).collect();
         let of_output = |k: usize| {
-            let together = system.bound(&start, k) / self.range(&ranges.together, k);
-            let idle = (0..sizes.len()).filter(|&j| sizes[j] == 0.0);
+            let bound = |j: usize| system.bounds[k * system.inputs + j];
+            let share = |j: usize| bound(j) / self.range_while(ranges, [k, j]);
+            let together = self.drives.largest(&self.amounts, share);
+            let idle = (0..self.amounts.len()).filter(|&j| self.amounts[j] == 0.0);
             let alone = idle.map(|j| {
-                system.bounds[k * system.inputs + j] / self.range_under(&ranges.single, [k, j])
+                self.drives.spread(j) * bound(j) / self.range_under(&ranges.single, [k, j])
             });
             alone.fold(together, f64::max)
         };
-        (0..kinds.len()).map(of_output).collect()
+        (0..self.kinds.len()).map(of_output).collect()
     }
 }

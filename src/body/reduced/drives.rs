@@ -101,6 +101,13 @@ fn angle(point: usize, count: usize) -> f64 {
 }
 
 impl Family {
+    /// Bound on the sum of the sizes of all weights: the Lebesgue constant of Chebyshev points along each axis (T. J.
+    /// Rivlin, *Chebyshev Polynomials*, Wiley 1990, §1.3).
+    fn spread(&self) -> f64 {
+        let along = |points: &Points| 1.0 + 2.0 / PI * (points.count as f64).ln();
+        self.points.iter().map(along).product()
+    }
+
     pub fn len(&self) -> usize {
         self.points.iter().map(|points| points.count).product()
     }
@@ -230,6 +237,41 @@ impl Drives {
             }
         }
         trials
+    }
+
+    /// Size of the amount of each drive under inputs, wherever its footprint is.
+    pub fn amounts(&self, inputs: &[f64]) -> Vec<f64> {
+        self.list.iter().map(|drive| (inputs[drive.index] - drive.base).abs()).collect()
+    }
+
+    /// Largest sum of the weights of a drive's footprints at any place: 1 for those that do not move.
+    pub fn spread(&self, drive: usize) -> f64 {
+        self.list[drive].member.map_or(1.0, |(family, _)| self.families[family].spread())
+    }
+
+    /// Sets of drives of one amount: its footprints where it moves, else one drive.
+    pub fn groups(&self) -> Vec<Vec<usize>> {
+        let key = |drive: &Drive| (drive.index, drive.member.map(|(family, _)| family));
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        for (place, drive) in self.list.iter().enumerate() {
+            let own = groups.iter_mut().find(|group| key(&self.list[group[0]]) == key(drive));
+            match own.filter(|_| drive.member.is_some()) {
+                Some(group) => group.push(place),
+                None => groups.push(vec![place]),
+            }
+        }
+        groups
+    }
+
+    /// Largest sum over the drives of some values per unit of each, under amounts that may be anywhere in their ranges.
+    pub fn largest(&self, amounts: &[f64], value: impl Fn(usize) -> f64) -> f64 {
+        let of_group = |group: &Vec<usize>| {
+            let most = group.iter().map(|&drive| value(drive)).fold(0.0, f64::max);
+            // Not zero times infinity.
+            let amount = amounts[group[0]];
+            if amount == 0.0 { 0.0 } else { amount * self.spread(group[0]) * most }
+        };
+        self.groups().iter().map(of_group).sum()
     }
 
     /// Values of the drives under inputs.

@@ -59,7 +59,7 @@ pub struct ReducedBody {
     values: Values,
     kinds: Vec<Kind>,
     reduction: Arc<Reduction>,
-    /// Initial sizes of the drives.
+    /// Initial sizes of the amounts of the drives, wherever their footprints are.
     start: Vec<f64>,
     /// Tolerance of the scene.
     tolerance: f64,
@@ -91,10 +91,9 @@ impl ReducedBody {
     ) -> Result<Self, BodyError> {
         let drives = Drives::of(scene, layout, name, footprints_along);
         let values = Values::of(scene, name);
-        let sizes = drives.values(start);
         let reduction = store::known(scene, name, || {
             let full = Full::new(scene, layout, (name, solid), start, &drives, threads)?;
-            full.reduce(&values, &sizes)
+            full.reduce(&values, &drives, start)
         })?;
         reduction.fits(name, [drives.list.len(), values.list.len()])?;
         let plan = plan(scene, name, solid);
@@ -102,11 +101,11 @@ impl ReducedBody {
         Ok(Self {
             name: name.into(),
             loads,
+            start: drives.amounts(start),
             drives,
             kinds: values.kinds().collect(),
             values,
             reduction,
-            start: sizes,
             tolerance: scene.fidelity.tolerance,
             resolved_from: plan.resolved_from,
         })

@@ -15,7 +15,6 @@ const KINDS: [(Kind, &str, &str); 4] = [
 impl ReducedBody {
     pub(super) fn own_notes(&self) -> Vec<String> {
         let system = self.system();
-        let start: Vec<f64> = self.start.iter().map(|value| value.abs()).collect();
         let mut notes = vec![format!(
             "{}: reduced from {} modes to {} unknowns; it has its probes and fields alone, and no extremes of the body",
             self.name,
@@ -23,8 +22,12 @@ impl ReducedBody {
             system.order()
         )];
         for (kind, words, unit) in KINDS.into_iter().filter(|kind| self.kinds.contains(&kind.0)) {
-            let bound = self.bound(&start, kind);
-            notes.push(if start.iter().all(|&size| size == 0.0) {
+            let places = (0..self.kinds.len()).filter(|&place| self.kinds[place] == kind);
+            let of_place = |place: usize| {
+                self.drives.largest(&self.start, |j| system.bounds[place * system.inputs + j])
+            };
+            let bound = places.map(of_place).fold(0.0, f64::max);
+            notes.push(if self.start.iter().all(|&size| size == 0.0) {
                 let part = self.relative_bound(kind);
                 format!(
                     "{}: by the reduction, errors of {words} are at most {part:.1e} of their range under each input alone",
@@ -64,7 +67,8 @@ impl ReducedBody {
                 own().map(|place| values[place * system.inputs + j]).fold(0.0, f64::max)
             };
             let range = largest(&system.ranges);
-            if range > 0.0 { largest(&system.bounds) / range } else { 0.0 }
+            let bound = self.drives.spread(j) * largest(&system.bounds);
+            if range > 0.0 { bound / range } else { 0.0 }
         };
         (0..system.inputs).map(of_drive).fold(0.0, f64::max)
     }
