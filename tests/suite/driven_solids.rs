@@ -151,6 +151,48 @@ fn a_load_that_comes_at_once_dissipates_nothing_until_the_body_relaxes() {
 }
 
 /// A strip that is drawn to three times its length stores more than the work done, and half as far it does not.
+/// A bar with one Maxwell branch of fraction γ creeps under a constant stress σ by `ε = σ/(9K) + σ/(3µ_∞) [1 − γ
+/// exp(−(1 − γ) t/τ)]`, however long steps are, within the tolerance.
+#[test]
+fn creep_does_not_depend_on_the_step() {
+    let (young, poisson, fraction, time) = (1e6, 0.45, 0.6, 2.0);
+    let [shear, bulk] = [young / (2.0 * (1.0 + poisson)), young / (3.0 * (1.0 - 2.0 * poisson))];
+    let branch = format!("shear_relaxation = [{{ fraction = {fraction}, time = {time} }}]");
+    let law = format!("young = 1e6, poisson = {poisson}, {branch}");
+    let bar = |tolerance: f64| {
+        let faces = "faces = { top = { traction = [0.0, 0.0, 0.0] }, bottom = { roller = true } }";
+        rubber(&format!(
+            "{BLOCK}\nsymmetry = \"quarter\"\n{faces}\n[fidelity]\ntolerance = {tolerance:e}"
+        ))
+        .replace("neo_hookean", "viscoelastic")
+        .replace("young = 1e6, poisson = 0.4", &law)
+    };
+    // Large strains have no closed form: that of a close tolerance, in short steps.
+    let mut fine = Trial::new(&bar(1e-6));
+    fine.set("pad.top.traction_z", 2e5);
+    (0..100).for_each(|_| fine.step(0.1));
+    let large = fine.get("pad.height") / 12e-3 - 1.0;
+    for (tolerance, allowed) in [(1e-2, 2e-3), (1e-4, 3e-5)] {
+        for steps in [1, 3, 40] {
+            for stress in [0.5, 2e5] {
+                let mut trial = Trial::new(&bar(tolerance));
+                trial.set("pad.top.traction_z", stress);
+                (0..steps).for_each(|_| trial.step(10.0 / f64::from(steps)));
+                let strain = trial.get("pad.height") / 12e-3 - 1.0;
+                let expected = if stress < 1.0 {
+                    let decay = f64::exp(-(1.0 - fraction) * 10.0 / time);
+                    let lasting = shear * (1.0 - fraction);
+                    stress / (9.0 * bulk) + stress / (3.0 * lasting) * (1.0 - fraction * decay)
+                } else {
+                    large
+                };
+                let error = off(strain, expected);
+                assert!(error < allowed, "{tolerance:e}, {steps} of {stress}: {error:e}");
+            }
+        }
+    }
+}
+
 #[test]
 fn dissipation_below_zero_is_warned_of() {
     let keys = "shape = { box = [4e-3, 1e-3, 10e-3] }\ndimension = 2\nmesh = { spacing = 2e-3 }\nfaces = { bottom = { roller = \

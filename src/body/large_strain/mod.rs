@@ -8,6 +8,7 @@ mod forecast;
 mod moving;
 mod plan;
 mod probes;
+mod relaxing;
 mod resting;
 mod snapshot;
 mod swinging;

@@ -28,7 +28,7 @@ use crate::warning::{self, Warning};
 /// A body without inertia.
 pub struct RestingBody {
     name: String,
-    equilibrium: Equilibrium,
+    pub(super) equilibrium: Equilibrium,
     start: Resting,
     faces: Faces,
     probes: Probes,
@@ -45,7 +45,9 @@ pub struct RestingBody {
     advised: Advised,
     bend_test: BendTest,
     /// Halvings of a step.
-    halvings: u32,
+    pub(super) halvings: u32,
+    /// Part of the largest strain by which that of a step of relaxation may err.
+    pub(super) tolerance: f64,
 }
 
 /// State of the body.
@@ -57,14 +59,14 @@ pub struct Resting {
     unstable: f64,
     unstable_from: f64,
     /// [K]
-    temperature: f64,
+    pub(super) temperature: f64,
     /// Work of the stresses and of expansion, and energy stored [J].
     work: f64,
     stored: f64,
     /// Work of the loads on faces [J], and these loads.
     load_work: f64,
     loads: Vec<[f64; 4]>,
-    rest: Rest,
+    pub(super) rest: Rest,
     warmth: Warmth,
     /// Forces on the faces that are held or moved [N].
     forces: Vec<[f64; 3]>,
@@ -77,6 +79,8 @@ const HALVINGS_OF_CONCRETE: u32 = 14;
 /// Change of the damage function η of a point in a part of a step. A longer part may jump over the peak, to a second
 /// equilibrium whose damage is in one place: at most half of this below the peak the bound excludes it.
 const PASSED: f64 = 0.05;
+/// Part of the scene's tolerance that a step of relaxation may err by.
+const OF_TOLERANCE: f64 = 0.1;
 /// Iterations of a usual step.
 const ITERATIONS: f64 = 5.0;
 /// Part of the distance between two faces by which sides may bulge beyond them without a warning.
@@ -163,12 +167,17 @@ impl RestingBody {
             warming,
             advised,
             bend_test: BendTest::of((name, solid)),
+            tolerance: OF_TOLERANCE * scene.fidelity.tolerance,
         };
         Ok(own)
     }
 
     /// The steps of all points over a time [s] in which the temperature changes linearly.
-    fn course(&self, [from, to]: [Temperatures; 2], dt: f64) -> Result<Courses, Failure> {
+    pub(super) fn course(
+        &self,
+        [from, to]: [Temperatures; 2],
+        dt: f64,
+    ) -> Result<Courses, Failure> {
         if let Some(warming) = &self.warming {
             let body = &self.equilibrium.body;
             let [before, after] = [from, to].map(|own| warming.of_groups(body, own.rise));
@@ -198,7 +207,7 @@ impl RestingBody {
 
     /// Finds the equilibrium after a time [s] under what is prescribed there; halves the step where none is found, and
     /// where concrete changes by more than [`PASSED`].
-    fn settle(
+    pub(super) fn settle(
         &self,
         state: &mut Resting,
         to: &Prescribed,
@@ -327,7 +336,7 @@ impl RestingBody {
     }
 
     /// Returns what is prescribed where a state is in equilibrium.
-    fn held(&self, state: &Resting) -> Prescribed {
+    pub(super) fn held(&self, state: &Resting) -> Prescribed {
         Prescribed {
             places: self.faces.places(&state.rest.displacement),
             loads: state.loads.iter().copied().map(FaceLoad::of).collect(),
@@ -386,7 +395,7 @@ impl RestingBody {
     }
 }
 
-fn temperatures(state: &Resting) -> Temperatures<'_> {
+pub(super) fn temperatures(state: &Resting) -> Temperatures<'_> {
     Temperatures { base: state.temperature, rise: &state.warmth.rise }
 }
 
@@ -433,7 +442,10 @@ impl Structured for RestingBody {
             warming.advance(own, &mut warmth, over, Vec::new(), allowance)?;
             to.rise.clone_from(&warmth.rise);
         }
-        let settled = self.settle(state, &to, acts.duration, self.halvings, allowance);
+        let settled = match self.equilibrium.body.relaxes() {
+            true => self.relax(state, &to, acts.duration, allowance),
+            false => self.settle(state, &to, acts.duration, self.halvings, allowance),
+        };
         settled.map_err(|failure| named(&self.name, failure))?;
         state.warmth = warmth;
         Ok(None)

@@ -22,6 +22,7 @@ mod motion;
 mod newton;
 mod path;
 mod pattern;
+mod relaxation;
 mod response;
 mod state;
 mod statics;

@@ -64,7 +64,7 @@ impl<D: DepthModes> HeatProblem<D> {
             value_change: zero,
             values: loads.faces[0].clone(),
         };
-        self.passed(class, &passage).brought_in
+        self.passed(class, &passage).totals.brought_in
     }
 
     /// Temperature above the initial one at a point of the mesh and its `image`.

@@ -31,7 +31,7 @@ impl<D: DepthModes> HeatProblem<D> {
             value_change: value_rates.clone(),
             values: values.clone(),
         };
-        let totals = self.passed(class, &passage);
+        let totals = self.passed(class, &passage).totals;
         out.extend(value_rates);
         out.extend([totals.brought_in, totals.lost]);
         out

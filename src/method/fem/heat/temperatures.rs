@@ -15,12 +15,22 @@ impl<D: DepthModes> HeatProblem<D> {
     pub fn stored(&self, state: &[f64]) -> f64 {
         let class = &self.classes[0];
         let values = &state[state.len() - self.tail()..][..self.faces.len()];
+        let content = self.effective(class, &state[..self.len(class)], values);
+        self.stored_of(class, &content, values)
+    }
+
+    /// Heat in the free nodes with these modal amplitudes and in the prescribed ones with these values [J].
+    pub(super) fn stored_of(
+        &self,
+        class: &Class<D::Columns>,
+        content: &[f64],
+        values: &[f64],
+    ) -> f64 {
         let [x, y] = &class.lateral;
         let masses = [&x.mass, &y.mass, self.depth.mass()]
             .map(|mass| multiply(mass, &vec![1.0; mass.nrows()]));
         let rows = [x.project(&masses[0]), y.project(&masses[1]), self.depth.project(&masses[2])];
-        let content = self.effective(class, &state[..self.len(class)], values);
-        let mixed = self.depth.to_mixed(class, &content);
+        let mixed = self.depth.to_mixed(class, content);
         let free = contract(&mixed, rows.each_ref().map(Vec::as_slice));
         let held = |f: usize| {
             let boundary = &class.drives[f].boundary;
