@@ -1,6 +1,7 @@
 //! Nonlinear heat problem of a body, its state and time integration.
 
 use super::body::{Body, Drive};
+use super::grid::Joint;
 use super::setup::{Loads, Setup, SetupError};
 use super::stage::Unsolved;
 use super::step::{Outcome, Step};
@@ -195,6 +196,16 @@ impl EnthalpyHeat {
             [part * self.body.volumes[node], fraction.clamp(0.0, 1.0)]
         };
         state[..self.nodes()].iter().enumerate().map(of_node).collect()
+    }
+
+    /// Pairs of nodes at the ends of an element along z.
+    pub fn neighbours_along_z(&self) -> impl Iterator<Item = [usize; 2]> {
+        let plane = self.body.grid.plane();
+        let joints = self.body.grid.joints.iter().enumerate();
+        let elements = joints.filter(|(_, joint)| matches!(joint, Joint::Element(_)));
+        elements.flat_map(move |(level, _)| {
+            (level * plane..(level + 1) * plane).map(move |node| [node, node + plane])
+        })
     }
 
     /// Heat stored since time zero [J].
