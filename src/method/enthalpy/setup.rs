@@ -90,6 +90,7 @@ pub enum SetupError {
 /// Returns the mesh of linear elements on the same nodes.
 pub fn linear_mesh(mesh: &Mesh) -> Mesh {
     let mut linear = mesh.clone();
+    linear.layering = mesh.layering.in_parts(mesh.axes[2].order);
     linear.axes.iter_mut().for_each(|axis| axis.order = 1);
     linear
 }

@@ -19,6 +19,12 @@ impl Layering {
         Self { starts, resistances }
     }
 
+    /// The same layers on a mesh with some elements in the place of each.
+    pub fn in_parts(&self, parts: usize) -> Self {
+        let starts = self.starts.iter().map(|start| start * parts).collect();
+        Self { starts, resistances: self.resistances.clone() }
+    }
+
     pub fn count(&self) -> usize {
         self.starts.len() + 1
     }
@@ -55,6 +61,8 @@ mod tests {
         assert_eq!(layers, [0, 0, 0, 1, 1, 2, 2]);
         let ranges: Vec<_> = (0..3).map(|layer| layering.elements(layer, 7)).collect();
         assert_eq!(ranges, [0..3, 3..5, 5..7]);
+        let halves: Vec<usize> = (0..14).map(|half| layering.in_parts(2).layer_of(half)).collect();
+        assert_eq!(halves, [0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2]);
         assert_eq!((Layering::default().count(), Layering::default().elements(0, 4)), (1, 0..4));
     }
 }
