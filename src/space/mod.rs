@@ -9,6 +9,7 @@ mod given;
 mod mesh;
 mod particles;
 mod places;
+mod reach;
 mod reproducing;
 mod samples;
 
@@ -19,6 +20,7 @@ pub use given::BadMesh;
 pub use mesh::{BadPath, Mesh, Side, Sweep};
 pub use particles::{particles, particles_of_cloud};
 pub use places::{contains, fit, linear_row};
+pub use reach::Supports;
 pub use reproducing::{
     Functions, Integration, Kernel, Refused, Reproducing, Row, Shape, Sides, reproducing,
 };

@@ -172,7 +172,7 @@ fn creep_does_not_depend_on_the_step() {
     fine.set("pad.top.traction_z", 2e5);
     (0..100).for_each(|_| fine.step(0.1));
     let large = fine.get("pad.height") / 12e-3 - 1.0;
-    for (tolerance, allowed) in [(1e-2, 2e-3), (1e-4, 3e-5)] {
+    for (tolerance, allowed) in [(1e-2, 2e-3), (1e-4, 6e-5)] {
         for steps in [1, 3, 40] {
             for stress in [0.5, 2e5] {
                 let mut trial = Trial::new(&bar(tolerance));

@@ -10,8 +10,8 @@ use super::plan;
 use crate::body::threads_for;
 use crate::laws::solid::large_strain::{Deviator, LargeStrainLaw, Thermal};
 use crate::method::large_strain::{LayerOfBody, TOGETHER};
-use crate::scene::{Coupling, LargeStrain, Mechanics, MotionSteps, Scene};
-use crate::space::{Form, Integration, Mesh};
+use crate::scene::{Coupling, LargeStrain, Mechanics, MotionSteps, Scene, SolidShape};
+use crate::space::{Form, Integration, Mesh, Supports};
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct LargeStrainForecast {
@@ -289,12 +289,18 @@ impl Size {
         // Functions that reach a place; near faces some of them are missing.
         let product =
             |reach: f64| counts.iter().map(|count| within(reach, *count)).product::<f64>();
+        // Elsewhere nodes are nearer to each other than their distance along the axes.
+        let is_section = matches!(solid.shape, SolidShape::Disc(_)) && mesh.form != Form::Solid;
+        let is_lattice = solid.is_box() || is_section || mesh.cells.is_empty();
         let (points, functions, together) = match (solid.mechanics, kernels.integration) {
             (Mechanics::Fem, _) => (mesh.cells.len() * corners, corners as f64, corners as f64),
             (Mechanics::Sph, _) => {
                 let support = solid.sph.unwrap_or_default().support;
                 let missing = counts.iter().map(|count| (1.0 - 0.2 * support / count).max(0.5));
-                let functions = lattice(support, axes.len()) * missing.product::<f64>();
+                let functions = match is_lattice {
+                    true => lattice(support, axes.len()) * missing.product::<f64>(),
+                    false => Supports::Balls(support).functions_at_nodes(mesh),
+                };
                 (plan::cells(mesh) * corners, functions, corners as f64)
             }
             (_, integration) => {
@@ -309,7 +315,15 @@ impl Size {
                     Integration::Gauss(_) => (mesh.cells.len(), 2.0 * kernels.support - 0.5),
                 };
                 let of_cell = integration.points_of_cell(mesh.form);
-                (of_cell * cells, product(reach + averaged), 1.0)
+                let functions = match is_lattice {
+                    true => product(reach + averaged),
+                    false => {
+                        let around = 0.5 * (reach + averaged) - kernels.support;
+                        let supports = Supports::Boxes { support: kernels.support, around };
+                        supports.functions_at_nodes(mesh)
+                    }
+                };
+                (of_cell * cells, functions, 1.0)
             }
         };
         let across = if axes.len() == 3 { across.min(nodes) } else { across.min(nodes).sqrt() };
@@ -533,13 +547,21 @@ mod tests {
         let gauss = ("\"rkpm\"", "rkpm = { integration = \"gauss\" }");
         let nodal = ("\"rkpm\"", "rkpm = { integration = \"scni\" }");
         for (mechanics, keys) in kinds.into_iter().chain([gauss, nodal]) {
-            for (dimension, spacing) in [(2, 1e-3), (3, 2e-3)] {
+            let block = "box = [12e-3, 16e-3, 14e-3]";
+            let ball = "ball = { radius = 5e-3 }";
+            let strand =
+                "strand = { path = [[0, 0, 0], [2e-2, 0, 0], [2e-2, 1e-2, 0]], radius = 2e-3 }";
+            for (shape, dimension, spacing) in
+                [(block, 2, 1e-3), (block, 3, 2e-3), (ball, 3, 1.5e-3), (strand, 3, 1.2e-3)]
+            {
+                let faces = if shape == ball { "" } else { "faces.left = { clamped = true }" };
                 let text = format!(
                     "name = \"Block\"\nstop_time = 1.0\nstep = 1.0\n[body.block]\nkind = \"solid\"\nstrain = \
-                     \"finite\"\ndimension = {dimension}\nshape = {{ box = [12e-3, 16e-3, 14e-3] }}\nsymmetry = \
+                     \"finite\"\ndimension = {dimension}\nshape = {{ {shape} }}\nsymmetry = \
                      \"none\"\ninitial_temperature = 293.15\nmesh = {{ spacing = {spacing:e} }}\nmechanics = \
                      {mechanics}\n{keys}\nmaterial = {{ model = \"neo_hookean\", density = 1000.0, specific_heat = \
-                     1900.0, conductivity = 0.2, young = 1e6, poisson = 0.3 }}\nfaces.bottom = {{ clamped = true }}\n"
+                     1900.0, conductivity = 0.2, young = 1e6, poisson = 0.3 }}\n{faces}\ninertia = {}\n",
+                    shape == ball
                 );
                 let scene = parse(&text, "scene.toml").unwrap_or_else(|error| panic!("{error}"));
                 let solid = scene.large_strain("block").unwrap();
@@ -548,7 +570,7 @@ mod tests {
                 let axes = body.space.form.axes().len();
                 let of_group = |group| (axes * body.nodes_of(group).len()).pow(2);
                 let entries: usize = body.space.groups.iter().map(of_group).sum();
-                let case = format!("{mechanics} {keys} {dimension}");
+                let case = format!("{mechanics} {keys} {shape} {dimension}");
                 let points = size.points as f64 / body.space.volume.len() as f64;
                 assert!((0.8..1.25).contains(&points), "{case}: {points} of the points");
                 let ratio = size.entries_of_blocks() / entries as f64;
