@@ -318,7 +318,7 @@ impl Size {
                 let functions = match is_lattice {
                     true => product(reach + averaged),
                     false => {
-                        let around = 0.5 * (reach + averaged) - kernels.support;
+                        let around = (0.5 * (reach + averaged) - kernels.support).max(0.0);
                         let supports = Supports::Boxes { support: kernels.support, around };
                         supports.functions_at_nodes(mesh)
                     }

@@ -334,7 +334,11 @@ fn check_faces(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
         let names: Vec<&str> = offered.iter().map(|face| face.as_str()).collect();
         let allowed = if names.is_empty() { "no faces".to_owned() } else { names.join(", ") };
         let fine = offered.contains(&name);
-        let message = format!("the shape has no face `{}` for conditions", name.as_str());
+        let word = name.as_str();
+        let message = match solid.is_box() && is_mirrored(solid, name) {
+            true => format!("the model mirrors `{word}`: the face opposite stands for both"),
+            false => format!("the shape has no face `{word}` for conditions"),
+        };
         if !checker.require(fine, &at, message, allowed) {
             continue;
         }
@@ -421,12 +425,17 @@ fn prescribed(
 /// Returns true if a model has a face: a plane one has none across y, and half of a body is cut where the face would
 /// be.
 fn is_there(solid: &LargeStrain, face: FaceName) -> bool {
-    let [mirrored_x, mirrored_y] = solid.mirrors();
+    let is_across = matches!(face, FaceName::Front | FaceName::Back);
+    !(is_across && solid.dimension == 2) && !is_mirrored(solid, face)
+}
+
+/// Returns true if the face is the mirror image of the one opposite.
+fn is_mirrored(solid: &LargeStrain, face: FaceName) -> bool {
+    let [x, y] = solid.mirrors();
     match face {
-        FaceName::Front => solid.dimension == 3 && !mirrored_y,
-        FaceName::Back => solid.dimension == 3,
-        FaceName::Left => !mirrored_x,
-        _ => true,
+        FaceName::Left => x,
+        FaceName::Front => y,
+        _ => false,
     }
 }
 

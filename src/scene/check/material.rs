@@ -4,11 +4,23 @@ use super::{Checker, number};
 use crate::laws::solid::{Branch, Need, Relaxing};
 use crate::laws::{Material, Melting, Property, PropertyError, Table, Weibull};
 use crate::scene::locate::Path;
+use crate::scene::types::Body;
 
-/// Checks the named materials.
+/// Checks the named materials. What a law needs at small strain is not asked of one that bodies of large strain alone
+/// are made of.
 pub fn named(checker: &mut Checker) {
     for (name, material) in &checker.scene.material {
-        check(checker, &Path::default().key("material").key(name), material);
+        let path = Path::default().key("material").key(name);
+        let is_of = |body: &&Body| {
+            body.materials().into_iter().any(|choice| choice.name.as_ref() == Some(name))
+        };
+        let mut bodies = checker.scene.body.values().filter(is_of).peekable();
+        let is_of_large =
+            bodies.peek().is_some() && bodies.all(|body| matches!(body, Body::LargeStrain(_)));
+        match is_of_large {
+            true => sound(checker, &path, material),
+            false => check(checker, &path, material),
+        }
     }
 }
 
