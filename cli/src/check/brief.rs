@@ -5,7 +5,7 @@ use std::fmt::Write;
 use impinge::model::tolerance::BodyEstimate;
 use impinge::model::{Forecast, Timeline};
 use impinge::output::FilesForecast;
-use impinge::scene::{Lattice, Scene};
+use impinge::scene::{Lattice, Load, Scene};
 
 use super::accuracy::accuracy;
 use super::cost::Preparation;
@@ -114,8 +114,27 @@ fn by_inputs(scene: &Scene, forecast: &Forecast) -> Vec<String> {
             input.start
         ))
     };
-    scene.lattices().filter_map(of_lattice).collect()
+    let of_load = |load: &Load| {
+        let (name, _) = load.on.split_once('.')?;
+        let body = forecast.bodies.iter().find(|body| body.name == name)?;
+        let radius = load.start_radius()?;
+        let ways = [load.range.x, load.range.y].into_iter().flatten();
+        let farthest = ways.fold(0.0, |most: f64, [low, high]| most.max(high - low));
+        let more = farthest / radius * body.way_time;
+        (more > NOTABLE * forecast.run_time()).then(|| {
+            let (radius, time) = (engineering(radius, "m"), lasting(body.way_time));
+            format!(
+                "for `{}` where it starts: some {time} more for each {radius} that it moves",
+                load.name
+            )
+        })
+    };
+    let of_loads = scene.load.iter().filter_map(of_load);
+    scene.lattices().filter_map(of_lattice).chain(of_loads).collect()
 }
+
+/// Part of the time of a run from which on that of a load which crosses its range is told.
+const NOTABLE: f64 = 0.2;
 
 /// [m]
 const MICROMETRE: f64 = 1e-6;

@@ -4,6 +4,7 @@ use super::drives::Drives;
 use super::store;
 use super::values::{Kind, Values};
 use crate::body::BodyForecast;
+use crate::body::solid::PARTS_OF_A_FOOTPRINT;
 use crate::inputs::InputLayout;
 use crate::scene::{Scene, footprints_along};
 
@@ -47,5 +48,6 @@ pub fn forecast(scene: &Scene, name: &str, full: BodyForecast) -> BodyForecast {
         Some(_) => 8.0 * (numbers + 2.0 * inputs * outputs),
         None => full.memory + 8.0 * (modes * inputs + 4.0 * RANK * RANK * inputs * outputs),
     };
-    BodyForecast { drawn: 0, memory, build_time, step_time, reduced, ..full }
+    let way_time = PARTS_OF_A_FOOTPRINT * step_time;
+    BodyForecast { drawn: 0, memory, build_time, step_time, way_time, reduced, ..full }
 }

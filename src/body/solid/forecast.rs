@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::front::may_melt;
 use super::rows::Choice;
 use super::savings::savings;
-use super::{is_large, plan};
+use super::{PARTS_OF_A_FOOTPRINT, is_large, plan};
 use crate::body::threads_for;
 use crate::channel::{Channel, Direction};
 use crate::coupling::FaceRings;
@@ -39,6 +39,8 @@ pub struct BodyForecast {
     /// Time to build the model, and time of a step whose stresses are read [s].
     pub build_time: f64,
     pub step_time: f64,
+    /// Time in which heat follows a footprint that moves by its radius [s]; zero where inner steps follow it.
+    pub way_time: f64,
     /// Set if the solid is reduced; its number of unknowns if that is known.
     pub reduced: Option<Option<usize>>,
     /// Notes on choices and simplifications.
@@ -190,6 +192,9 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
     let columns = classes * plan.entries_of_columns();
     let rows_of_reading = Choice::of(scene, (name, solid), &plan).rows as f64;
     let rows = if particles.is_some() { unknowns[0] as f64 } else { 0.0 };
+    let heat_time =
+        1e-7 * unknowns[0] as f64 + columns / SOLVE_RATE + passes * links / PRODUCT_RATE;
+    let is_linear = plan.newton.is_none() && particles.is_none();
     BodyForecast {
         name: name.into(),
         nodes: plan.mesh.node_counts(),
@@ -209,9 +214,8 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
             + columns * plan.mesh.sided_counts()[2] as f64 / (COLUMN_RATE * threads),
         step_time: later * (entries / SOLVE_RATE + iterations / threads + 5e-7 * n)
             + nonlinear_time
-            + 1e-7 * unknowns[0] as f64
-            + columns / SOLVE_RATE
-            + passes * links / PRODUCT_RATE,
+            + heat_time,
+        way_time: if is_linear { PARTS_OF_A_FOOTPRINT * heat_time } else { 0.0 },
         notes: plan.notes.into_iter().chain(proposed.clone()).collect(),
         savings: proposed,
     }
