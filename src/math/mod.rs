@@ -20,6 +20,7 @@ pub mod nested_dissection;
 mod panel_solve;
 pub mod parts;
 pub mod product;
+pub mod random;
 pub mod segments;
 pub mod separable;
 pub mod singular_values;

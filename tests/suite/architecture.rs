@@ -97,11 +97,18 @@ fn only_the_outer_layers_do_input_and_output() {
 #[test]
 fn only_bodies_and_scenes_know_kinds_of_bodies() {
     // Rules of advice are each about the keys of one kind, which they get from a list of its bodies.
-    let lists = [".solids(", ".droplets(", ".reservoirs(", ".filaments(", ".lattices("];
+    let lists =
+        [".solids(", ".droplets(", ".reservoirs(", ".large_strains(", ".filaments(", ".lattices("];
     let solids = [".solid(\"", ".solid(&", ".solid(name"];
-    let kinds = [".droplet(", ".reservoir(", ".filament("];
-    let words =
-        ["Body::Solid", "Body::Droplet", "Body::Reservoir", "Body::Filament", "Body::Lattice"];
+    let kinds = [".droplet(", ".reservoir(", ".large_strain(", ".filament(", ".lattice("];
+    let words = [
+        "Body::Solid",
+        "Body::Droplet",
+        "Body::Reservoir",
+        "Body::LargeStrain",
+        "Body::Filament",
+        "Body::Lattice",
+    ];
     for (module, path, code) in library() {
         if ["scene", "body"].contains(&module.as_str()) {
             continue;

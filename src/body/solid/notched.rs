@@ -57,8 +57,8 @@ impl Notched {
         })
     }
 
-    /// Area of notches and cracks [m²] whose energy is that of this area: less that of the damage around the ends of
-    /// notches, which moves with them, and goes where they reach a side.
+    /// Area of notches and cracks [m²] from the area of their energy. Damage around the ends of notches has energy
+    /// without area; it is subtracted in proportion to the ends that remain, as those that reach a side lose it.
     pub fn area_of_cracks(&self, damage: &[f64], by_energy: f64) -> f64 {
         let section = &self.section;
         if section.grown(damage, &self.cut).is_empty() {
@@ -83,23 +83,23 @@ fn at_start(problem: &SectionProblem, notches: &[Notch]) -> DamageState {
     let cut = state.clone();
     let rise = vec![0.0; state.damage.len()];
     let none = vec![0.0; state.displacement.len()];
-    // Without load the damage beside notches has no reason to fail; the first step would report it.
+    // Without load nothing should fail. If it does, the excess of the ends is left out, and the first step reports it.
     match problem.advance(&mut state, (&rise, &none), &Allowance::default()) {
         Ok(_) => state,
         Err(_) => cut,
     }
 }
 
-/// Area of a notch and its mirror image [m²]; one in the plane of symmetry is its own.
+/// Area of a notch and its mirror image [m²], a metre deep without a width; one in the plane of symmetry is its own.
 fn area_of(&[from, to]: &Segment, mesh: &Mesh, width: Option<f64>) -> f64 {
     let length = distance(from, to);
-    match (mesh.geometry, width) {
-        (Geometry::Box, Some(width)) => {
+    match mesh.geometry {
+        Geometry::Box => {
             let is_in_plane = from[0] == 0.0 && to[0] == 0.0;
             let images = if mesh.mirrored[0] && !is_in_plane { 2.0 } else { 1.0 };
-            images * length * width
+            images * length * width.unwrap_or(1.0)
         }
         // The lateral face of a frustum.
-        _ => PI * (from[0] + to[0]) * length,
+        Geometry::Axisymmetric => PI * (from[0] + to[0]) * length,
     }
 }

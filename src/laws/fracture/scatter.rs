@@ -1,7 +1,9 @@
 //! Scatter of strengths and energies.
 
-/// Factor with the mean 1, evenly distributed between `1 − width` and `1 + width`, from a hash of the seed and some
-/// numbers (G. L. Steele, D. Lea & C. H. Flood 2014, doi 10.1145/2660193.2660195).
+use crate::math::random::{fraction, mixed};
+
+/// Factor with the mean 1, uniformly distributed between `1 − width` and `1 + width`, from a hash of the seed and
+/// some numbers.
 ///
 /// The seed is mixed before the first number is added: seeds that follow each other give independent samples instead
 /// of one sample shifted by an element.
@@ -12,16 +14,7 @@ pub fn scattered<const N: usize>(width: f64, seed: u32, numbers: [u64; N]) -> f6
     let bits = numbers
         .iter()
         .fold(mixed(u64::from(seed)), |bits, number| mixed(bits.wrapping_add(*number)));
-    let even = (bits >> 11) as f64 / (1_u64 << 53) as f64;
-    1.0 + width * (2.0 * even - 1.0)
-}
-
-/// Bits of a number, each of which depends on all of its bits: one step of SplitMix64.
-fn mixed(number: u64) -> u64 {
-    let bits = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    bits ^ (bits >> 31)
+    1.0 + width * (2.0 * fraction(bits) - 1.0)
 }
 
 #[cfg(test)]

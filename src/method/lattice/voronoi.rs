@@ -3,13 +3,14 @@
 use std::collections::HashMap;
 
 use super::arrangement::{Cell, Pair, distance};
+use crate::math::random::Random;
 
 /// Least distance of random points over the spacing: they are then about as dense as hexagons.
 const APART: f64 = 0.76;
-/// Trials without success after which a rectangle counts as full, over the number of points.
+/// Places that are tried for points, over the number of points that are wanted.
 const TRIALS: usize = 60;
-/// Moves of all points to the centres of their cells, which make cells more even.
-const EVENED: usize = 3;
+/// Lloyd's steps: moves of all points to the centres of their cells, which make cells more even.
+const LLOYD_STEPS: usize = 3;
 /// Distance over the spacing of points that bound a cell, at most.
 const REACH: f64 = 3.5;
 /// Facets shorter than this part of the spacing are no links.
@@ -27,7 +28,7 @@ type Corner = ([f64; 2], Option<usize>);
 
 /// Evenly distributed random points, none nearer to another than a part of the spacing [m] at first.
 pub fn random_points(rectangle: Rectangle, spacing: f64, seed: u32) -> Vec<[f64; 2]> {
-    let mut random = Random(u64::from(seed).wrapping_add(0x9e37_79b9_7f4a_7c15));
+    let mut random = Random::of(u64::from(seed).wrapping_add(0x9e37_79b9_7f4a_7c15));
     let side = [0, 1].map(|axis| rectangle.high[axis] - rectangle.low[axis]);
     let wanted = (side[0] * side[1] / (0.75_f64.sqrt() * spacing * spacing)).round() as usize;
     let mut points: Vec<[f64; 2]> = Vec::new();
@@ -36,14 +37,14 @@ pub fn random_points(rectangle: Rectangle, spacing: f64, seed: u32) -> Vec<[f64;
         if points.len() == wanted {
             break;
         }
-        let point = [0, 1].map(|axis| rectangle.low[axis] + side[axis] * random.next());
+        let point = [0, 1].map(|axis| rectangle.low[axis] + side[axis] * random.number());
         let is_free = |&i: &usize| distance(points[i], point) >= APART * spacing;
         if grid.around(point, APART * spacing).iter().all(is_free) {
             grid.insert(point, points.len());
             points.push(point);
         }
     }
-    for _ in 0..EVENED {
+    for _ in 0..LLOYD_STEPS {
         let cells = cells(&points, rectangle, spacing);
         for (point, cell) in points.iter_mut().zip(&cells) {
             *point = centre(cell);
@@ -178,19 +179,5 @@ impl Grid {
             (x - steps..=x + steps).flat_map(|x| (y - steps..=y + steps).map(move |y| [x, y]));
         let all = squares.filter_map(|square| self.squares.get(&square)).flatten();
         all.filter(|(_, place)| distance(*place, point) <= reach).map(|(i, _)| *i).collect()
-    }
-}
-
-/// Even numbers in [0, 1) (G. L. Steele, D. Lea & C. H. Flood 2014, doi 10.1145/2660193.2660195).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut bits = self.0;
-        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        bits ^= bits >> 31;
-        (bits >> 11) as f64 / (1_u64 << 53) as f64
     }
 }

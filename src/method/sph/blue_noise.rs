@@ -1,6 +1,7 @@
 //! Random points with a minimum distance, distributed as evenly as that allows.
 
 use crate::kernel::Kernel;
+use crate::math::random::Random;
 
 /// Minimum distance of Poisson-disk points over the side of the mean volume of a point, in two and
 /// three dimensions, for the densest packing that this sampling reaches.
@@ -33,7 +34,7 @@ pub fn place(radius: f64, spacing: f64, dimension: usize) -> Vec<([f64; 3], f64)
 
 /// Poisson-disk points in a ball, no two nearer than `least`.
 fn sample(radius: f64, least: f64, dimension: usize) -> Vec<[f64; 3]> {
-    let mut random = Random(0x9E37_79B9_7F4A_7C15);
+    let mut random = Places(Random::of(0x9E37_79B9_7F4A_7C15));
     let mut points = vec![[0.0; 3]];
     let mut grid = Grid { side: least, cells: Default::default() };
     grid.insert([0.0; 3], 0);
@@ -96,27 +97,18 @@ impl Grid {
     }
 }
 
-/// SplitMix64 (Steele, Lea & Flood 2014, doi 10.1145/2714064.2660195): the same numbers everywhere.
-struct Random(u64);
+/// Random numbers, and places that follow from them.
+struct Places(Random);
 
-impl Random {
-    /// Uniform in [0, 1).
-    fn number(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
+impl Places {
     fn below(&mut self, count: usize) -> usize {
-        (self.number() * count as f64) as usize
+        (self.0.number() * count as f64) as usize
     }
 
     /// Returns a random step with a length between `least` and twice that.
     fn shell(&mut self, least: f64, dimension: usize) -> [f64; 3] {
         loop {
-            let mut step = [0.0; 3].map(|_: f64| 2.0 * self.number() - 1.0);
+            let mut step = [0.0; 3].map(|_: f64| 2.0 * self.0.number() - 1.0);
             if dimension == 2 {
                 step[1] = 0.0;
             }

@@ -217,7 +217,7 @@ mod tests {
 
     #[test]
     fn every_point_is_in_exactly_one_block() {
-        for count in [0, 1, 64, 65, 1000] {
+        for count in [0, 1, BLOCK, BLOCK + 1, 1000] {
             let mut order = space_order(&points(count), &Team::new(1));
             assert_eq!(order, space_order(&points(count), &Team::new(5)));
             order.sort_unstable();

@@ -11,7 +11,7 @@ use crate::limits::{plausible, within};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(inline)]
 pub struct Newtonian {
-    /// Viscosity µ of `newtonian` [Pa s].
+    /// Viscosity µ of `newtonian` [Pa s]; the parameter of a unit is named `viscosity`.
     #[schemars(transform = within(1e-9, 1e6, "Pa s", "the viscosity").plausible(&plausible::VISCOSITY))]
     pub value: f64,
 }

@@ -42,7 +42,7 @@ pub struct Passed {
 
 /// Name of the parts in messages.
 pub const HEAT_STEPS: &str = "steps of heat in a solid of large strain";
-/// Numbers that a part updates for each point, or as many as take as long.
+/// Work of a part for each point, in updated numbers.
 pub const HEAT_WORK: usize = 100;
 /// Coefficient γ of all stages, the root of `γ³ − 3γ² + 3γ/2 − 1/6` within (1/6, 1/2).
 const GAMMA: f64 = 0.435_866_521_508_459;
@@ -172,6 +172,7 @@ impl Part<'_> {
             if conduction.held[node] { 0.0 } else { storing[node] * dt * sum }
         };
         let mut error: Vec<f64> = (0..before.len()).map(of_node).collect();
+        // Solved once more, the error of stiff modes, which have settled, does not shorten steps.
         factor.solve(&mut error);
         let passed = self.passed(before, &stages);
         let temperature = stages.swap_remove(2);

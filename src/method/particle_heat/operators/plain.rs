@@ -2,8 +2,9 @@
 
 use super::{Neighbour, Tensor, dot, square, times};
 
-/// Coefficients of `K : ∇∇f`, `c_j = k w [(d + 2) e·K·e − tr K]`, in d dimensions. For K = 1 they are
-/// `2 k w`, the operator of Cleary and Monaghan (Park 2.97).
+/// Coefficients of `K : ∇∇f`, `c_j = k w [(d + 2) e·K·e − tr K]`, in d dimensions, with the direction e, the weight w
+/// and the conductivity k of a pair, and a tensor K of ratios to k. For K = 1 they are `2 k w`, the operator of Cleary
+/// and Monaghan.
 ///
 /// Exact for quadratics in the limit of many neighbours all around; the error remains finite wherever the support is
 /// cut. Symmetric in volumes, so that one particle gains what another loses.

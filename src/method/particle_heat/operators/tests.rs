@@ -1,24 +1,12 @@
 use super::*;
 use crate::kernel::Kernel;
+use crate::math::random::Random;
 
 const IDENTITY: Tensor = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// Uniform numbers in [0, 1) (SplitMix64).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-}
-
 /// A lattice of spacing one around the origin, perturbed by up to `disorder`, on the side where `keep` holds.
 fn cloud(dimension: usize, disorder: f64, keep: impl Fn([i32; 3]) -> bool) -> Vec<[f64; 3]> {
-    let mut random = Random(7);
+    let mut random = Random::of(7);
     let reach = |axis: usize| if axis < dimension { -4..=4 } else { 0..=0 };
     let mut out = Vec::new();
     for k in reach(2) {
@@ -26,7 +14,7 @@ fn cloud(dimension: usize, disorder: f64, keep: impl Fn([i32; 3]) -> bool) -> Ve
             for i in reach(0) {
                 let mut shaken = [i, j, k].map(f64::from);
                 for x in &mut shaken[..dimension] {
-                    *x += disorder * (2.0 * random.next() - 1.0);
+                    *x += disorder * (2.0 * random.number() - 1.0);
                 }
                 if [i, j, k] != [0; 3] && keep([i, j, k]) {
                     out.push(shaken);
