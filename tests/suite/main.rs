@@ -84,6 +84,7 @@ mod solid;
 mod strand_shapes;
 mod substance_reference;
 mod tension;
+mod small_trials;
 mod thermal_stretch;
 mod tolerance;
 mod viscosity;

@@ -11,8 +11,9 @@ use impinge::scene::Scene;
 const MOST: usize = 4;
 /// Most gaps of the estimates that are listed.
 const MOST_GAPS: usize = 3;
-/// Notes on gaps of an estimate begin with the first of these or have the second.
-const GAP: [&str; 2] = ["no estimate", "left out"];
+/// Notes on gaps of an estimate begin with the first of these or have the second; the third is in one on a discretisation
+/// that errs by less.
+const SHOWN: [&str; 3] = ["no estimate", "left out", "would err by"];
 
 /// Error of an output, or the largest of the elements of an array.
 struct Line {
@@ -27,7 +28,7 @@ struct Line {
 /// estimate.
 ///
 /// ✓ is within the tolerance, ✗ is warned of, and ≈ is between: estimates of chosen meshes are high by a factor of two,
-/// and those of drops follow from measurements of others.
+/// those of drops follow from measurements of others, and those of large strain from small inputs.
 pub fn accuracy(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<String> {
     let tolerance = scene.fidelity.tolerance;
     let lines = by_output(scene, estimates);
@@ -72,12 +73,16 @@ pub fn accuracy(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<String> {
             .map(|(name, lattice)| of_lattice(name, &LatticeErrors::of(lattice), tolerance)),
     );
     if text.iter().any(|line| line.starts_with('≈')) {
-        text.push("(≈: near the tolerance, or beyond it by measurements of others)".to_owned());
+        text.push(
+            "(≈: near the tolerance; in rough estimates, as of drops and of large strain, beyond it, too)".to_owned(),
+        );
     }
     let notes = |estimate: &BodyEstimate| {
-        let is_gap = |note: &&String| note.starts_with(GAP[0]) || note.contains(GAP[1]);
+        let is_shown = |note: &&String| {
+            note.starts_with(SHOWN[0]) || SHOWN[1..].iter().any(|words| note.contains(words))
+        };
         let shown = |note: &String| format!("{}: {note}", estimate.body);
-        estimate.notes.iter().filter(is_gap).map(shown).collect::<Vec<_>>()
+        estimate.notes.iter().filter(is_shown).map(shown).collect::<Vec<_>>()
     };
     text.extend(estimates.iter().flat_map(notes).take(MOST_GAPS));
     text
@@ -129,7 +134,7 @@ fn by_output(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<Line> {
     let tolerance = scene.fidelity.tolerance;
     let mut lines: Vec<Line> = Vec::new();
     for estimate in estimates {
-        let warned_from = warned_from(scene, &estimate.body).unwrap_or(tolerance);
+        let warned_from = warned_from(scene, &estimate.body);
         let mark = |error: f64| match error {
             kept if kept <= tolerance => '✓',
             near if near <= warned_from => '≈',

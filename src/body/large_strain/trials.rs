@@ -88,6 +88,11 @@ impl SmallTrials {
         Some(self.scene.large_strain(&self.name)?.mechanics)
     }
 
+    /// Distance of nodes [m].
+    pub fn spacing(&self) -> Option<f64> {
+        Some(self.scene.large_strain(&self.name)?.spacing())
+    }
+
     /// Usual size of a force, or of one per metre of depth: that of an even strain.
     pub fn force(&self) -> f64 {
         let Some(solid) = self.scene.large_strain(&self.name) else { return 0.0 };

@@ -270,17 +270,24 @@ pub fn warnings(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<Warning> {
     of_meshes.chain(warnings_on_landing(scene)).chain(of_strands).collect()
 }
 
-/// Estimate of an output's error from which on the mesh of a body causes a warning; `None` for bodies without a mesh.
-pub fn warned_from(scene: &Scene, body: &str) -> Option<f64> {
-    let is_open = open(scene.meshed(body)?) == [true; 2];
-    Some(scene.fidelity.tolerance * if is_open { OVER } else { 1.0 })
+/// Estimate of an output's error from which on the mesh of a body causes a warning.
+pub fn warned_from(scene: &Scene, body: &str) -> f64 {
+    let over = match scene.meshed(body) {
+        Some(solid) if open(solid) == [true; 2] => OVER,
+        Some(_) => 1.0,
+        None => small::OVER,
+    };
+    over * scene.fidelity.tolerance
 }
 
 fn beyond_tolerance(scene: &Scene, estimate: &BodyEstimate) -> Option<Warning> {
     let tolerance = scene.fidelity.tolerance;
+    if scene.meshed(&estimate.body).is_none() {
+        return small::beyond_tolerance(scene, estimate);
+    }
     let solid = scene.meshed(&estimate.body)?;
     let is_open = open(solid) == [true; 2];
-    let most = warned_from(scene, &estimate.body)?;
+    let most = warned_from(scene, &estimate.body);
     let worst = estimate.worst().filter(|&worst| worst > most)?;
     let name = &estimate.body;
     let output = estimate.outputs.iter().max_by(|a, b| a.total().total_cmp(&b.total()))?;

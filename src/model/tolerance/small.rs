@@ -9,9 +9,13 @@ use crate::model::{Cache, Model, ModelError, check_memory};
 use crate::quantity::{Quantity, percent};
 use crate::scene::{Mechanics, Scene};
 use crate::variables::{Output, Registry, Slot};
+use crate::warning::{self, Warning};
 
 /// Longest time of the trials on a mesh that is taken for an estimate [s].
 const LONGEST: f64 = 4.0;
+/// Estimate over the tolerance from which on a mesh causes a warning: it is not chosen by the tolerance, and the estimate
+/// is that of small inputs.
+pub const OVER: f64 = 5.0;
 /// Part of the error of a mesh from which on another discretisation is no better.
 const BETTER: f64 = 0.5;
 /// Part of the usual force of a trial below which a force is zero but for rounding.
@@ -29,6 +33,24 @@ pub fn estimate(scene: &Scene, name: &str) -> Option<BodyEstimate> {
         },
     }
     Some(found)
+}
+
+/// Warns of a body whose mesh is far from the tolerance, with the distance of nodes that would keep it.
+pub fn beyond_tolerance(scene: &Scene, estimate: &BodyEstimate) -> Option<Warning> {
+    let tolerance = scene.fidelity.tolerance;
+    let worst = estimate.outputs.iter().max_by(|a, b| a.total().total_cmp(&b.total()))?;
+    let error = worst.total();
+    if error <= OVER * tolerance {
+        return None;
+    }
+    let own = SmallTrials::of(scene, &estimate.body)?.ok()?;
+    let spacing = own.spacing()? * (tolerance / error).sqrt();
+    let found = format!("{} of its range", percent(error.min(1.0)));
+    let remedy = format!(
+        "about `mesh.spacing = {spacing:.1e}` would keep it, if errors fall with its square"
+    );
+    let warning = warning::mesh_beyond_tolerance(&worst.name, found, percent(tolerance), remedy);
+    Some(warning.at(&estimate.body))
 }
 
 /// Errors of outputs, and notes on them.
