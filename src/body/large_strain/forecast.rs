@@ -136,7 +136,7 @@ const HEAT: f64 = 0.05e-6;
 /// Time to factor the capacity of a body that conducts, over the power 1.5 of the nodes in a plane and the square in
 /// space [s].
 const FACTOR_OF_HEAT: [f64; 2] = [4.4e-9, 6.7e-9];
-/// Memory of the program for a body, of a point, and of a function there [B]; with [`OF_ENTRY`] and those after it
+/// Memory of the program for a body, of a point, and of a function there [B]; with [`OF_PAIR`] and those after it
 /// 0.57 to 1.68 times the peak resident memory of all runs above.
 const OF_BODY: f64 = 11e6;
 const POINT: f64 = 250.0;
@@ -353,15 +353,15 @@ impl Size {
         };
         let of_fill = [OF_FILL, OF_GENERAL_FILL].map(|own| own[usize::from(self.is_solid())]);
         let fill = fill * (factors[0] * of_fill[0] + factors[1] * of_fill[1]);
-        OF_ENTRY * blocks + 8.0 * blocks.min(TOGETHER as f64) + fill
+        OF_PAIR * blocks / axes.powi(2) + 8.0 * blocks.min(TOGETHER as f64) + fill
     }
 }
 
 /// Part of a symmetric factor that is in memory with a general one: tangents of metal that yields may not be positive
 /// definite, which shows while they are factored.
 const ALREADY_FACTORED: f64 = 0.6;
-/// Memory of an entry of a block, and of the fill in a plane and in space, of symmetric and general matrices [B].
-const OF_ENTRY: f64 = 4.4;
+/// Memory of a pair of nodes of a block, and of the fill in a plane and in space, of symmetric and general matrices [B].
+const OF_PAIR: f64 = 4.4;
 const OF_FILL: [f64; 2] = [63.0, 137.0];
 const OF_GENERAL_FILL: [f64; 2] = [118.0, 350.0];
 

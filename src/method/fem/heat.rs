@@ -76,9 +76,11 @@ struct Passed {
     terms: f64,
 }
 
-/// Terms over the heat that is their sum from which on rounding of the terms counts, and that rounding over them.
+/// Terms over the heat that is their sum from which on rounding of the terms counts, that rounding over them, and the
+/// largest part of the heat that it may be.
 const CANCELLED: f64 = 1e4;
 const ROUNDING: f64 = 4e-13;
+const LARGEST: f64 = 1e-2;
 
 impl HeatLoads<'_> {
     /// Returns true if loads drive a class.
@@ -163,7 +165,10 @@ impl<D: DepthModes> HeatProblem<D> {
         }
         let stored = self.stored_of(class, &passage.change, &passage.value_change);
         let balanced = brought_in - stored;
-        let is_rounding = (balanced - lost).abs() <= ROUNDING * terms;
+        let rounding = ROUNDING * terms;
+        // Beyond that nothing is known of the balance, and the step is refused.
+        let is_known = rounding <= LARGEST * stored.abs().max(brought_in.abs());
+        let is_rounding = is_known && (balanced - lost).abs() <= rounding;
         HeatTotals { brought_in, lost: if is_rounding { balanced } else { lost } }
     }
 

@@ -8,10 +8,10 @@ use faer::prelude::Solve;
 use faer::sparse::SparseColMat;
 use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 
-use super::element::element;
+use super::element::Element;
 use super::load::LoadStiffness;
 use super::lower::{Lower, elimination_order};
-use super::pattern::Pattern;
+use super::pattern::{Line, Pattern};
 use super::{Course, Courses, Deformable};
 use crate::laws::solid::large_strain::{Deformed, LargeStrainLaw, Tangent};
 use crate::math::cholesky::SparseCholesky;
@@ -66,7 +66,7 @@ pub struct Swelling {
 pub(super) struct Block {
     pub points: Range<usize>,
     pub nodes: Vec<u32>,
-    /// Unknowns of the nodes, which are the columns of the block's matrix.
+    /// Unknowns of the nodes, axis by axis, which are the columns of the block's matrix.
     pub columns: Vec<Column>,
 }
 
@@ -109,15 +109,14 @@ impl Stiffness {
             held.iter().map(|held| held.map(&mut number)).collect();
         let block = |points: &Range<usize>| {
             let nodes = body.nodes_of(points);
-            let columns = columns(&unknowns, &nodes);
+            let mut columns = columns(&unknowns, &nodes);
+            columns.sort_by_key(|column| (column.place % 3, column.place));
             Block { points: points.clone(), nodes, columns }
         };
         let blocks: Vec<Block> = body.space.groups.iter().map(block).collect();
-        let of_loads: Vec<_> = couplings.iter().map(|nodes| columns(&unknowns, nodes)).collect();
-        let all = blocks.iter().map(|block| &block.columns).chain(&of_loads);
-        let own: Vec<Vec<usize>> =
-            all.map(|columns| columns.iter().map(|column| column.unknown).collect()).collect();
-        let pattern = Pattern::new(count, &own).ok_or(Singular)?;
+        let nodes_of_blocks = blocks.iter().map(|block| &block.nodes).chain(couplings);
+        let nodes_of_blocks: Vec<&[u32]> = nodes_of_blocks.map(Vec::as_slice).collect();
+        let pattern = Pattern::new(&unknowns, &nodes_of_blocks).ok_or(Singular)?;
         let order = elimination_order(&body.space.nodes, &unknowns, &pattern.entries);
         let lower = Lower::of(&pattern.entries, &order).map_err(|_| Singular)?;
         Ok(Self { unknowns, count, pattern, lower, lu: OnceLock::new(), blocks })
@@ -149,13 +148,17 @@ impl Stiffness {
         let mut values = self.pattern.zeros();
         // Some blocks at a time, as all of them together are much larger than the matrix.
         let widest = self.blocks.iter().map(|block| block.columns.len()).max().unwrap_or(0);
-        let together = (TOGETHER / widest.max(1).pow(2)).max(1);
+        let together = (TOGETHER / widest.max(1).pow(2)).clamp(1, self.blocks.len().max(1));
+        let mut elements: Vec<Element> = (0..together).map(|_| Element::default()).collect();
         for first in (0..self.blocks.len()).step_by(together) {
-            let count = together.min(self.blocks.len() - first);
-            let of_block =
-                |n: usize| element(body, &(terms.of_group)(first + n), &self.blocks[first + n]);
-            for (n, matrix) in team.map(count, of_block).iter().enumerate() {
-                self.pattern.add(&mut values, first + n, matrix);
+            let elements = &mut elements[..together.min(self.blocks.len() - first)];
+            team.for_each(elements, |n, element| {
+                element.compute(body, &(terms.of_group)(first + n), &self.blocks[first + n]);
+            });
+            for (n, element) in elements.iter().enumerate() {
+                let Block { nodes, columns, .. } = &self.blocks[first + n];
+                let block = (first + n, nodes.len());
+                self.pattern.add(&mut values, block, &lines(columns), element.values());
             }
         }
         for (n, load) in terms.loads.iter().enumerate() {
@@ -166,7 +169,8 @@ impl Stiffness {
                 columns.iter().map(|column| of_row[column.place]).collect::<Vec<_>>()
             };
             let matrix: Vec<f64> = columns.iter().flat_map(row).collect();
-            self.pattern.add(&mut values, self.blocks.len() + n, &matrix);
+            let block = (self.blocks.len() + n, load.nodes.len());
+            self.pattern.add(&mut values, block, &lines(&columns), &matrix);
         }
         for (unknowns, mass) in self.unknowns.iter().zip(&body.mass) {
             for &unknown in unknowns.iter().flatten() {
@@ -233,6 +237,11 @@ pub struct Linearised<'a> {
 fn columns(unknowns: &[[Option<usize>; 3]], nodes: &[u32]) -> Vec<Column> {
     let all = nodes.iter().flat_map(|&node| unknowns[node as usize]).enumerate();
     all.filter_map(|(place, unknown)| Some(Column { place, unknown: unknown? })).collect()
+}
+
+/// Rows and columns of a block.
+fn lines(columns: &[Column]) -> Vec<Line> {
+    columns.iter().map(|column| (column.place / 3, column.unknown)).collect()
 }
 
 impl Linearised<'_> {
