@@ -124,3 +124,32 @@ fn bodies_of_one_temperature_bear_the_longest_step() {
         assert!(off(trial.get("bath.temperature"), 292.5) < 1e-12, "{step}");
     }
 }
+
+/// Over a long step convection as strong as this multiplies the rounding of temperatures that have settled to more heat
+/// than there is.
+#[test]
+fn strong_convection_balances_over_long_steps() {
+    for (thickness, conductivity, coefficient) in
+        [(1e-5, 2000.0, 1e9), (1e-4, 400.0, 1e7), (1e-2, 0.02, 1e9)]
+    {
+        let faces = |face: &str| {
+            format!(
+                "faces.{face}.convection = {{ coefficient = {coefficient:e}, ambient = 310.0 }}\n"
+            )
+        };
+        let text = format!(
+            "name = \"Thin\"\nstop_time = 100.0\nstep = 10.0\n[body.plate]\nkind = \"solid\"\n\
+             shape.box = [1e-3, 1e-3, {thickness:e}]\ninitial_temperature = 300.0\n\
+             material = {{ model = \"thermoelastic\", density = 3510.0, specific_heat = 510.0, \
+             conductivity = {conductivity:?} }}\n{}{}",
+            faces("top"),
+            faces("bottom")
+        );
+        let mut trial = Trial::new(&text);
+        for _ in 0..10 {
+            trial.step(10.0);
+            let residual = trial.heat_residual("plate");
+            assert!(residual < 1e-9, "{thickness:e} m, {coefficient:e}: {residual:e}");
+        }
+    }
+}

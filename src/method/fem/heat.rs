@@ -151,14 +151,19 @@ impl<D: DepthModes> HeatProblem<D> {
                 values,
             };
             tail[..end.len()].copy_from_slice(&end);
-            self.settled(class, &passage).add_to(tail);
+            self.settled(class, &passage, HeatTotals::read(tail)).add_to(tail);
         }
     }
 
     /// The heat that passed the faces of the whole body. What is lost is taken from the balance where it is the small
     /// difference of large terms: over a long step a strong convection multiplies the rounding of temperatures that have
     /// settled.
-    fn settled(&self, class: &Class<D::Columns>, passage: &Passage) -> HeatTotals {
+    fn settled(
+        &self,
+        class: &Class<D::Columns>,
+        passage: &Passage,
+        before: HeatTotals,
+    ) -> HeatTotals {
         let Passed { totals: HeatTotals { brought_in, lost }, terms } = self.passed(class, passage);
         if terms <= CANCELLED * lost.abs().max(brought_in.abs()) {
             return HeatTotals { brought_in, lost };
@@ -167,7 +172,9 @@ impl<D: DepthModes> HeatProblem<D> {
         let balanced = brought_in - stored;
         let rounding = ROUNDING * terms;
         // Beyond that nothing is known of the balance, and the step is refused.
-        let is_known = rounding <= LARGEST * stored.abs().max(brought_in.abs());
+        let heats = [stored, brought_in, before.brought_in, before.lost];
+        let is_known =
+            rounding <= LARGEST * heats.iter().fold(0.0, |most: f64, q| most.max(q.abs()));
         let is_rounding = is_known && (balanced - lost).abs() <= rounding;
         HeatTotals { brought_in, lost: if is_rounding { balanced } else { lost } }
     }
