@@ -6,6 +6,8 @@
 //! the points share adds a term of the same form. So the rows of an axis are the product of the u_m and the t_m of all
 //! points: blocks of kernels have hundreds of unknowns.
 
+use std::ops::Range;
+
 use faer::MatRef;
 
 use super::Deformable;
@@ -37,27 +39,48 @@ impl Element {
     }
 
     /// Computes the stiffness matrix of the unknowns of a block.
-    pub(super) fn compute(&mut self, body: &Deformable, group: &GroupTangent, block: &Block) {
+    pub(super) fn compute(
+        &mut self,
+        body: &Deformable,
+        of_group: &(dyn Fn(usize) -> GroupTangent + Sync),
+        block: &Block,
+    ) {
         let form = body.space.form;
         let components = components(form);
-        let (axes, nodes) = (components.len(), block.nodes.len());
-        let width = axes * nodes;
-        self.factors.resize(axes, Default::default());
+        self.factors.resize(components.len(), Default::default());
         self.factors.iter_mut().flatten().for_each(Vec::clear);
-        let weights = &body.space.volume.weights[block.points.clone()];
+        for number in block.groups.clone() {
+            let points = body.space.groups[number].clone();
+            self.add_factors(body, &components, (&of_group(number), points), &block.nodes);
+        }
+        let width = components.len() * block.nodes.len();
+        self.multiply(block.nodes.len(), width);
+        self.keep(form, block);
+    }
+
+    /// Adds the u_m and t_m of the points of a group.
+    fn add_factors(
+        &mut self,
+        body: &Deformable,
+        components: &[Components],
+        (group, points): (&GroupTangent, Range<usize>),
+        nodes: &[u32],
+    ) {
+        let width = components.len() * nodes.len();
+        let weights = &body.space.volume.weights[points.clone()];
         let whole: f64 = weights.iter().sum();
         let mut swellings = vec![[vec![0.0; width], vec![0.0; width]]; group.swellings.len()];
-        for (place, point) in block.points.clone().enumerate() {
+        for (place, point) in points.enumerate() {
             let weight = group.scale * weights[place];
-            self.set_changes(body, point, &block.nodes);
+            self.set_changes(body, point, nodes);
             let Self { changes, factors, .. } = self;
-            for (components_of_axis, [own, rows]) in components.iter().zip(factors) {
-                for &(m, change) in components_of_axis {
+            for (of_axis, [own, rows]) in components.iter().zip(factors) {
+                for &(m, change) in of_axis {
                     own.extend_from_slice(&changes[change]);
                     let first = rows.len();
                     rows.resize(first + width, 0.0);
-                    let tangent = &group.points[place][m];
-                    contract(&components, changes, (tangent, weight), &mut rows[first..]);
+                    let tangent = (&group.points[place][m][..], weight);
+                    contract(components, changes, tangent, &mut rows[first..]);
                 }
             }
             for (sums, Swelling { forces, changes: other, .. }) in
@@ -65,19 +88,18 @@ impl Element {
             {
                 let tensors = [(&forces[place], weights[place]), (&other[place], weight)];
                 for (sums, (tensor, weight)) in sums.iter_mut().zip(tensors) {
-                    contract(&components, changes, (tensor.as_flattened(), weight), sums);
+                    contract(components, changes, (tensor.as_flattened(), weight), sums);
                 }
             }
         }
         for ([forces, other], Swelling { stiffness, .. }) in swellings.iter().zip(&group.swellings)
         {
-            for ([own, rows], forces) in self.factors.iter_mut().zip(forces.chunks_exact(nodes)) {
+            let of_axes = forces.chunks_exact(nodes.len());
+            for ([own, rows], forces) in self.factors.iter_mut().zip(of_axes) {
                 own.extend(forces.iter().map(|force| stiffness / whole * force));
                 rows.extend_from_slice(other);
             }
         }
-        self.multiply(nodes, width);
-        self.keep(form, block, nodes);
     }
 
     /// Sets the changes of F at a point.
@@ -113,8 +135,8 @@ impl Element {
     }
 
     /// Keeps the rows and columns of the unknowns of a block.
-    fn keep(&mut self, form: Form, block: &Block, nodes: usize) {
-        let axes = form.axes();
+    fn keep(&mut self, form: Form, block: &Block) {
+        let (axes, nodes) = (form.axes(), block.nodes.len());
         let place =
             |of: usize| axes.iter().position(|&axis| axis == of % 3).map(|n| n * nodes + of / 3);
         let places: Vec<usize> =

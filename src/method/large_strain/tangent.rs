@@ -30,6 +30,9 @@ pub struct Stiffness {
     blocks: Vec<Block>,
 }
 
+/// Nodes of a block over those of a group in it, at most, and most groups of a block.
+const ALIKE: f64 = 1.2;
+const MOST_GROUPS: usize = 32;
 /// Number of entries of blocks that are in memory at a time.
 pub const TOGETHER: usize = 4_000_000;
 
@@ -62,9 +65,9 @@ pub struct Swelling {
     pub changes: Vec<Matrix3>,
 }
 
-/// Points that are assembled together, and the nodes of their rows.
+/// Groups of points that are assembled together, and the nodes of their rows.
 pub(super) struct Block {
-    pub points: Range<usize>,
+    pub groups: Range<usize>,
     pub nodes: Vec<u32>,
     /// Unknowns of the nodes, axis by axis, which are the columns of the block's matrix.
     pub columns: Vec<Column>,
@@ -107,13 +110,12 @@ impl Stiffness {
         };
         let unknowns: Vec<[Option<usize>; 3]> =
             held.iter().map(|held| held.map(&mut number)).collect();
-        let block = |points: &Range<usize>| {
-            let nodes = body.nodes_of(points);
+        let block = |(groups, nodes): (Range<usize>, Vec<u32>)| {
             let mut columns = columns(&unknowns, &nodes);
             columns.sort_by_key(|column| (column.place % 3, column.place));
-            Block { points: points.clone(), nodes, columns }
+            Block { groups, nodes, columns }
         };
-        let blocks: Vec<Block> = body.space.groups.iter().map(block).collect();
+        let blocks: Vec<Block> = assembled(body).into_iter().map(block).collect();
         let nodes_of_blocks = blocks.iter().map(|block| &block.nodes).chain(couplings);
         let nodes_of_blocks: Vec<&[u32]> = nodes_of_blocks.map(Vec::as_slice).collect();
         let pattern = Pattern::new(&unknowns, &nodes_of_blocks).ok_or(Singular)?;
@@ -153,7 +155,7 @@ impl Stiffness {
         for first in (0..self.blocks.len()).step_by(together) {
             let elements = &mut elements[..together.min(self.blocks.len() - first)];
             team.for_each(elements, |n, element| {
-                element.compute(body, &(terms.of_group)(first + n), &self.blocks[first + n]);
+                element.compute(body, terms.of_group, &self.blocks[first + n]);
             });
             for (n, element) in elements.iter().enumerate() {
                 let Block { nodes, columns, .. } = &self.blocks[first + n];
@@ -231,6 +233,27 @@ pub struct Linearised<'a> {
     /// History at the beginning of the step.
     pub before: &'a [f64],
     pub over: &'a Courses,
+}
+
+/// Groups that are assembled together, with their nodes. Those that follow each other and have about the same nodes, as
+/// the points of a node do, are one block: most of the time goes into adding blocks to the matrix.
+fn assembled(body: &Deformable) -> Vec<(Range<usize>, Vec<u32>)> {
+    let mut blocks: Vec<(Range<usize>, Vec<u32>)> = Vec::new();
+    for (group, points) in body.space.groups.iter().enumerate() {
+        let nodes = body.nodes_of(points);
+        if let Some((groups, own)) = blocks.last_mut() {
+            let mut both = [&own[..], &nodes].concat();
+            both.sort_unstable();
+            both.dedup();
+            let is_alike = both.len() as f64 <= ALIKE * nodes.len() as f64;
+            if is_alike && groups.len() < MOST_GROUPS {
+                (groups.end, *own) = (group + 1, both);
+                continue;
+            }
+        }
+        blocks.push((group..group + 1, nodes));
+    }
+    blocks
 }
 
 /// Unknowns of nodes.
