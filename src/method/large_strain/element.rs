@@ -20,6 +20,8 @@ type Components = Vec<(usize, usize)>;
 
 /// Place of a hoop among the changes of a point, after the three gradients.
 const HOOP: usize = 3;
+/// Nodes of a block below which a product takes longer to begin than to compute.
+const FEW: usize = 16;
 
 /// The matrix of a block, in memory that the next block uses again.
 #[derive(Default)]
@@ -127,6 +129,14 @@ impl Element {
         self.values.resize(width * width, 0.0);
         let of_axes = self.values.chunks_exact_mut(nodes * width);
         for (out, [own, rows]) in of_axes.zip(&self.factors) {
+            if nodes < FEW {
+                for (own, row) in own.chunks_exact(nodes).zip(rows.chunks_exact(width)) {
+                    for (out, factor) in out.chunks_exact_mut(width).zip(own) {
+                        out.iter_mut().zip(row).for_each(|(sum, value)| *sum += factor * value);
+                    }
+                }
+                continue;
+            }
             let terms = own.len() / nodes;
             // The columns of the product are the rows of the matrix.
             let left = MatRef::from_column_major_slice(rows, width, terms);

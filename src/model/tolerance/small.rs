@@ -12,7 +12,7 @@ use crate::variables::{Output, Registry, Slot};
 use crate::warning::{self, Warning};
 
 /// Longest time of the trials on a mesh that is taken for an estimate [s].
-const LONGEST: f64 = 4.0;
+const LONGEST: f64 = 1.0;
 /// Estimate over the tolerance from which on a mesh causes a warning: it is not chosen by the tolerance, and the estimate
 /// is that of small inputs.
 pub const OVER: f64 = 5.0;
