@@ -18,7 +18,8 @@ const STEP: f64 = 0.01;
 fn reach_of(start: AtStart, quantity: Quantity, value: f64) -> Option<f64> {
     match start {
         AtStart::Never => None,
-        AtStart::PoleAtZero => Some(value),
+        AtStart::PoleAtZero if value > 0.0 => Some(value),
+        AtStart::PoleAtZero => Some(quantity.nominal()),
         AtStart::PolesAt([low, high]) => Some((value - low).min(high - value)),
         // Any step is suitable; the constant may be zero.
         AtStart::Polynomial => Some(quantity.nominal()),
@@ -27,9 +28,9 @@ fn reach_of(start: AtStart, quantity: Quantity, value: f64) -> Option<f64> {
 
 /// Rates of outputs at time zero, under these inputs, when a parameter of the scene changes.
 ///
-/// Density, specific heat, conductivity, heat transfer coefficients and contacts have no effect before heat has moved.
-/// The outputs depend smoothly on the other constants: for these the model is built at six values about the present
-/// one.
+/// Specific heat, conductivity, heat transfer coefficients and contacts have no effect before heat has moved, nor has the
+/// density of bodies of small strain. The outputs depend smoothly on the other constants: for these the model is built
+/// at six values about the present one.
 pub fn start_rates(
     scene: &Scene,
     inputs: &[f64],
@@ -38,7 +39,8 @@ pub fn start_rates(
 ) -> Result<Vec<f64>, ModelError> {
     let value = parameter.get(scene);
     let constant = &parameter.constant;
-    let reach = reach_of(constant.at_start(), constant.quantity(), value);
+    let start = constant.at_start(&scene.body[&parameter.body]);
+    let reach = reach_of(start, constant.quantity(), value);
     let mut rates = vec![0.0; outputs.len()];
     let Some(reach) = reach else { return Ok(rates) };
     let step = STEP * reach;

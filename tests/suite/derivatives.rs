@@ -210,6 +210,89 @@ fn outputs_at_the_start_follow_constants_as_the_theory_says() {
     }
 }
 
+/// Scenes of one body each, whose outputs at time zero follow constants of its kind.
+const KINDS: [&str; 3] = [
+    r#"
+name = "Strip"
+stop_time = 1.0
+step = 0.1
+[body.own]
+kind = "lattice"
+length = 0.2
+depth = 0.05
+thickness = 0.04
+spacing = 5e-3
+support = { three_point = { span = 0.15 } }
+control = "displacement"
+[body.own.material]
+density = 2300.0
+young = 30e9
+poisson = 0.2
+softening = { model = "openings", strength = 4e6, openings = [9e-6, 197e-6], share = 0.13 }
+"#,
+    r#"
+name = "Drop"
+stop_time = 1e-4
+step = 1e-5
+[body.own]
+kind = "droplet"
+diameter = 1e-4
+impact_velocity = 1.0
+initial_temperature = 300.0
+spacing = 1e-5
+precision = "double"
+fluid = { density = 1000.0, viscosity = 1e-3, specific_heat = 4000.0, conductivity = 0.6, surface_tension = 0.07 }
+"#,
+    r#"
+name = "Sheet"
+stop_time = 1.0
+step = 0.1
+[body.own]
+kind = "solid"
+strain = "finite"
+dimension = 2
+shape = { box = [0.02, 0.01, 0.01] }
+mesh = { spacing = 2.5e-3 }
+initial_temperature = 300.0
+gravity = 9.81
+material = { model = "neo_hookean", density = 1000.0, specific_heat = 1900.0, conductivity = 0.2, young = 1e5, poisson = 0.3 }
+faces.left = { clamped = true }
+faces.right = { traction = [0.0, 0.0, 50.0] }
+"#,
+];
+
+/// The rates at time zero of all outputs by all constants that a body offers are the limit of differences.
+#[test]
+fn outputs_at_the_start_follow_every_constant_of_every_kind() {
+    for text in KINDS {
+        let scene = scene::parse(text, "scene").unwrap_or_else(|error| panic!("{error}"));
+        let mut trial = Trial::new(text);
+        let names = trial.outputs();
+        let now = values(&mut trial, &names);
+        let outputs: Vec<Output> = names.iter().map(|name| trial.output(name)).collect();
+        let outputs: Vec<&Output> = outputs.iter().collect();
+        // Particles follow the size of their drop by leaps.
+        let offered = scene.body["own"].constants("own").into_iter();
+        for offered in offered.filter(|offered| offered.key != "diameter") {
+            let parameter = Parameter { body: "own".into(), constant: offered.constant };
+            let found = start_rates(&scene, &trial.state.inputs, &parameter, &outputs).unwrap();
+            let value = parameter.get(&scene);
+            let step = 1e-5 * value;
+            let [above, below] = [step, -step].map(|by| {
+                let mut moved = scene.clone();
+                parameter.set(&mut moved, value + by);
+                values(&mut Trial::of(moved), &names)
+            });
+            for (i, name) in names.iter().enumerate() {
+                let wanted = (above[i] - below[i]) / (2.0 * step);
+                let rounding = 1e-11 * now[i].abs() / step;
+                let close = (found[i] - wanted).abs() <= 1e-4 * wanted.abs() + rounding;
+                assert!(close, "{}: {name} by {}: {} {wanted}", scene.name, offered.key, found[i]);
+            }
+        }
+    }
+}
+
 /// Inputs on the move: the same block, with amounts, places and face temperatures changing.
 fn set_off(trial: &mut Trial) {
     for (name, order, value) in [

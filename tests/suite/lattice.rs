@@ -497,3 +497,38 @@ fn beams_that_links_stiffen_are_warned_of() {
     assert_eq!(warned(&bent.replace("8.333333e-3", "3.1e-3")), []);
     assert_eq!(warned(&bent.replace("-0.99", "-0.93")), []);
 }
+
+/// Strips that reach just beyond their supports are as stiff as longer ones: what lies there bears nothing.
+#[test]
+fn supports_near_the_ends_keep_their_span() {
+    let force = |arrangement: &str, length: f64| {
+        let text = format!(
+            r#"
+name = "Strip"
+stop_time = 1.0
+step = 1.0
+[body.strip]
+kind = "lattice"
+length = {length}
+depth = 0.03
+thickness = 0.02
+spacing = 5e-3
+arrangement = "{arrangement}"
+support = {{ three_point = {{ span = 0.1 }} }}
+control = "displacement"
+material = {{ density = 2300.0, young = 30e9, poisson = 0.2, softening = {{ model = "openings", strength = 4e6, openings = [9e-6, 197e-6], share = 0.13 }} }}
+"#
+        );
+        let mut trial = Trial::new(&text);
+        trial.set("strip.displacement", 1e-7);
+        trial.step(1.0);
+        trial.get("strip.force")
+    };
+    for arrangement in ["across", "along"] {
+        let long = force(arrangement, 0.13);
+        for length in [0.105, 0.11, 0.115] {
+            let ratio = force(arrangement, length) / long;
+            assert!((0.97..1.04).contains(&ratio), "{arrangement}, {length} m: {ratio}");
+        }
+    }
+}

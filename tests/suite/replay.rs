@@ -152,6 +152,11 @@ fn films_give_all_momentum_of_slow_drops_and_spread_as_wide_as_fast_ones_do() {
         (0..20).for_each(|_| trial.step(2e-4));
         let part = -trial.get("drop.impulse_z") / (mass() * speed);
         assert!((part - 1.0).abs() < 1e-4, "{speed} m/s: {part}");
+        // What has come to rest stays as wide.
+        let spread = trial.get("drop.spread_diameter");
+        trial.step(10.0);
+        trial.step(1.0);
+        assert!(off(trial.get("drop.spread_diameter"), spread) < 0.05, "{speed} m/s: {spread}");
     }
     let text = drop("film", "").replace("viscosity = 4e-3", "viscosity = 1e-4");
     let mut trial = Trial::new(&(text.replace(&format!("{SPEED:?}"), "80.0") + TILES));

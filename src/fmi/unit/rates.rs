@@ -56,7 +56,12 @@ impl Unit {
                 }
             }
         }
-        changed.insert(0, Change::Inputs(direction));
+        // Rates by inputs are refused of some bodies: none are asked for where no input changes.
+        if direction.iter().any(|&change| change != 0.0) || changed.is_empty() {
+            changed.insert(0, Change::Inputs(direction));
+        } else {
+            weights.remove(0);
+        }
         let mut sum = vec![0.0; outputs.len()];
         for (rates, weight) in self.rates(&outputs, &changed)?.iter().zip(weights) {
             sum.iter_mut().zip(rates).for_each(|(s, rate)| *s += weight * rate);

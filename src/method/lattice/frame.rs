@@ -130,7 +130,8 @@ impl<'a> Faces<'a> {
         places.iter().map(|[x, _]| x.abs() > most - END * spacing).collect()
     }
 
-    /// Particles nearest to a place x of a face on both sides, with parts of one that have their centre there.
+    /// Particles nearest to a place x of a face on both sides, or beyond its ends the outermost ones, with parts of one
+    /// that have their centre there; the nearest one first if all are on one side.
     fn at(&self, x: f64, face: Face, wanted: impl Fn(f64) -> bool) -> Vec<(usize, f64)> {
         let layer = FACE * self.particles.spacing;
         let rounding = 1e-9 * self.particles.spacing;
@@ -150,8 +151,8 @@ impl<'a> Faces<'a> {
             (Some((i, left)), Some(&(j, right))) => {
                 vec![(i, right / (right - left)), (j, -left / (right - left))]
             }
-            (Some((i, _)), None) => vec![(i, 1.0)],
-            (None, Some(&(j, _))) => vec![(j, 1.0)],
+            (Some(outermost), None) => beyond(outermost, next.checked_sub(2).map(|n| of_face[n])),
+            (None, Some(&outermost)) => beyond(outermost, of_face.get(next + 1).copied()),
             (None, None) => Vec::new(),
         }
     }
@@ -167,6 +168,15 @@ impl<'a> Faces<'a> {
         let mut mouth = combine(unknown, 0, &sides);
         mouth.extend(combine(unknown, 2, &turned));
         Some(mouth)
+    }
+}
+
+/// Parts of the outermost particles of a face at a place beyond them, from their distances to it: as the line through
+/// both, so that a force there has its moment.
+fn beyond((i, near): (usize, f64), inner: Option<(usize, f64)>) -> Vec<(usize, f64)> {
+    match inner {
+        Some((j, far)) => vec![(i, far / (far - near)), (j, -near / (far - near))],
+        None => vec![(i, 1.0)],
     }
 }
 

@@ -125,7 +125,10 @@ impl Replay {
         duration: f64,
     ) -> (WallExchange, Falls) {
         let (mut ledger, mut drops) = self.of(state);
-        drops.retain(|drop| self.end(drop) > ledger.time);
+        let time = ledger.time;
+        for ended in drops.extract_if(.., |drop| self.end(drop) <= time) {
+            ledger.note_ended(&ended);
+        }
         ledger.asked += asked as f64;
         for falling in released {
             let Falling { contact, place, speed, temperature } = *falling;
@@ -375,10 +378,12 @@ impl Replay {
 
     pub fn totals(&self, state: &[f64]) -> ReplayTotals {
         let (ledger, drops) = self.of(state);
-        let Ledger { time, asked, released, overlapping, heat, impulse, .. } = ledger;
+        let Ledger { time, asked, released, overlapping, heat, impulse, landed, .. } = ledger;
         let down = drops.iter().filter(|drop| drop.is_down());
-        let last = down.max_by(|a, b| a.contact.total_cmp(&b.contact));
-        let spread = |drop: &Drop| self.plan.course.spread(drop.speed, time - drop.contact);
+        let landings = down.map(|drop| [drop.contact, drop.speed]);
+        let ended = (landed[1] > 0.0).then_some(landed);
+        let last = landings.chain(ended).max_by(|a, b| a[0].total_cmp(&b[0]));
+        let spread = |[contact, speed]: [f64; 2]| self.plan.course.spread(speed, time - contact);
         ReplayTotals {
             asked,
             released,
@@ -412,7 +417,7 @@ impl Replay {
             return Err(format!("number {place} is not finite"));
         }
         let (ledger, drops) = self.of(state);
-        let Ledger { time, duration, asked, released, overlapping, stacked, .. } = ledger;
+        let Ledger { time, duration, asked, released, overlapping, stacked, landed, .. } = ledger;
         let most = self.plan.most as f64;
         let is_count = |count: f64| count.fract() == 0.0 && count >= 0.0;
         if !is_count(asked) || asked > most {
@@ -427,6 +432,11 @@ impl Replay {
         }
         if !is_count(stacked) || stacked > released {
             return Err(format!("{stacked} films on one place, of {released} released"));
+        }
+        let [contact, speed] = landed;
+        let has_landed = self.plan.course.knows(speed) && (0.0..=time).contains(&contact);
+        if landed != [0.0; 2] && !has_landed {
+            return Err(format!("a last drop of {speed} m/s at {contact} s"));
         }
         if time < 0.0 || duration < 0.0 || duration > time * (1.0 + ROUNDING) {
             return Err(format!("a last step of {duration} s before {time} s"));

@@ -21,6 +21,8 @@ pub struct Ledger {
     /// Heat [J] and impulse [N s] transferred to the wall since time zero.
     pub heat: f64,
     pub impulse: [f64; 3],
+    /// Contact time [s] and speed [m/s] of the drop that landed last of those that have ended; no speed before any has.
+    pub landed: [f64; 2],
 }
 
 /// A drop that falls or is active, or was so in the last step.
@@ -59,6 +61,15 @@ fn of_drop(name: &'static str, words: &'static str, width: usize) -> Field {
     Field { name, words, per: Per::Drop, width }
 }
 
+impl Ledger {
+    /// Notes a drop that has ended, if it landed after all others that have.
+    pub fn note_ended(&mut self, drop: &Drop) {
+        if drop.is_down() && (self.landed[1] == 0.0 || drop.contact >= self.landed[0]) {
+            self.landed = [drop.contact, drop.speed];
+        }
+    }
+}
+
 impl Fields for Ledger {
     fn fields(&mut self) -> Vec<(Field, &mut [f64])> {
         vec![
@@ -73,6 +84,10 @@ impl Fields for Ledger {
             (body("stacked", "most films on one place so far", 1), from_mut(&mut self.stacked)),
             (body("heat", "heat given to the wall [J]", 1), from_mut(&mut self.heat)),
             (body("impulse", "impulse given to the wall [N s]", 3), &mut self.impulse),
+            (
+                body("landed", "contact [s] and speed [m/s] of the last drop that has ended", 2),
+                &mut self.landed,
+            ),
         ]
     }
 }

@@ -1,6 +1,9 @@
 //! Readings of a body over its experiments.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use super::experiment::experiments;
+use super::sample::sample;
 use crate::body::Reading;
 use crate::model::{Cache, Model, ModelError};
 use crate::quantity::Quantity;
@@ -10,8 +13,9 @@ use crate::variables::{Output, Registry, Slot};
 /// Number of times at which outputs are sampled, from the first step to the last, and the same for stresses.
 const TIMES: usize = 8;
 const TIMES_OF_STRESS: usize = 3;
-/// Approximate number of sampled places of a field.
+/// Approximate number of sampled places of all fields, and the fewest of an array.
 const PLACES: usize = 16;
+const LEAST_PLACES: usize = 8;
 
 /// Outputs of a body whose error is estimated.
 #[derive(Debug, Clone)]
@@ -56,14 +60,19 @@ pub fn watched(scene: &Scene, is_mechanical: bool) -> Vec<Watched> {
         (!is_peak).then_some(Watched { name, quantity, rest, capacity, output })
     });
     let all: Vec<Watched> = outputs.collect();
-    let of_grids = all.iter().filter(|watched| is_of_grid(watched)).count();
-    let stride = of_grids.div_ceil(PLACES).max(1);
-    let mut place = 0;
-    let mut is_taken = |watched: &Watched| {
-        place += usize::from(is_of_grid(watched));
-        !is_of_grid(watched) || place % stride == 0
-    };
-    all.into_iter().filter(|watched| is_taken(watched)).collect()
+    let mut of_fields: BTreeMap<String, Vec<usize>> = BTreeMap::new();
+    for (place, own) in all.iter().enumerate().filter(|(_, own)| is_of_grid(own)) {
+        let array = own.name.split('[').next().unwrap_or_default().to_owned();
+        of_fields.entry(array).or_default().push(place);
+    }
+    // A sample that follows no period, as the rows and columns of a grid have.
+    let most = (PLACES / of_fields.len().max(1)).max(LEAST_PLACES);
+    let taken: BTreeSet<usize> = of_fields
+        .values()
+        .flat_map(|places| sample(places.len(), most).into_iter().map(|n| places[n]))
+        .collect();
+    let is_taken = |(place, own): &(usize, Watched)| !is_of_grid(own) || taken.contains(place);
+    all.into_iter().enumerate().filter(is_taken).map(|(_, own)| own).collect()
 }
 
 fn is_of_grid(watched: &Watched) -> bool {

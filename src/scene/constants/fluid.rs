@@ -49,7 +49,7 @@ impl FluidConstant {
             key: "surface_tension",
             description: "surface tension",
             quantity: Quantity::SurfaceTension,
-            start: AtStart::Never,
+            start: AtStart::PoleAtZero,
             place: |fluid| Some(&mut fluid.surface_tension),
         },
         Self {

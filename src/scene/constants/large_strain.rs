@@ -11,6 +11,11 @@ const MECHANICAL: [&str; 6] =
 /// Constants on which the heat flow depends.
 const THERMAL: [&str; 3] = ["specific_heat", "conductivity", "expansion"];
 
+/// Returns true if the constant acts by heat alone, which has not moved at time zero.
+pub fn is_thermal(constant: &MaterialConstant) -> bool {
+    THERMAL.contains(&constant.key) && constant.key != "expansion"
+}
+
 pub fn offered(body: &str, solid: &LargeStrain) -> Vec<OfferedConstant> {
     let matters = |constant: &MaterialConstant| {
         MECHANICAL.contains(&constant.key)

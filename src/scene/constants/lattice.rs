@@ -1,6 +1,7 @@
 //! The constants of lattices: a row for each.
 
 use super::{Constant, OfferedConstant};
+use crate::laws::AtStart;
 use crate::limits::Bounds;
 use crate::quantity::Quantity;
 use crate::scene::Lattice;
@@ -13,6 +14,7 @@ pub struct LatticeConstant {
     pub description: &'static str,
     pub quantity: Quantity,
     pub bounds: Bounds,
+    pub start: AtStart,
     place: fn(&mut Lattice) -> Option<&mut f64>,
 }
 
@@ -23,6 +25,7 @@ impl LatticeConstant {
             description: "Young's modulus",
             quantity: Quantity::Modulus,
             bounds: Bounds::from(0.0),
+            start: AtStart::PoleAtZero,
             place: |lattice| Some(&mut lattice.material.young),
         },
         Self {
@@ -30,6 +33,7 @@ impl LatticeConstant {
             description: "Poisson's ratio",
             quantity: Quantity::Ratio,
             bounds: Bounds::between(-1.0, 1.0 / 3.0),
+            start: AtStart::PolesAt([-1.0, 1.0 / 3.0]),
             place: |lattice| Some(&mut lattice.material.poisson),
         },
         Self {
@@ -37,6 +41,7 @@ impl LatticeConstant {
             description: "tensile strength",
             quantity: Quantity::Stress,
             bounds: Bounds::from(0.0),
+            start: AtStart::PoleAtZero,
             place: |lattice| lattice.material.softening.strength.as_mut(),
         },
         Self {
@@ -44,6 +49,7 @@ impl LatticeConstant {
             description: "opening of links at the knee of their softening",
             quantity: Quantity::Length,
             bounds: Bounds::from(0.0),
+            start: AtStart::PoleAtZero,
             place: |lattice| lattice.material.softening.openings.as_mut().map(|own| &mut own[0]),
         },
         Self {
@@ -51,6 +57,7 @@ impl LatticeConstant {
             description: "opening of links without force",
             quantity: Quantity::Length,
             bounds: Bounds::from(0.0),
+            start: AtStart::PoleAtZero,
             place: |lattice| lattice.material.softening.openings.as_mut().map(|own| &mut own[1]),
         },
         Self {
@@ -58,6 +65,7 @@ impl LatticeConstant {
             description: "extent across the plane",
             quantity: Quantity::Length,
             bounds: Bounds::from(0.0),
+            start: AtStart::PoleAtZero,
             place: |lattice| Some(&mut lattice.thickness),
         },
     ];

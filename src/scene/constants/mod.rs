@@ -86,16 +86,25 @@ impl Constant {
         }
     }
 
-    /// Dependence of outputs at time zero on the constant.
-    pub fn at_start(&self) -> AtStart {
+    /// Dependence of outputs at time zero on the constant of a body. Those of large strain have their mass, and are in
+    /// equilibrium, from the first.
+    pub fn at_start(&self, body: &Body) -> AtStart {
         match self {
+            Self::Material(constant) | Self::LayerMaterial { constant, .. }
+                if matches!(body, Body::LargeStrain(_))
+                    && constant.start == AtStart::Never
+                    && !large_strain::is_thermal(constant) =>
+            {
+                AtStart::PoleAtZero
+            }
             Self::InitialTemperature | Self::FlawDepth { .. } => AtStart::PoleAtZero,
             Self::Material(constant) | Self::LayerMaterial { constant, .. } => constant.start,
             Self::ContactResistance { .. } | Self::ConvectionCoefficient { .. } | Self::Bath(_) => {
                 AtStart::Never
             }
             Self::Droplet(constant) => constant.start,
-            Self::Filament(_) | Self::Lattice(_) => AtStart::Never,
+            Self::Filament(_) => AtStart::Never,
+            Self::Lattice(constant) => constant.start,
             Self::Fluid(constant) => constant.start,
         }
     }
