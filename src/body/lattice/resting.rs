@@ -45,7 +45,7 @@ impl RestingLatticeBody {
         let threads = threads(3 * plan.strip.count() > LARGE);
         let lattice = Lattice::new(plan, threads).map_err(|error| named(name, error))?;
         let density = own.material.density;
-        let area = lattice.particles().area * lattice.particles().places.len() as f64;
+        let area: f64 = lattice.particles().cells.iter().map(|cell| cell.area).sum();
         Ok(Self {
             name: name.to_owned(),
             start: lattice.initial_state(),

@@ -9,8 +9,8 @@ use crate::scene::{Flaw, Scene, Solid};
 const EARLIEST: f64 = 0.5529;
 
 /// The note on a shock of a body with flaws; `None` without toughness or fall of the surface temperature. `σ_s =
-/// EαΔT/(1 − ν)` is that of a half space whose surface falls at once to the coldest thing that touches it: no real
-/// surface is stressed more.
+/// EαΔT/(1 − ν)` is that of a half space of the first flaw's material whose surface falls at once to the coldest thing
+/// that touches it; no surface of it is stressed more.
 pub fn note(scene: &Scene, (name, solid): (&str, &Solid)) -> Option<String> {
     let flaw = scene.flaw.iter().find(|flaw| flaw.body == name)?;
     let drop = solid.initial_temperature - coldest(scene, (name, solid));
@@ -30,9 +30,11 @@ pub fn note(scene: &Scene, (name, solid): (&str, &Solid)) -> Option<String> {
 /// Coldest temperature that faces, a bath and drops bring to a solid at its start [K].
 fn coldest(scene: &Scene, (name, solid): (&str, &Solid)) -> f64 {
     let faces = solid.faces.values();
-    let of_faces = faces.filter_map(|face| {
-        face.temperature.or(face.convection.map(|convection| convection.ambient))
+    let of_faces = faces.flat_map(|face| {
+        let convective = face.convection.map(|convection| convection.ambient);
+        [face.temperature, convective, face.radiation.map(|radiation| radiation.ambient)]
     });
+    let of_faces = of_faces.flatten();
     let of_drops = scene
         .couplings_to(name)
         .filter_map(|coupling| Some(scene.first_contact(&coupling.from)?.temperature));

@@ -337,13 +337,13 @@ pub(super) fn at_particles(
     (links, damage): (&[Link], &[f64]),
     normals: impl Iterator<Item = f64>,
 ) -> Vec<(f64, f64)> {
-    let volume = particles.area * plan.sheet.thickness;
+    let thickness = plan.sheet.thickness;
     let mut at = vec![(0.0_f64, 0.0); particles.places.len()];
     for ((link, &damage), normal) in links.iter().zip(damage).zip(normals) {
-        let share = normal * link.length / (2.0 * volume);
         for end in link.ends {
+            let volume = particles.cells[end].area * thickness;
             at[end].0 = at[end].0.max(damage);
-            at[end].1 -= share / 3.0;
+            at[end].1 -= normal * link.length / (6.0 * volume);
         }
     }
     at
