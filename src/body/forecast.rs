@@ -40,7 +40,7 @@ impl Forecast {
     }
 }
 
-/// What a body needs.
+/// Memory and output that a body needs.
 pub struct Need<'a> {
     pub name: &'a str,
     /// [B]

@@ -1,4 +1,4 @@
-//! How many functions reach a place, counted before they are made.
+//! Numbers of functions that reach a place, counted before they are made.
 
 use super::Mesh;
 use super::reproducing::{Shape, spacings};
@@ -48,7 +48,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_lattice_has_the_functions_of_its_neighbours() {
+    fn nodes_of_a_lattice_have_the_functions_of_their_neighbours() {
         let mesh = Mesh::of_box(Form::Solid, [0.0; 3], [40.0, 40.0, 40.0], [40, 40, 40]);
         let inside = |count: f64, wanted: f64| (0.8 * wanted..wanted).contains(&count);
         assert!(inside(Supports::Balls(2.2).functions_at_nodes(&mesh), 33.0));

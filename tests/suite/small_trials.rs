@@ -44,7 +44,7 @@ fn estimates_are_as_large_as_errors() {
     }
 }
 
-/// Of a strip that two elements across make too stiff, kernels err by less with nodes as far apart.
+/// Of a strip that two elements across make too stiff, kernels have a smaller error with nodes as far apart.
 #[test]
 fn another_discretisation_that_errs_by_less_is_named() {
     let found = estimate(&strip("", 5e-3));

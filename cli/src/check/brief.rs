@@ -133,7 +133,7 @@ fn by_inputs(scene: &Scene, forecast: &Forecast) -> Vec<String> {
     scene.lattices().filter_map(of_lattice).chain(of_loads).collect()
 }
 
-/// Part of the time of a run from which on that of a load which crosses its range is told.
+/// Part of the time of a run from which on the report has that of a load which crosses its range.
 const NOTABLE: f64 = 0.2;
 
 /// [m]

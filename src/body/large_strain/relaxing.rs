@@ -1,4 +1,4 @@
-//! Steps in which stress relaxes, cut until strains err by little.
+//! Steps in which stress relaxes, which are cut until the error of strains is small.
 //!
 //! A step takes the elastic strains of points as linear in time. Under loads that last they creep, and a long step errs:
 //! by 9 % of the strain where one ten relaxation times long bears a constant load. So a step is compared with two halves

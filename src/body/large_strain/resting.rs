@@ -79,7 +79,7 @@ const HALVINGS_OF_CONCRETE: u32 = 14;
 /// Change of the damage function η of a point in a part of a step. A longer part may jump over the peak, to a second
 /// equilibrium whose damage is in one place: at most half of this below the peak the bound excludes it.
 const PASSED: f64 = 0.05;
-/// Part of the scene's tolerance that a step of relaxation may err by.
+/// Error that a step of relaxation may have, over the scene's tolerance.
 const OF_TOLERANCE: f64 = 0.1;
 /// Iterations of a usual step.
 const ITERATIONS: f64 = 5.0;

@@ -1,7 +1,7 @@
 //! A body alone, in equilibrium under small inputs, one after the other.
 //!
 //! Errors of the linear response to these by a mesh are those of any small load, and of the same size under larger ones.
-//! What a mesh lacks of plastic flow, of relaxation and of waves does not show.
+//! Errors of plastic flow, of relaxation and of waves do not show.
 
 use super::plan;
 use crate::inputs::InputLayout;

@@ -1,4 +1,4 @@
-//! How far relaxing points get over a step.
+//! Elastic strains of relaxing points over a step.
 
 use super::{Courses, Deformable};
 use crate::laws::solid::large_strain::{Deviator, MaxwellBranch, Relaxing};

@@ -184,7 +184,7 @@ fn extrapolated(own: &Responses, other: &Responses, factor: f64) -> Responses {
     own.iter().zip(other).map(of_trial).collect()
 }
 
-/// Note on another discretisation with the same distance of nodes that errs by less.
+/// Note on another discretisation with the same distance of nodes and a smaller error.
 fn better(
     trials: &SmallTrials,
     best: &Responses,
