@@ -108,11 +108,7 @@ fn clear(trials: &SmallTrials, watched: &[Watched], own: &Responses) -> (Vec<Wat
 /// A mesh to compare with: how much finer it is, in words, too, and the error of the body's own mesh over the difference
 /// to it.
 fn other_mesh(trials: &SmallTrials) -> Result<((f64, &'static str), f64), String> {
-    let takes_too_long = |finer: f64| {
-        let scene = trials.scene(finer, 0.0);
-        let of_one = forecast(&Scene { stop_time: scene.step, ..scene }).run_time();
-        of_one * trials.inputs.len() as f64 > LONGEST
-    };
+    let takes_too_long = |finer: f64| time(trials, finer) > LONGEST;
     if takes_too_long(1.0) {
         return Err("the mesh is too large to be tried".to_owned());
     }
@@ -123,6 +119,13 @@ fn other_mesh(trials: &SmallTrials) -> Result<((f64, &'static str), f64), String
         () if !takes_too_long(root) => ((root, "1.4 times as fine"), barely),
         () => ((1.0 / root, "1.4 times as coarse"), LINEAR.coarser[0]),
     })
+}
+
+/// Time of the trials on a mesh that is finer by a factor [s].
+fn time(trials: &SmallTrials, finer: f64) -> f64 {
+    let scene = trials.scene(finer, 0.0);
+    let of_one = forecast(&Scene { stop_time: scene.step, ..scene }).run_time();
+    of_one * trials.inputs.len() as f64
 }
 
 /// Outputs that respond in proportion to small inputs.
@@ -196,7 +199,7 @@ fn better(
         _ => [Mechanics::Fem, Mechanics::Rkpm],
     };
     let tried = others.into_iter().filter_map(|mechanics| {
-        let other = trials.with(mechanics)?;
+        let other = trials.with(mechanics).filter(|other| time(other, 1.0) <= LONGEST)?;
         let found = responses(&other, 1.0, watched).ok()?;
         let error = differences(best, &found, watched).into_iter().fold(0.0, f64::max);
         Some((mechanics, error))
