@@ -125,7 +125,7 @@ pub enum LatticeSupport {
 #[serde(deny_unknown_fields)]
 pub struct ThreePoint {
     /// Distance of the supports [m].
-    #[schemars(transform = length("the span").condition("within the length of the strip"))]
+    #[schemars(transform = length("the span").condition("a spacing or more from both ends of the strip"))]
     pub span: f64,
 }
 

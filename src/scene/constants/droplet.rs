@@ -36,7 +36,7 @@ impl DropletConstant {
             key: "sound_speed",
             description: "speed of sound of the model",
             quantity: Quantity::Velocity,
-            start: AtStart::Never,
+            start: AtStart::PoleAtZero,
             place: |droplet| {
                 let chosen = droplet.sound_speed();
                 Some(droplet.fluid.sound_speed.get_or_insert(chosen))
