@@ -302,6 +302,32 @@ def test_units_of_fmi_3_are_held_and_say_so(pack, folder):
     assert result["plate.centre.temperature"].attrs["units"] == "K"
 
 
+@pytest.mark.parametrize("options", [{"order": 2}, {"order": 1, "extrapolation": 2}], ids=str)
+def test_units_that_follow_straight_lines_get_the_mean_of_a_parabola(folder, options):
+    """What a store of 1 J/K has taken is what the master takes for it: ∫ 4t (1 − t) dt = 2/3 in the
+    one case; in the other a curve that is extrapolated from three values."""
+    rates = [[0.0, 1.0], [-4.0, 0.0]]
+    units = {
+        "swing": make(folder, "swing", rates, [0.0, 0.0], [1.0, 0.0], x=[1.0, 0.0]),
+        "store": make(folder, "line", [0.0], [1.0], [1.0], x=[0.0]),
+    }
+    links, inputs, step = [], {"store.u": lambda time: 4 * time * (1 - time)}, 1.0
+    if "extrapolation" in options:
+        links, inputs, step = [("swing.y", "store.u")], {}, 0.25
+    with Master(
+        units, links, inputs=inputs, scheme="jacobi", step=step, outputs=["store.y"], **options
+    ) as master:
+        engine, march, heat = master._march.engine, master._march, 0.0
+        march.begin(1.0)
+        place = master.participants["store"].place
+        while march.time < 1.0:
+            march.step(1.0)
+            heat += step * engine.arrived[place].item()
+            assert master.units["store"]["y"] == pytest.approx(heat, rel=1e-9)
+    if not links:
+        assert heat == pytest.approx(2 / 3, rel=1e-9)
+
+
 def test_units_that_cannot_go_back_take_single_steps_and_say_so(folder):
     units = lumps(folder, 1.0, 1.0)
     stuck = make(folder, "stuck", [-2.0], [2.0], [2.0], d=-2.0, states=False)

@@ -129,8 +129,8 @@ class Participant:
         if writer.second is not None:
             writer.first[:] = b
             writer.second[:] = c
-        else:  # the chord of the path
-            writer.first[:] = b + c * (size / 2)
+        else:  # the straight line of the same mean
+            writer.first[:] = b + c * (size / 3)
         writer()
         return means
 
