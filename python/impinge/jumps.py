@@ -9,9 +9,16 @@ import numpy as np
 
 _NEAR = 1e-9  # of a step: how far before and after a time "just before" and "just after" are
 _SHARE = 1e-6  # of all that a function has shown: what counts as a jump
-_STEEP = 0.1  # of the same: by how much a function may leave its parabola without a word
+_STEEP = 0.1  # of the same: by how much a function may leave the path of its input without a word
 _MOST = 64  # jumps that are looked for within one step
 _KNOWN = 64  # values that are kept
+_SHARES = (0.25, 0.5, 0.75)  # of a step: where a path is compared with its function
+# Weights of a path's first, middle and last value at these, by degree in time.
+_WEIGHTS = (
+    ((0.0, 0.0, 1.0),) * 3,
+    ((0.75, 0.0, 0.25), (0.5, 0.0, 0.5), (0.25, 0.0, 0.75)),
+    ((0.375, 0.75, -0.125), (0.0, 1.0, 0.0), (-0.125, 0.75, 0.375)),
+)
 
 
 class Watched:
@@ -30,7 +37,7 @@ class Watched:
         self._low: np.ndarray | None = None
         self._high: np.ndarray | None = None
         self._known: dict[float, np.ndarray] = {}  # values that the same step asks for again
-        self.range = self.tolerance = 0.0
+        self.range = self.rounding = self.tolerance = 0.0
 
     def __call__(self, time: float) -> np.ndarray:
         """The flat value at a time."""
@@ -51,12 +58,13 @@ class Watched:
 
     def _widen(self, low: np.ndarray, high: np.ndarray) -> None:
         """Takes in what the function has shown: `range`, how far apart values are, the largest of
-        all elements, and `tolerance`, the least change that is a jump, above what rounding makes.
+        all elements, and `tolerance`, the least change that is a jump, above what `rounding` makes.
         """
         self._low, self._high = low, high
         self.range = float((high - low).max(initial=0.0))
         largest = float(max(np.abs(low).max(initial=0.0), np.abs(high).max(initial=0.0)))
-        self.tolerance = _SHARE * self.range + 1e-13 * largest
+        self.rounding = 1e-13 * largest
+        self.tolerance = _SHARE * self.range + self.rounding
 
     def look(self, begin: float, end: float) -> None:
         """Takes values over a step, so that what is a jump is known from the first one on."""
@@ -79,14 +87,22 @@ class Watched:
         at, beside = self(time), self(time + distance)
         return at if _change(at, beside) <= self.tolerance else beside
 
-    def misfit(self, begin: float, end: float) -> float:
-        """How far u is from its parabola at a quarter and three quarters of a step."""
+    def misfit(self, begin: float, end: float, order: int = 2) -> float:
+        """How far u is from its path over a step, at a quarter, the half and three quarters of it.
+
+        order: degree of the path in time: the value at the end, the chord, or the parabola.
+        """
         size = end - begin
         first, last = self.after(begin, size), self.before(end, size)
-        quarter, middle, other = (self(begin + share * size) for share in (0.25, 0.5, 0.75))
-        early = 0.375 * first + 0.75 * middle - 0.125 * last
-        late = -0.125 * first + 0.75 * middle + 0.375 * last
-        return max(_change(quarter, early), _change(other, late))
+        inner = [self(begin + share * size) for share in _SHARES]
+        paths = (a * first + b * inner[1] + c * last for a, b, c in _WEIGHTS[order])
+        return max(_change(value, path) for value, path in zip(inner, paths, strict=True))
+
+    def error(self, begin: float, end: float, order: int) -> float:
+        """The misfit above rounding as a share of the range of all that u has shown."""
+        if self.is_constant or not self.range:
+            return 0.0
+        return max(self.misfit(begin, end, order) - self.rounding, 0.0) / self.range
 
     def jumps(self, begin: float, end: float) -> list[float]:
         """Times within a step just after which u is another than just before, ascending."""
@@ -129,11 +145,11 @@ class Watched:
             total += size / 6 * (values + 4 * self((first + last) / 2))
         return total / (end - begin)
 
-    def is_steep(self, begin: float, end: float) -> bool:
-        """Whether u leaves its parabola by more than a tenth of all that it has shown."""
+    def is_steep(self, begin: float, end: float, order: int = 2) -> bool:
+        """Whether u leaves its path by more than a tenth of all that it has shown."""
         if self.is_constant:
             return False
-        return self.misfit(begin, end) > _STEEP * self.range + self.tolerance
+        return self.misfit(begin, end, order) > _STEEP * self.range + self.tolerance
 
 
 def near(time: float, size: float) -> float:

@@ -149,3 +149,57 @@ def test_all_elements_are_watched_and_found_where_they_jump():
     assert watched.jumps(0.0, 1.0) == pytest.approx([0.3141, 0.7182], abs=1e-11)
     mean = [0.5, 0.3141 + 2 * 0.6859, 5 * 0.7182 + 4 * 0.2818]
     assert watched.mean(0.0, 1.0) == pytest.approx(mean, rel=1e-8)
+
+
+@pytest.mark.parametrize("step", [0.01, 0.5])
+@pytest.mark.parametrize(("order", "least"), [(0, 500), (1, 30), (2, 5)])
+def test_adaptive_steps_follow_functions_of_time(tmp_path, order, least, step):
+    """x' = sin πt, without any connection: 2/π after 1 s."""
+    unit = make(tmp_path, "count", [0.0], [1.0], [1.0], x=[0.0])
+    options = {"adaptive": True, "tolerance": 1e-3, "step": step, "order": order}
+    inputs = {"a.u": lambda t: np.sin(np.pi * t)}
+    with Master({"a": unit}, inputs=inputs, outputs=["a.y"], **options) as master:
+        result = master.run(1.0)
+    assert result["a.y"].values[-1] == pytest.approx(2 / np.pi, abs=1e-3)
+    assert least < result.attrs["steps"] < 10 * least
+    assert master.notes == []
+
+
+def test_adaptive_steps_take_no_rounding_for_a_change(tmp_path):
+    unit = make(tmp_path, "count", [0.0], [1.0], [1.0], x=[0.0])
+    inputs = {"a.u": lambda t: 300.0 * (1.0 + 1e-16 * np.sin(1e3 * t)), "b.u": lambda _: 1.0}
+    options = {"adaptive": True, "tolerance": 1e-6, "step": 0.1, "outputs": ["a.y"]}
+    with Master({"a": unit, "b": unit}, inputs=inputs, **options) as master:
+        result = master.run(1.0)
+    assert result["a.y"].values[-1] == pytest.approx(300.0, rel=1e-12)
+    assert result.attrs["steps"] < 10
+
+
+@pytest.mark.parametrize(
+    ("order", "function", "path"),
+    [
+        (0, lambda t: t, "constant"),
+        (1, lambda t: t * (1 - t), "straight line"),
+        (2, lambda t: t * (1 - t) * (1 - 2 * t), "parabola"),
+        (1, lambda t: t, None),
+        (2, lambda t: t * (1 - t), None),
+    ],
+)
+def test_functions_that_leave_the_path_of_their_input_are_told(tmp_path, order, function, path):
+    """One step over all that the function does; of the parabola the chord brings in nothing."""
+    unit = make(tmp_path, "count", [0.0], [1.0], [1.0], x=[0.0])
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        with Master({"a": unit}, inputs={"a.u": function}, step=1.0, order=order) as master:
+            master.run(1.0)
+    steep = [str(each.message) for each in told if "changes within the step" in str(each.message)]
+    assert len(steep) == (path is not None)
+    assert path is None or f"from 0 s as no {path} does" in steep[0]
+
+
+def test_ranges_of_functions_are_those_of_the_whole_run(tmp_path):
+    """The chord of cos t over a first short step misses a quarter of its change, not of all."""
+    unit = make(tmp_path, "count", [0.0], [1.0], [1.0], x=[0.0])
+    with Master({"a": unit}, inputs={"a.u": np.cos}, step=0.01) as master:
+        master.run(1.0)
+    assert master.notes == []

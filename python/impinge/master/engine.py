@@ -265,8 +265,11 @@ class Engine:
     # After a step
 
     def error(self, end: float, size: float) -> float:
-        """The largest error in time of the last step's paths, in shares of scales."""
-        worst = 0.0
+        """The largest error in time of the last step's paths: of connections as a share of their
+        scales, of functions of time as one of their ranges."""
+        begin = self.history.nodes[-1][0]
+        drives = (function.error(begin, end, self.order) for _, function in self.drives)
+        worst = max(drives, default=0.0)
         for link in self.links:
             if link.is_mean or not link.is_real or self._stale[link.place].any():
                 continue

@@ -21,6 +21,8 @@ from impinge.master.record import Record
 from impinge.master.stepping import Schedule
 from impinge.master.watch import Watch
 
+_PATHS = ("constant", "straight line", "parabola")  # of driven inputs over a step, by their degree
+
 
 @dataclass(kw_only=True)
 class March:
@@ -86,6 +88,11 @@ class March:
         self.record.add(self.time, self.balances)
         self.has_begun = True
 
+    def look(self, stop: float) -> None:
+        """Takes values of functions of time up to `stop`, so that their ranges are known."""
+        for _, function in self.drives:
+            function.look(self.time, stop)
+
     def _read_start(self, inputs: np.ndarray) -> None:
         for participant in self.participants.values():
             if participant.writer is not None:
@@ -119,11 +126,12 @@ class March:
         self.engine.means = None
         found = [(place, f, f.jumps(self.time, end)) for place, f in self.drives]
         jumping = [each for each in found if each[2]]
-        steep = [f.name for _, f, at in found if not at and f.is_steep(self.time, end)]
-        if steep:
+        order = self.engine.order
+        steep = [f.name for _, f, at in found if not at and f.is_steep(self.time, end, order)]
+        if steep and not self.adaptive:  # whose error rejects such steps
             self.notes.add(
-                f"{steep[0]} changes within the step from {self.time:.6g} s as no parabola does:"
-                " what it brings in is not exact",
+                f"{steep[0]} changes within the step from {self.time:.6g} s as no {_PATHS[order]}"
+                " does: what it brings in is not exact (shorter steps help)",
                 kind="steep",
             )
         if not jumping:

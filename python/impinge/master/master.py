@@ -281,6 +281,7 @@ class Master:
         march = self._march
         check_stop(stop, march.time)
         check_count(None if self.adaptive else march.schedule.step, stop - march.time)
+        march.look(stop)
         if not march.has_begun:
             march.begin(stop)
         bar = tqdm(
