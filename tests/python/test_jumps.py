@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from impinge import Master, Study
 from impinge.jumps import Watched
-from impinge.master import MasterWarning
+from impinge.master import Graded, MasterWarning
 from impinge.study import over_time
 from linear_unit import make
 from slab import AREA, SCENE
@@ -203,3 +203,25 @@ def test_ranges_of_functions_are_those_of_the_whole_run(tmp_path):
     with Master({"a": unit}, inputs={"a.u": np.cos}, step=0.01) as master:
         master.run(1.0)
     assert master.notes == []
+
+
+@pytest.mark.parametrize("jumps", [[], [0.35]], ids=["found", "declared"])
+@pytest.mark.parametrize(
+    ("options", "size"),
+    [({"step": 0.1, "graded": Graded(0.5, 2.0)}, 0.005), ({"step": 0.01, "adaptive": True}, 0.01)],
+    ids=["graded", "adaptive"],
+)
+def test_the_first_step_after_a_jump_is_as_short_as_that_after_the_start(
+    tmp_path, options, size, jumps
+):
+    """Whether the jump is declared, or found as its step is about to be taken."""
+    unit = make(tmp_path, "count", [0.0], [1.0], [1.0], x=[0.0])
+    inputs = {"a.u": lambda t: 1.0 if t < 0.35 else 2.0}
+    with Master({"a": unit}, inputs=inputs, jumps=jumps, outputs=["a.y"], **options) as master:
+        time = master.run(1.0).time.values
+    k = np.flatnonzero(np.isclose(time, 0.35, atol=1e-9)).item()
+    assert time[k + 1] - time[k] == pytest.approx(size, rel=1e-6)
+    if "graded" in options:
+        assert np.diff(time)[k : k + 4] == pytest.approx(np.diff(time)[:4], rel=1e-6)
+    else:
+        assert time[k] - time[k - 1] > 5 * size  # steps had grown

@@ -103,10 +103,11 @@ class March:
         end = self.schedule.end_of_step(self.time, stop)
         for _, function in self.drives:
             function.look(self.time, end)
+        if self._cross(end - self.time):
+            end = self.schedule.end_of_step(self.time, stop)
         end = self._cut(end)
         size = end - self.time
         is_jump = end in self.schedule.jumps
-        self._cross(size)
         for function in self.functions:
             function.ends_at_jump = is_jump
         self._save()
@@ -149,9 +150,9 @@ class March:
         )
         return end
 
-    def _cross(self, size: float) -> None:
-        """Goes over to what functions of time are just after the beginning of the step, where they
-        jump there."""
+    def _cross(self, size: float) -> bool:
+        """Goes over to what functions of time are just after the beginning of a step of `size`,
+        where they jump there; returns whether any does."""
         engine = self.engine
         new = engine.inputs.copy()
         engine.drive_after(new, self.time, size)
@@ -160,13 +161,14 @@ class March:
             for place, function in self.drives
             if not function.is_constant
         ):
-            return
+            return False
         engine.inputs[:] = new
         self.exchange(engine.inputs, self.iteration_tolerance)
         engine.begin(self.time)
         self.watch.jump()
         if self.adaptive or self.schedule.graded:
             self.schedule.restart(self.time)
+        return True
 
     def _save(self) -> None:
         for component in self.components:
