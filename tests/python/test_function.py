@@ -210,6 +210,34 @@ def test_what_a_function_makes_of_means_arrives_whole(folder):
     assert result.attrs["energy_residual.two.y"] == pytest.approx(0.0, abs=1e-12)
 
 
+def with_time(q, time):
+    return {"y": q * time}
+
+
+def times_temperature(q, temperature):
+    return {"y": q * temperature}
+
+
+@pytest.mark.parametrize(
+    ("f", "inputs"),
+    [(with_time, {}), (times_temperature, {"law.temperature": lambda t: t})],
+    ids=["time", "input"],
+)
+def test_what_a_function_makes_of_a_mean_and_of_time_is_no_mean(folder, f, inputs):
+    """q = 1 as a mean, times t: 1/2 after 1 s, with steps of any length."""
+    names = {"q": None, "temperature": None} if inputs else {"q": None}
+    units = {
+        "source": make(folder, "one", [0.0], [1.0], [1.0], f=[1.0], x=[0.0], u=1.0),
+        "law": Function(f, names, {"y": None}),
+        "store": make(folder, "store", [0.0], [1.0], [1.0], x=[0.0]),
+    }
+    links = [Connection("source.z", "law.q", mean=True), ("law.y", "store.u")]
+    with Master(units, links, step=0.1, inputs=inputs, outputs=["store.y"]) as master:
+        result = master.run(1.0)
+    assert result["store.y"].values[-1] == pytest.approx(0.5, rel=1e-9)
+    assert [link.is_mean for link in master.links] == [True, False]
+
+
 def test_algebraic_loops_of_functions_are_found_and_solved():
     """y₁ = 3 − 2 y₂ and y₂ = 1 + 0.9 y₁ at once: y₁ = 1/2.8. Outputs that follow nothing make no
     loop."""

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from impinge.function import FunctionUnit
+from impinge.function.signature import TIME
 from impinge.master.any_unit import AnyUnit
 from impinge.master.errors import MasterError
 from impinge.measure import Measure, conversion, parse
@@ -163,8 +164,13 @@ def _parsed(unit: str, what: str) -> Measure:
         raise MasterError(f"{what}: {error}") from None
 
 
-def links(connections: Iterable[Any], units: Mapping[str, AnyUnit]) -> list[Link]:
-    """Connections, or pairs of names, as links between these units."""
+def links(
+    connections: Iterable[Any], units: Mapping[str, AnyUnit], inputs: Mapping[str, Any]
+) -> list[Link]:
+    """Connections, or pairs of names, as links between these units.
+
+    inputs: values or functions of time of inputs that no connection sets.
+    """
     found = []
     for each in connections:
         connection = each if isinstance(each, Connection) else Connection(*each)
@@ -175,16 +181,23 @@ def links(connections: Iterable[Any], units: Mapping[str, AnyUnit]) -> list[Link
         if target in targets:
             raise MasterError(f"{target} is the target of two connections")
         targets.add(target)
-    _pass_means_on(found, units)
+    _pass_means_on(found, units, inputs)
     return found
 
 
-def _pass_means_on(links: list[Link], units: Mapping[str, AnyUnit]) -> None:
-    """Results of a function without a state that gets means alone are means over the step, too."""
+def _pass_means_on(
+    links: list[Link], units: Mapping[str, AnyUnit], inputs: Mapping[str, Any]
+) -> None:
+    """Results of a function without a state that gets means and constants alone are means over the
+    step, too."""
+    driven = {split(name, units)[0] for name, value in inputs.items() if callable(value)}
     memoryless = {
         name
         for name, unit in units.items()
-        if isinstance(unit, FunctionUnit) and not unit.function.has_state
+        if isinstance(unit, FunctionUnit)
+        and not unit.function.has_state
+        and TIME not in unit.function.takes
+        and name not in driven
     }
     open_links = [
         link for link in links if link.source_unit in memoryless and link.connection.mean is None

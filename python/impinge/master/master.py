@@ -117,7 +117,7 @@ class Master:
             self.adaptive, self.strict = adaptive, strict
             self.tolerance = (1e-3 if adaptive else 1e-6) if tolerance is None else tolerance
             check_jumps(jumps, start)
-            self.links = links(connections, self.units)
+            self.links = links(connections, self.units, inputs or {})
             check_memoryless(memoryless, self.units)
             self.participants, drives = join(
                 self.units, self.links, inputs or {}, memoryless, order
