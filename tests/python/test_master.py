@@ -62,6 +62,17 @@ def test_both_directions_converge_with_acceleration(folder, ratio, acceleration,
                 plain.run(2.0)
 
 
+def test_runs_without_convergence_go_on_from_what_units_have_borne(folder):
+    """Where the fixed point diverges, the guess after the last one is far off that."""
+    options = {"acceleration": "none", "max_iterations": 5, "strict": False, "order": 0}
+    with Master(lumps(folder, 1.0, 10.0), RING, step=4.0, **options) as master:
+        with pytest.warns(MasterWarning, match="does not converge"):
+            result = master.run(4.0)
+        place = master.participants["a"].place
+        assert master._march.engine.inputs[place] == pytest.approx(master.units["a"]["u"])
+    assert result.attrs["unconverged"] == 1
+
+
 def test_columns_of_earlier_steps_save_iterations(folder):
     counts = []
     for reuse in (0, 8):

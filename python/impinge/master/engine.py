@@ -234,6 +234,7 @@ class Engine:
             self.guess[places] = x
             self.guess[iterated] = component.acceleration.next(x[real], g[real], weight)
             last = x
+        self.guess[places] = last  # what units have borne, not what would be tried next
         raise NoConvergence(
             f"the residual is {residual.max():.2g}, not {tolerance:.2g}, of the scale after"
             f" {self.max_iterations} iterations"
