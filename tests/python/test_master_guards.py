@@ -106,6 +106,21 @@ def test_runs_stop_at_times_to_come(folder):
                 Master({"a": unit}, step=1e-12, adaptive=adaptive).run(1e6 + 1e-4)
 
 
+def test_units_with_steps_of_one_length_get_no_others(folder):
+    equal = make(folder, "equal", [-1.0], [1.0], [1.0], variable=False)
+    allowed = "a take steps of one length alone, 0.1 s; allowed: "
+    with pytest.raises(MasterError, match=f"jumps: 0.53 s .* {allowed}0.5 s or 0.6 s"):
+        Master({"a": equal}, step=0.1, jumps=[0.2, 0.53])
+    with Master({"a": equal}, step=0.1, jumps=[0.3], outputs=["a.y"]) as master:
+        with pytest.raises(MasterError, match=f"run: 0.25 s .* {allowed}0.2 s or 0.3 s"):
+            master.run(0.25)
+        master.run(0.4)
+        with pytest.raises(MasterError, match=f"run: 0.95 s .* {allowed}0.9 s or 1 s"):
+            master.run(0.95)
+        sizes = np.diff(master.run(1.0).time)
+    assert sizes == pytest.approx(np.full(10, 0.1), rel=1e-9)
+
+
 def test_one_unit_has_one_name_and_parameters_are_of_units_to_be_made(folder):
     link = python_unit(folder, "Link", LINK)
     with Unit(link) as unit:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Collection, Mapping, Sequence
-from math import isfinite, isnan
+from math import ceil, floor, isfinite, isnan
 from numbers import Real
 from typing import Any
 
@@ -13,6 +13,7 @@ import numpy as np
 from impinge.function import Function, FunctionUnit
 from impinge.master.any_unit import AnyUnit
 from impinge.master.errors import MasterError
+from impinge.master.stepping import SLIVER
 from impinge.unit import Unit
 from impinge.unit.variable import stem_of
 
@@ -87,6 +88,18 @@ def check_count(step: float | None, left: float) -> None:
         raise MasterError(
             f"run: {left / step:.3g} steps of {step:g} s; allowed: {left / MOST_STEPS:.3g} s or"
             f" more, for at most {MOST_STEPS:.0e} steps"
+        )
+
+
+def check_end(what: str, time: float, begin: float, step: float, fixed: Sequence[str]) -> None:
+    """Checks that a step ends at `time` [s], where units (`fixed`) take steps of one length alone,
+    from `begin` [s] on."""
+    count = (time - begin) / step
+    if fixed and abs(count - round(count)) > SLIVER:
+        before, after = (begin + step * whole for whole in (floor(count), ceil(count)))
+        raise MasterError(
+            f"{what}: {time!r} s is within a step, and {', '.join(fixed)} take steps of one length"
+            f" alone, {step:g} s; allowed: {before:.9g} s or {after:.9g} s"
         )
 
 

@@ -17,6 +17,7 @@ from impinge.master.assembly import components, join
 from impinge.master.checks import (
     check_choices,
     check_count,
+    check_end,
     check_jumps,
     check_lengths,
     check_memoryless,
@@ -61,7 +62,8 @@ class Master:
     extrapolation: degree of paths through earlier values alone; 0 holds inputs.
     adaptive: steps as long as the error allows; those that miss it are repeated shorter.
     graded: `Graded(over, exponent)`, or the time `over`: shorter steps after the start and jumps.
-    jumps: times [s] at which inputs jump; no path reaches across them.
+    jumps: times [s] at which inputs jump; no path reaches across them. Where units take steps of
+        one length, they are at ends of these, as is where a run stops.
     inputs: values, or functions of time [s], of inputs that no connection sets. Steps end where
         these jump, or hold the mean where units take steps of one length.
     energy: powers to balance: `Bond`s, or pairs (flux output, effort output).
@@ -140,6 +142,8 @@ class Master:
             sources = [link.connection.source for link in self.links]
             record = Record(self.units, [*sources, *outputs])
             step = self._proposed_step() if step is None else step
+            for jump in jumps:
+                check_end("jumps", jump, start, step, self._fixed)
         except BaseException:
             self.close()
             raise
@@ -249,9 +253,9 @@ class Master:
         if self.adaptive and stuck:
             self.adaptive = False
             self._notes.add(f"{_list(stuck)} cannot go back: steps of one length")
-        fixed = [name for name, unit in self.units.items() if not unit.can.variable_steps]
-        if fixed and (self.adaptive or graded is not None):
-            raise MasterError(f"{_list(fixed)} take steps of one length alone")
+        self._fixed = [name for name, unit in self.units.items() if not unit.can.variable_steps]
+        if self._fixed and (self.adaptive or graded is not None):
+            raise MasterError(f"{_list(self._fixed)} take steps of one length alone")
         self.held = [
             p.name for p in self.participants.values() if self.order and p.writer and not p.order
         ]
@@ -280,6 +284,7 @@ class Master:
         began = time.perf_counter()
         march = self._march
         check_stop(stop, march.time)
+        check_end("run", stop, march.time, march.schedule.step, self._fixed)
         check_count(None if self.adaptive else march.schedule.step, stop - march.time)
         march.look(stop)
         if not march.has_begun:

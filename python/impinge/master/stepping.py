@@ -8,6 +8,8 @@ from math import inf, ulp
 
 from impinge.master.errors import MasterError
 
+SLIVER = 1e-6  # of a step: what is left of the time and shorter is no step of its own
+
 
 @dataclass(frozen=True)
 class Graded:
@@ -88,8 +90,7 @@ class Schedule:
             while end <= time * (1 + 1e-14):
                 self._count += 1
                 end = self._begin + self.step * (self._count + 1)
-        # what is left of the time must not be a sliver
-        return limit if end > limit - 1e-6 * self.step else end
+        return limit if end > limit - SLIVER * self.step else end
 
     def propose(self, size: float, error: float, order: int, is_accepted: bool) -> None:
         """The next length from an error in shares of what is allowed, that grows as
