@@ -231,6 +231,23 @@ def test_adaptive_steps_keep_to_their_tolerance(folder):
     assert np.log(errors[0] / errors[2]) / np.log(steps[2] / steps[0]) > 1.7, rows
 
 
+@pytest.mark.parametrize("order", [0, 1, 2])
+def test_adaptive_steps_start_where_a_connected_value_is_zero(folder, order):
+    """x' = 1 and z' = x from zero: x changes by all that it is over any first step."""
+    integral = make(folder, "integral", [0.0], [1.0], [1.0], x=[0.0])
+    options = {"adaptive": True, "tolerance": 1e-2, "step": 0.1, "outputs": ["b.y"]}
+    options |= {"inputs": {"a.u": 1.0}, "order": order}
+    units = {"a": integral, "b": integral}
+    with Master(units, [("a.y", "b.u")], **options) as master:
+        result = master.run(1.0)
+    assert result["b.y"].values[-1] == pytest.approx(0.5, abs=1e-2)
+    assert result.attrs["steps"] < 1000
+    link = Connection("a.y", "b.u", scale=1e-30)
+    with Master(units, [link], **options) as master:
+        with pytest.raises(MasterError, match="still too long .*the error of b.u is .* `scale` of"):
+            master.run(1.0)
+
+
 def test_a_count_of_energy_agrees_with_the_paths_that_were_set(pack, folder):
     """A plate's own count of heat against what its tile was told to take over each step."""
     count = Bond("law.y", total="plate.block.heat_in")

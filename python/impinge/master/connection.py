@@ -29,8 +29,9 @@ class Connection:
     mean: whether the source is a mean over the last step, so that it belongs to the whole step
         rather than to its end. What is left out is read from the description of impinge's units.
     scale: of which residuals and errors are a share; if left out, the largest magnitude at the
-        start, at the ends of accepted steps and of what is judged, but not of earlier guesses. In
-        an algebraic loop it is the largest magnitude of what is judged, among the connections
+        start, at the ends of accepted steps and of what is judged, but not of earlier guesses. As
+        long as it is zero, adaptive steps compare with the nominal value of the target. In an
+        algebraic loop it is the largest magnitude of what is judged, among the connections
         whose targets have the same unit of measurement.
     unit: the unit of measurement of what `map` returns, such as "W/m2". With it, `map` takes the
         source's values in the source's own unit; without it, in the target's.
@@ -155,6 +156,12 @@ class Link:
             return self.connection.scale
         now = 0.0 if present is None else float(np.abs(present[self.place]).max())
         return max(self.largest, now) or self.nominal
+
+    def step_scale(self, present: np.ndarray) -> float:
+        """What errors in time are a share of: the scale, or, after zeros alone, the nominal value
+        if that is larger, since the first change from zero is as large as the scale."""
+        scale = self.scale(present)
+        return scale if self.connection.scale or self.largest else max(scale, self.nominal)
 
 
 def _parsed(unit: str, what: str) -> Measure:

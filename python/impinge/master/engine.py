@@ -265,18 +265,17 @@ class Engine:
 
     # After a step
 
-    def error(self, end: float, size: float) -> float:
-        """The largest error in time of the last step's paths: of connections as a share of their
-        scales, of functions of time as one of their ranges."""
+    def error(self, end: float, size: float) -> tuple[float, str]:
+        """The largest error in time of the last step's paths, and of which input: of connections as
+        a share of their scales, of functions of time as one of their ranges."""
         begin = self.history.nodes[-1][0]
-        drives = (function.error(begin, end, self.order) for _, function in self.drives)
-        worst = max(drives, default=0.0)
+        found = [(f.error(begin, end, self.order), f.name) for _, f in self.drives]
         for link in self.links:
             if link.is_mean or not link.is_real or self._stale[link.place].any():
                 continue
-            error = self._path_error(link, end, size)
-            worst = max(worst, float(error.max()) / link.scale(self.true))
-        return worst
+            error = float(self._path_error(link, end, size).max())
+            found.append((error / link.step_scale(self.true), link.connection.target))
+        return max(found, default=(0.0, ""))
 
     def _path_error(self, link: Link, end: float, size: float) -> np.ndarray:
         nodes = [(at, values[link.place]) for at, values in self.history.nodes]

@@ -179,7 +179,7 @@ class March:
     def _may_go_on(self, error: Exception, size: float) -> bool:
         """Returns true if a step that failed is passed over, false if a shorter one follows."""
         if self.adaptive and refused(error):
-            self._reject(size, error)
+            self._reject(size, str(error), error)
             self.schedule.shrink(size)
             return False
         if isinstance(error, NoConvergence):
@@ -192,21 +192,25 @@ class March:
         raise error
 
     def _is_good(self, end: float, size: float) -> bool:
-        error = self.engine.error(end, size) / self.tolerance
+        error, name = self.engine.error(end, size)
+        error /= self.tolerance
         guessed = any(c.guessed and not c.iterates for c in self.components)
         order = self.engine.extrapolation if guessed else self.engine.order
         self.schedule.propose(size, error, order, error <= 1)
         if error > 1:
-            self._reject(size)
+            self._reject(
+                size,
+                f"the error of {name} is {error:.2g} times the tolerance; a larger `tolerance`, or"
+                " `scale` of its Connection, allows more",
+            )
         return error <= 1
 
-    def _reject(self, size: float, error: Exception | None = None) -> None:
+    def _reject(self, size: float, why: str, error: Exception | None = None) -> None:
         self.rejected += 1
         if size < self.schedule.least:
-            why = "" if error is None else f": {error}"
             raise MasterError(
                 f"at {self.time:.6g} s a step of {size:.3g} s is still too long"
-                f" (least_step={self.schedule.least:.3g}){why}"
+                f" (least_step={self.schedule.least:.3g}): {why}"
             ) from error
         for participant in self.participants.values():
             participant.restore()
