@@ -106,6 +106,15 @@ def test_runs_stop_at_times_to_come(folder):
                 Master({"a": unit}, step=1e-12, adaptive=adaptive).run(1e6 + 1e-4)
 
 
+@pytest.mark.parametrize("start", [-1.0, -3.7, -1e4, 2.5])
+def test_steps_of_one_length_go_on_from_any_start(folder, start):
+    store = make(folder, "store", [-1.0], [1.0], [1.0])
+    with Unit(store, start_time=start) as unit:
+        with Master({"a": unit}, step=0.1, outputs=["a.y"]) as master:
+            time = master.run(start + 2.0).time.values
+    assert time == pytest.approx(start + 0.1 * np.arange(21), rel=1e-12, abs=1e-12)
+
+
 def test_units_with_steps_of_one_length_get_no_others(folder):
     equal = make(folder, "equal", [-1.0], [1.0], [1.0], variable=False)
     allowed = "a take steps of one length alone, 0.1 s; allowed: "

@@ -87,7 +87,7 @@ class Schedule:
             end = self._ends[0]
         else:
             end = self._begin + self.step * (self._count + 1)
-            while end <= time * (1 + 1e-14):
+            while end <= time + 1e-14 * abs(time):
                 self._count += 1
                 end = self._begin + self.step * (self._count + 1)
         return limit if end > limit - SLIVER * self.step else end
