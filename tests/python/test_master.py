@@ -248,6 +248,19 @@ def test_adaptive_steps_start_where_a_connected_value_is_zero(folder, order):
             master.run(1.0)
 
 
+def test_adaptive_steps_of_held_values_change_by_the_tolerance_at_most(folder):
+    """x = 1 + t in shares of 1: steps of 0.01 s for a tolerance of 0.01."""
+    units = {
+        "ramp": make(folder, "ramp", [0.0], [1.0], [1.0], x=[1.0], u=1.0),
+        "store": make(folder, "held", [0.0], [1.0], [1.0], x=[0.0]),
+    }
+    links = [Connection("ramp.y", "store.u", scale=1.0)]
+    options = {"adaptive": True, "tolerance": 1e-2, "step": 1e-3, "order": 0}
+    with Master(units, links, **options) as master:
+        change = np.diff(master.run(1.0)["ramp.y"].values)
+    assert 8e-3 < change.max() < 1.001e-2
+
+
 def test_a_count_of_energy_agrees_with_the_paths_that_were_set(pack, folder):
     """A plate's own count of heat against what its tile was told to take over each step."""
     count = Bond("law.y", total="plate.block.heat_in")

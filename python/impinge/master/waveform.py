@@ -47,12 +47,13 @@ def interpolation_error(nodes: Nodes, order: int, time: float, size: float) -> n
 
     nodes: all that are known, the last at the end `time + size` of the step. The next divided
     difference times the largest product of distances to the nodes of the path; a degree lower
-    where there are not enough nodes, and a quarter of the change where there are two alone, as of
-    a square root that begins there.
+    where there are not enough nodes. The whole change where values are held (`order` 0), and a
+    quarter of it where there are two nodes alone, as of a square root that begins there.
     """
+    share = 0.25 if order else 1.0
     order = min(order, len(nodes) - 2)
     if order < 1:
-        return np.abs(nodes[-1][1] - nodes[-2][1]) * (0.25 if order == 0 else 1.0)
+        return share * np.abs(nodes[-1][1] - nodes[-2][1])
     used = [at for at, _ in nodes[-(order + 1) :]]
     points = time + size * np.array([0.25, 0.5, 0.75])
     product = np.abs(np.prod([points - at for at in used], axis=0)).max()
