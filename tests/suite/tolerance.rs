@@ -403,6 +403,34 @@ fn estimates_of_heat_by_newtons_method_are_those_of_its_elements() {
 }
 
 /// A pad that covers a face takes few nodes beside a small spot.
+/// Places of a square field that stand for all of it lie in many of its rows and columns.
+#[test]
+fn fields_are_judged_all_over() {
+    for size in [15, 16, 32] {
+        let text = plate(
+            "disc = { radius = 2e-3, thickness = 0.5e-3 }",
+            [2700.0, 900.0, 200.0],
+            &format!(
+                "[[load]]\nname = \"spot\"\non = \"plate.top\"\ncarries = [\"heat_flux\"]\n\
+                 footprint = {{ gaussian = {{ radius = 3e-4 }} }}\nstart = {{ heat_flux = 1e6 }}\n\
+                 [[field]]\nname = \"map\"\non = \"plate.top\"\ngrid = [{size}, {size}]\n\
+                 gives = [\"temperature\"]\n"
+            ),
+        );
+        let (_, found) = estimates(&scene(&text));
+        let of_field = |name: &str| name.strip_prefix("map.temperature[").map(str::to_owned);
+        let places: Vec<String> =
+            found[0].outputs.iter().filter_map(|one| of_field(&one.name)).collect();
+        for axis in [0, 1] {
+            let along = |place: &String| {
+                place.trim_end_matches(']').split(',').nth(axis).map(str::to_owned)
+            };
+            let lines: std::collections::BTreeSet<_> = places.iter().filter_map(along).collect();
+            assert!(lines.len() >= 6, "{size}: {places:?}");
+        }
+    }
+}
+
 /// A face that hardly radiates takes Newton's method, and so linear elements on all nodes; layers keep their thickness.
 #[test]
 fn layers_that_radiate_are_judged_like_those_that_do_not() {
