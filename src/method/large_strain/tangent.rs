@@ -33,7 +33,9 @@ pub struct Stiffness {
 /// Nodes of a block over those of a group in it, at most, and most groups of a block.
 const ALIKE: f64 = 1.2;
 const MOST_GROUPS: usize = 32;
-/// Number of entries of blocks that are in memory at a time.
+/// Blocks that are in memory at a time, each with what it is made of.
+const MOST_TOGETHER: usize = 256;
+/// Entries of blocks that are in memory at a time.
 pub const TOGETHER: usize = 4_000_000;
 
 /// Terms of the matrix of a linear system.
@@ -150,7 +152,7 @@ impl Stiffness {
         let mut values = self.pattern.zeros();
         // Some blocks at a time, as all of them together are much larger than the matrix.
         let widest = self.blocks.iter().map(|block| block.columns.len()).max().unwrap_or(0);
-        let together = (TOGETHER / widest.max(1).pow(2)).clamp(1, self.blocks.len().max(1));
+        let together = (TOGETHER / widest.max(1).pow(2)).clamp(1, MOST_TOGETHER);
         let mut elements: Vec<Element> = (0..together).map(|_| Element::default()).collect();
         for first in (0..self.blocks.len()).step_by(together) {
             let elements = &mut elements[..together.min(self.blocks.len() - first)];
