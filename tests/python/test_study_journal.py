@@ -1,9 +1,14 @@
 """Journals and tables of studies that were damaged, forged, or are none of a study's."""
 
+import functools
 import hashlib
 import json
+import math
 import os
 import shutil
+import subprocess
+import sys
+import threading
 import warnings
 
 import numpy as np
@@ -11,6 +16,7 @@ import pytest
 from impinge import Study, UnitError
 from impinge.errors import StudyError
 from impinge.study import over_time
+from impinge.study.functions import hash_of_function
 from impinge.study.journal import Finished, Journal, read
 from linear_unit import make
 
@@ -215,3 +221,147 @@ def test_a_study_of_what_is_no_unit_ends_in_the_package_s_error(tmp_path):
     os.mkfifo(tmp_path / "a.toml")
     with pytest.raises(UnitError, match="a.toml: is no regular file"):
         Study(tmp_path / "a.toml", {"u": [1.0]}, outputs=["y"])
+
+
+# What a function holds
+
+FUNCTIONS = """
+import enum, functools, sys
+from dataclasses import dataclass
+import numpy as np
+from scipy.interpolate import Akima1DInterpolator, CubicSpline, PchipInterpolator
+from scipy.stats import norm
+from impinge.study.functions import hash_of_function
+
+VALUE = float(sys.argv[1])
+LIST, DICT, SET = [VALUE], {"a": VALUE}, {VALUE, 7.0, "a", "b"}
+X = np.linspace(0.0, 1.0, 5)
+SPLINE = CubicSpline(X, VALUE * X**2)
+
+def power(t, a=1.0):
+    return a * t
+
+@dataclass(slots=True)
+class Slotted:
+    a: float
+    def __call__(self, t):
+        return self.a * t
+
+class Kind(enum.Enum):
+    ONE = 1
+
+class Base:
+    gain = VALUE
+
+class Inherited(Base):
+    def __init__(self):
+        self.names = {"q", "r", "s", Kind.ONE}
+    def __call__(self, t):
+        return self.gain * t
+
+class Edited:
+    def __call__(self, t):
+        return POWER
+
+class Composed:
+    scaled = functools.partial(power, a=VALUE)
+    def __call__(self, t):
+        return self.scaled(t)
+
+class Cached:
+    @functools.lru_cache
+    def __call__(self, t):
+        return POWER
+
+class Derived:
+    @property
+    def gain(self):
+        return POWER
+    def __call__(self, t):
+        return self.gain * t
+
+calls = {
+    "partial": functools.partial(power, a=VALUE),
+    "cubic": CubicSpline(X, VALUE * X),
+    "pchip": PchipInterpolator(X, VALUE * X),
+    "akima": Akima1DInterpolator(X, VALUE * X),
+    "normal": norm(0.0, VALUE).pdf,
+    "slots": Slotted(VALUE),
+    "inherited": Inherited(),
+    "edited": Edited(),
+    "composed": Composed(),
+    "cached": Cached(),
+    "derived": Derived(),
+    "list": lambda t: LIST[0],
+    "dict": lambda t: DICT["a"],
+    "set": lambda t: max(SET),
+    "spline": lambda t: SPLINE(t),
+    "generator": lambda t: sum(VALUE for _ in range(3)),
+    "method": DICT.get,
+}
+for name, call in calls.items():
+    print(name, hash_of_function(call))
+"""
+
+
+def hashes(folder, value, seed):
+    """Hashes of all functions, in a process with its own order of sets."""
+    script = folder / "functions.py"
+    script.write_text(FUNCTIONS.replace("POWER", value))
+    environment = {**os.environ, "PYTHONHASHSEED": seed, "PYTHONPATH": os.pathsep.join(sys.path)}
+    command = [sys.executable, script, value]
+    ran = subprocess.run(command, env=environment, check=True, capture_output=True, text=True)
+    return dict(line.split() for line in ran.stdout.splitlines())
+
+
+def test_rows_belong_to_what_a_callable_holds_in_any_process(tmp_path):
+    one, again, other = (hashes(tmp_path, *a) for a in (("1.5", "1"), ("1.5", "2"), ("2.5", "1")))
+    assert again == one
+    assert not [name for name in one if one[name] == other[name]]
+
+
+def test_functions_keep_the_hashes_that_journals_have():
+    def ramp(t, p, gain=2.0, *, shift=3):
+        return gain * t + shift + p["a"] if t in {1, 2} else 0.0
+
+    assert hash_of_function(math.sin) == hashlib.sha256(b"3 sin").hexdigest()
+    assert hash_of_function(ramp) == hash_of_parts(ramp.__code__, [], (2.0,), {"shift": 3})
+
+
+def hash_of_parts(code, held, defaults, named):
+    """The hash of a function that holds numbers, written out."""
+
+    def words(*things):
+        return b"".join(f"{len(text)} {text}".encode() for text in things)
+
+    def whole(value):
+        if isinstance(value, frozenset):
+            return whole(sorted(map(repr, value)))
+        if isinstance(value, list | tuple):
+            return words(f"{type(value).__name__} {len(value)}") + b"".join(map(whole, value))
+        return words(repr(value))
+
+    names = (code.co_names, code.co_varnames, code.co_freevars)
+    said = [f"{len(code.co_code)} ".encode() + code.co_code, words(repr(names))]
+    said += [whole(constant) for constant in code.co_consts] + [whole(held), whole(defaults)]
+    said += [words(repr(key), repr(value)) for key, value in sorted(named.items())]
+    return hashlib.sha256(b"".join(said)).hexdigest()
+
+
+def test_rows_of_a_callable_that_tells_nothing_run_again():
+    lock = threading.Lock()
+
+    def locked(t):
+        with lock:
+            return t
+
+    assert hash_of_function(locked) != hash_of_function(locked)
+
+
+def test_rows_of_another_partial_are_not_taken(unit, tmp_path):
+    def tables(gain):
+        given = {"u": functools.partial(lambda t, gain: gain * t, gain=gain)}
+        study = Study(unit, {}, inputs=given, outputs=["y"], stop=1.0, step=0.5)
+        return study.run(1, folder=tmp_path)["y"].item()
+
+    assert tables(1.0) != tables(2.0)
