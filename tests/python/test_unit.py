@@ -256,6 +256,37 @@ def test_scenes_are_built_once_for_each_content(pack, folder, tmp_path):
         Unit(first, fmi=3)
 
 
+def test_a_scene_that_is_saved_while_it_is_built_makes_the_unit_of_its_key(
+    pack, tmp_path, monkeypatch
+):
+    monkeypatch.setenv("IMPINGE_CACHE", str(tmp_path / "cache"))
+    scene = tmp_path / "scene.toml"
+    text = (pack("drop").parent / "scene.toml").read_text()
+    scene.write_text(text)
+    module = sys.modules["impinge.unit.build"]
+
+    def save(content, folder):  # after the scene was read
+        scene.write_text(text.replace('"Drop"', '"Other"'))
+        return {}
+
+    with monkeypatch.context() as patched:
+        patched.setattr(module, "files_of", save)
+        built = build(scene)
+    scene.write_text(text)
+    assert build(scene) == built
+    with Unit(built) as unit:
+        assert unit.name == "Drop"
+
+
+def test_what_is_wrong_with_a_scene_is_said_of_its_own_file(tmp_path):
+    scene = tmp_path / "scene.toml"
+    scene.write_text("stop_time = 1\n")
+    with pytest.raises(UnitError) as refused:
+        build(scene)
+    assert f"{scene}:1: name: " in str(refused.value)
+    assert "cache" not in str(refused.value)
+
+
 def test_files_that_a_scene_names_belong_to_it(tmp_path):
     """G-code and parts in the scene's folder or below it; others are refused by `build-fmu`."""
     files_of = sys.modules["impinge.unit.build"].files_of

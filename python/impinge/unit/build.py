@@ -84,25 +84,24 @@ def build(scene: str | Path, *, fmi: int | None = None, text: str | None = None)
         content = read_bytes(scene, LARGEST_SCENE) if text is None else text.encode()
     files = files_of(content, scene.parent)
     program = find_program()
-    content += b"".join(b"\0" + name.encode() + b"\0" + file for name, file in files.items())
-    unit = cache_folder() / "units" / _key(content, program, fmi) / "unit.fmu"
+    parts = [content, *(b"\0" + name.encode() + b"\0" + file for name, file in files.items())]
+    unit = cache_folder() / "units" / _key(b"".join(parts), program, fmi) / "unit.fmu"
     if unit.is_file():
         return unit
     unit.parent.mkdir(parents=True, exist_ok=True)
     with LockedFolder(unit.parent) as folder:
-        source = scene
-        if text is not None:
-            source = folder.path / scene.name
-            source.write_text(text)
-            for name, file in files.items():
-                place = folder.path / name
-                place.parent.mkdir(parents=True, exist_ok=True)
-                place.write_bytes(file)
+        source = folder.path / scene.name  # what the key was made of, whatever is saved meanwhile
+        for name, file in {scene.name: content, **files}.items():
+            place = folder.path / name
+            place.parent.mkdir(parents=True, exist_ok=True)
+            place.write_bytes(file)
         made = folder.path / "unit.fmu"
         command = [program, source, "-o", made, "--fmi", str(fmi)]
         ran = subprocess.run(command, capture_output=True, text=True, check=False)
         if ran.returncode != 0:
-            raise UnitError(f"{scene} makes no unit", ran.stderr.strip().splitlines())
+            said = ran.stderr.replace(str(source), str(scene))
+            said = said.replace(str(folder.path), str(scene.parent))
+            raise UnitError(f"{scene} makes no unit", said.strip().splitlines())
         os.replace(made, unit)  # whole or not at all, however many processes build it
     return unit
 
