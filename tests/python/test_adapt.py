@@ -19,6 +19,7 @@ from impinge.adapt import (
     write_inputs,
 )
 from impinge.adapt.cli import main
+from impinge.adapt.laser import read_picture
 from impinge.surface import Placement, Series, Surface, SurfaceError
 from impinge.unit.build import find_program
 from PIL import Image
@@ -150,6 +151,28 @@ def test_maps_that_are_none_are_refused(tmp_path, text, options, words):
     path.write_text(text)
     with pytest.raises(SurfaceError, match=words):
         laser_frames([path], TILES, (2e-4, 1e-4), **options)
+
+
+@pytest.mark.parametrize("order", ["<", ">"])
+def test_pictures_of_sixteen_bits_keep_all_of_them(tmp_path, order):
+    values = np.array([[0, 300], [4000, 65535]])
+    mode = "I;16" if order == "<" else "I;16B"
+    picture = Image.frombytes(mode, (2, 2), values.astype(f"{order}u2").tobytes())
+    picture.save(tmp_path / "beam.tif")
+    assert Image.open(tmp_path / "beam.tif").mode == mode
+    _, frames = read_picture(tmp_path / "beam.tif")
+    np.testing.assert_array_equal(frames, [values])
+
+
+def test_pages_of_a_picture_are_frames(tmp_path):
+    values = np.arange(24).reshape(3, 2, 4)
+    pages = [Image.fromarray(page.astype("uint16")) for page in values]
+    pages[0].save(tmp_path / "beam.tif", save_all=True, append_images=pages[1:])
+    _, frames = read_picture(tmp_path / "beam.tif")
+    np.testing.assert_array_equal(frames, values)
+    pages[0].save(tmp_path / "beam.tif", save_all=True, append_images=[pages[1].resize((3, 3))])
+    with pytest.raises(SurfaceError, match="beam.tif: its pages have different sizes"):
+        read_picture(tmp_path / "beam.tif")
 
 
 # Spray

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -19,8 +20,9 @@ PICTURES = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".gif", ".pgm"}
 def read_picture(path: str | Path) -> tuple[np.ndarray | None, np.ndarray]:
     """Times [s], if the file has them, and frames of intensities, shape (frames, rows, columns).
 
-    Pictures (Pillow; colours are made grey), tables of numbers (.csv, .txt), .npy, and HDF5 files
-    with a dataset ``intensity`` (rows, columns) or (frames, rows, columns), and ``time``.
+    Pictures (Pillow; colours are made grey, pages are frames), tables of numbers (.csv, .txt),
+    .npy, and HDF5 files with a dataset ``intensity`` (rows, columns) or (frames, rows, columns),
+    and ``time``.
 
     Raises
     ------
@@ -77,10 +79,18 @@ def _read_hdf5(path: Path) -> tuple[np.ndarray | None, np.ndarray]:
 
 
 def _read_image(path: Path) -> np.ndarray:
-    Image = need("PIL.Image")
+    Image, ImageSequence = need("PIL.Image"), need("PIL.ImageSequence")
     with Image.open(path) as image:
-        grey = image if image.mode in ("L", "I", "F", "I;16") else image.convert("L")
-        return np.asarray(grey)
+        pages = [_grey(page) for page in ImageSequence.Iterator(image)]
+    if len({page.shape for page in pages}) > 1:
+        raise SurfaceError(f"{path}: its pages have different sizes, so they are no frames")
+    return np.array(pages)
+
+
+def _grey(image: Any) -> np.ndarray:
+    """Intensities of one page, with all their bits."""
+    is_grey = image.mode in ("L", "I", "F") or image.mode.startswith("I;16")
+    return np.array(image if is_grey else image.convert("L"), float)
 
 
 def laser_frames(
