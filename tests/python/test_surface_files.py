@@ -2,6 +2,7 @@
 
 import base64
 import json
+import re
 import struct
 import zlib
 from pathlib import Path
@@ -233,6 +234,29 @@ def test_units_and_scenes_tell_the_same_cells(scene, name, shape, location):
             assert surface.shape == shape
             assert surface.location == location
             assert surface.areas == pytest.approx(of_scene.areas, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("scene", "keys"),
+    [
+        ("tiles", "footprint = { tiles = { count = [2, 3], size = [6e-5, 9e-5] } }"),
+        ("tiles", "footprint = { rings = { count = 3, radius = 6e-5 } }"),
+        ("rings", "grid = [3, 5]"),
+    ],
+)
+def test_fields_of_scenes_lie_where_they_lie_in_the_unit(tmp_path, scene, keys):
+    """Cells whose middle is not the axis, and the grid in the square that a disc encloses."""
+    text = (SCENES / f"{scene}.toml").read_text()
+    body = re.search(r"\[body\.(\w+)\]", text)[1]
+    at = "" if "grid" in keys else "\nat = [5e-5, -2e-5]"
+    field = f'\n[[field]]\nname = "f"\non = "{body}.top"\n{keys}{at}\ngives = ["temperature"]\n'
+    path = tmp_path / "scene.toml"
+    path.write_text(text + field)
+    of_scene = Surface.of(path, "f")
+    with Unit(path) as unit:
+        of_unit = Surface.of(unit, "f")
+    assert of_scene.coordinates == pytest.approx(of_unit.coordinates, abs=1e-15)
+    assert of_scene.areas == pytest.approx(of_unit.areas, rel=1e-9)
 
 
 def test_points_of_a_field_are_where_the_unit_says():

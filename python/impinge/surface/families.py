@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import tomllib
 from dataclasses import replace
 from pathlib import Path
@@ -145,14 +146,11 @@ def _of_scene(path: Path, name: str) -> Surface:
             f"{path}: `{name}` is none of its loads, walls and fields: {', '.join(entries)}"
         )
     entry = entries[name]
-    start = entry.get("start", {})
-    at = float(start.get("x", 0.0)), float(start.get("y", 0.0))
+    at = _middle(entry)
     z = _height(scene, entry, path, name)
     footprint = entry.get("footprint", {})
     if "grid" in entry:
-        return Surface.grid(
-            entry["grid"], entry.get("size") or _extent(scene, entry, path, name)[:2], z=z
-        )
+        return Surface.grid(entry["grid"], _size(scene, entry, path, name), z=z)
     match footprint:
         case {"rings": {"count": count, "radius": radius}}:
             return Surface.rings(count, radius, at, z=z)
@@ -165,6 +163,24 @@ def _of_scene(path: Path, name: str) -> Surface:
     raise SurfaceError(
         f"{path}: `{name}` has no rings, tiles, disc or grid to map to, but {footprint or entry}"
     )
+
+
+def _middle(entry: dict[str, Any]) -> tuple[float, float]:
+    """Where the footprint of a field lies, and that of a load at first [m]."""
+    start = entry.get("start", {})
+    x, y = entry.get("at", (start.get("x", 0.0), start.get("y", 0.0)))
+    return float(x), float(y)
+
+
+def _size(
+    scene: dict[str, Any], entry: dict[str, Any], path: Path, name: str
+) -> tuple[float, float]:
+    """Extents of a grid [m]: its own, or those of the face; of the inscribed square of a disc."""
+    if "size" in entry:
+        return tuple(entry["size"])
+    x, y, _ = _extent(scene, entry, path, name)
+    is_round = "disc" in scene["body"][entry["on"].partition(".")[0]]["shape"]
+    return (x / math.sqrt(2.0), y / math.sqrt(2.0)) if is_round else (x, y)
 
 
 def _of_face(scene: dict[str, Any], name: str, path: Path) -> Surface:
