@@ -7,7 +7,8 @@ import pytest
 from impinge import Master, Study
 from impinge.jumps import Watched
 from impinge.master import Graded, MasterWarning
-from impinge.study import over_time
+from impinge.study import Table, over_time
+from impinge.study.signals import timeline
 from linear_unit import make
 from slab import AREA, SCENE
 
@@ -109,6 +110,42 @@ def test_units_with_steps_of_one_length_get_the_mean_and_it_is_said_once(tmp_pat
     assert len(told) == 1
     assert result["a.y"].values[-1] == pytest.approx(1.24, rel=1e-7)
     assert "jumps at 0.53" in result.attrs["notes"]
+
+
+@pytest.mark.parametrize("interpolates", [True, False])
+def test_units_with_steps_of_one_length_get_all_that_tables_bring(tmp_path, interpolates):
+    """x' = u counts what comes in; tables jump, bend and have pulses within steps of 1 s."""
+    unit = make(
+        tmp_path, "count", [0.0], [1.0], [1.0], x=[0.0], variable=False, interpolates=interpolates
+    )
+    tables = {
+        0.7: (Table([0.0, 0.7, 0.7, 10.0], [0.0, 0.0, 1.0, 1.0]), 3.3),
+        0.3: (Table([0.0, 0.3, 0.3, 0.45, 0.45, 4.0], [0.0, 0.0, 2.0, 2.0, 0.0, 0.0]), 0.3),
+        1.2: (Table([0.0, 1.2, 4.0], [0.0, 2.4, 2.4]), 1.2 * 1.2 + 2.8 * 2.4),
+        2.6: (Table([0.0, 2.6, 2.8], [1.0, 5.0, 2.0], hold=True), 2.6 + 0.2 * 5.0 + 1.2 * 2.0),
+    }
+    for time, (table, expected) in tables.items():
+        words = f"u bends or jumps at {time:g} s, within a step"
+        with pytest.warns(UserWarning, match=words) as told:
+            study = Study(unit, {}, inputs={"u": table}, outputs=["y"], stop=4.0, step=1.0)
+        assert len(told) == 1
+        assert study.run(1)["y"].item() == pytest.approx(expected, rel=1e-12)
+
+
+def test_tables_that_are_straight_within_steps_are_followed_without_a_word():
+    straight = Table([0.0, 0.5, 1.0, 1.5, 3.0], [0.0, 1.0, 2.0, 1.5, 0.0])
+    line = timeline(3.0, 1.0, {"u": straight}, False, {})
+    assert line.notes == ()
+    assert line.courses["u"].begins.ravel() == pytest.approx([0.0, 2.0, 1.0])
+    assert line.courses["u"].ends.ravel() == pytest.approx([2.0, 1.0, 0.0])
+
+
+def test_means_of_tables_are_those_of_all_elements():
+    table = Table([0.0, 0.7, 0.7, 2.0], [[0.0, 1.0], [0.0, 1.0], [1.0, 5.0], [1.0, 5.0]])
+    line = timeline(2.0, 1.0, {"u": table}, False, {})
+    for part in ("begins", "middles", "ends"):
+        rows = getattr(line.courses["u"], part)
+        assert rows == pytest.approx(np.array([[0.3, 2.2], [1.0, 5.0]]), rel=1e-12)
 
 
 def test_smooth_functions_do_not_jump_and_steep_ones_are_told(slab):

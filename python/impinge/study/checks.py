@@ -110,7 +110,7 @@ def _refusal_of_scene(study: Study, row: Row, known: dict[str, str]) -> str:
 
 
 def warn_of_inputs(study: Study) -> None:
-    """Says what functions of time do, in the first row, that steps cannot follow."""
+    """Says what functions and tables do, in the first row, that steps cannot follow."""
     experiment = study.experiment
     moving = {n: s for n, s in experiment.inputs.items() if callable(s) or isinstance(s, Table)}
     if not moving or not study.rows:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import itertools
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -10,6 +11,8 @@ from typing import Any
 import numpy as np
 
 from impinge.jumps import Watched
+
+_SAME = 1e-9  # of a step or of the largest value: what is no difference
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +49,32 @@ class Table:
         start, end = self.times[before - 1], self.times[before]
         weight = (time - start) / (end - start)
         return (1.0 - weight) * self.values[before - 1] + weight * self.values[before]
+
+    def mean(self, begin: float, end: float) -> np.ndarray:
+        """The mean from one time to another, exactly."""
+        edges = [begin, *np.unique(self._between(begin, end)), end]
+        parts = (
+            0.5 * (b - a) * (self.at(a, "right") + self.at(b, "left"))
+            for a, b in itertools.pairwise(edges)
+        )
+        return sum(parts, np.zeros(self.values.shape[1:])) / (end - begin)
+
+    def bend(self, begin: float, end: float) -> float | None:
+        """The first time within a step at which the table leaves the line from its beginning to its
+        end; `None` if it never does."""
+        apart = _SAME * (end - begin)
+        first, last = self.at(begin, "right"), self.at(end, "left")
+        allowed = _SAME * np.abs(self.values).max(initial=0.0)
+        for time in self._between(begin + apart, end - apart):
+            line = first + (time - begin) / (end - begin) * (last - first)
+            for side in ("left", "right"):
+                if np.abs(self.at(time, side) - line).max(initial=0.0) > allowed:
+                    return float(time)
+        return None
+
+    def _between(self, begin: float, end: float) -> np.ndarray:
+        first, last = np.searchsorted(self.times, begin, "right"), np.searchsorted(self.times, end)
+        return self.times[first:last]
 
 
 Function = Callable[..., Any]
@@ -91,6 +120,11 @@ class Course:
     middles: np.ndarray
     ends: np.ndarray
 
+    def hold(self, part: int, value: np.ndarray) -> None:
+        """Takes one value for the whole of a part."""
+        for rows in (self.begins, self.middles, self.ends):
+            rows[part] = value.ravel()
+
 
 def watched(name: str, function: Function, parameters: Mapping[str, Any]) -> Watched:
     """A function of time, and of the row's parameters where it asks for them."""
@@ -103,7 +137,7 @@ def watched(name: str, function: Function, parameters: Mapping[str, Any]) -> Wat
 class Timeline:
     """When steps begin and end [s], and what inputs do over them.
 
-    notes: what functions do that steps cannot follow, in words.
+    notes: what functions and tables do that steps cannot follow, in words.
     """
 
     times: np.ndarray
@@ -120,8 +154,8 @@ def timeline(
 ) -> Timeline:
     """Steps and what inputs that are no constants do over them.
 
-    Where a function of time jumps within a step, the step is cut there; the mean over the step is
-    held where the unit takes no steps of other lengths.
+    Where a function of time jumps within a step, or a table jumps or changes its slope, the step is
+    cut there; the mean over the step is held where the unit takes no steps of other lengths.
     """
     times = parts(stop, step, signals, cut)
     notes: list[str] = []
@@ -148,22 +182,30 @@ def timeline(
         times = _with_knots(times, np.concatenate([np.empty(0), *knots]), step)
     courses = {}
     for name, signal in signals.items():
-        if name not in functions:
+        mean: Callable[[float, float], np.ndarray]
+        if name in functions:
+            courses[name] = _course_of_function(functions[name], times)
+            inside = {k: at[0] for k, at in enumerate(jumps[name]) if at and not cut}
+            mean, does = functions[name].mean, "jumps"
+        else:
             assert isinstance(signal, Table)
             courses[name] = _course_of_table(signal, times)
-            continue
-        courses[name] = _course_of_function(functions[name], times)
-        inside = [] if cut else [k for k, at in enumerate(jumps[name]) if at]
+            inside = {} if cut else _bends(signal, times)
+            mean, does = signal.mean, "bends or jumps"
         for k in inside:
-            mean = functions[name].mean(times[k], times[k + 1])
-            for rows in (courses[name].begins, courses[name].middles, courses[name].ends):
-                rows[k] = mean
+            courses[name].hold(k, mean(times[k], times[k + 1]))
         if inside:
             notes.append(
-                f"input {name} jumps at {jumps[name][inside[0]][0]:.6g} s, within a step, and the"
-                " unit takes steps of one length: its mean over the step is held"
+                f"input {name} {does} at {next(iter(inside.values())):.6g} s, within a step, and"
+                " the unit takes steps of one length: its mean over the step is held"
             )
     return Timeline(times, courses, tuple(notes))
+
+
+def _bends(table: Table, times: np.ndarray) -> dict[int, float]:
+    """Steps within which a table is no line, and when it first leaves that."""
+    bends = ((k, table.bend(*step)) for k, step in enumerate(itertools.pairwise(times)))
+    return {k: time for k, time in bends if time is not None}
 
 
 def _course_of_table(table: Table, times: np.ndarray) -> Course:
@@ -210,5 +252,5 @@ def _with_knots(times: np.ndarray, extra: np.ndarray, step: float) -> np.ndarray
     extra = extra[(extra > 0.0) & (extra < times[-1])]
     if len(extra):
         nearest = times[np.abs(times[:, None] - extra[None, :]).argmin(axis=0)]
-        extra = extra[np.abs(nearest - extra) > 1e-9 * step]
+        extra = extra[np.abs(nearest - extra) > _SAME * step]
     return np.unique(np.concatenate([times, extra]))
