@@ -159,6 +159,14 @@ def test_a_realisation_meets_its_tolerance(bed):
     assert 0.0 < refused.value.error < 1e-8
 
 
+def test_a_unit_that_only_passes_on_has_a_model_without_dynamics(tmp_path):
+    """y = 0.7 u of each step, whatever stood before."""
+    unit = make(tmp_path, "Gain", [[-2.0]], [0.0], [0.0], d=0.7)
+    space = linear_map(unit, ["u"], ["y"], 0.5, 8).state_space(1e-10)
+    assert space.error == 0.0 and space.spectral_radius == 0.0
+    assert space.simulate(np.ones((3, 1))).ravel() == pytest.approx([0.7] * 3, rel=1e-12)
+
+
 def test_a_body_that_only_stores_is_an_integrator(scenes):
     found = linear_map(scenes["plain"], ["plate.top.flux"], ["plate.heat_in"], 0.5, 8)
     space = found.state_space(1e-10)

@@ -146,8 +146,9 @@ def realise(found: LinearMap, tolerance: float, order: int | None = None) -> Sta
     best = np.inf
     for n in [order] if order else range(1, count + 1):
         root = np.sqrt(values[:n])
+        scale = np.where(root > 0.0, root, 1.0)  # all are 0 without dynamics, and so is A
         space = StateSpace(
-            A=shifted[:n, :n] / root[:, None] / root,
+            A=shifted[:n, :n] / scale[:, None] / scale,
             B=root[:, None] * vt[:n, : len(given)] / given,
             C=received[:, None] * u[: len(received), :n] * root,
             D=found.direct,
