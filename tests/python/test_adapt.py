@@ -153,6 +153,14 @@ def test_maps_that_are_none_are_refused(tmp_path, text, options, words):
         laser_frames([path], TILES, (2e-4, 1e-4), **options)
 
 
+def test_a_pulse_counts_in_the_units_of_its_header(tmp_path):
+    (tmp_path / "map.csv").write_text("1,1\n1,1\n")
+    (tmp_path / "pulse.csv").write_text("time [ms],power [kW]\n0,0\n1,5\n2,0\n")
+    series = laser_frames([tmp_path / "map.csv"], TILES, (2e-4, 1e-4), pulse=tmp_path / "pulse.csv")
+    assert series.times == pytest.approx([0.0, 1e-3, 2e-3])
+    assert TILES.integral(series.values) == pytest.approx([0.0, 5e3, 0.0])
+
+
 @pytest.mark.parametrize("order", ["<", ">"])
 def test_pictures_of_sixteen_bits_keep_all_of_them(tmp_path, order):
     values = np.array([[0, 300], [4000, 65535]])

@@ -68,6 +68,22 @@ def test_tables_are_read_with_time_and_units(tmp_path):
         Surface.read(path)
 
 
+@pytest.mark.parametrize("unit", ["m", "mm", "um"])
+def test_units_in_headers_count_whatever_the_placement_says(tmp_path, unit):
+    path = tmp_path / "a.csv"
+    header = "x [mm],y [in],time [ms],q [kW/m2],T [degC],share [%],n [-]"
+    path.write_text(f"{header}\n3,1,500,2,20,5,7\n4,1,500,3,30,6,8\n")
+    surface, series = Surface.read_series(path, Placement(unit=unit))
+    places = np.array([[3e-3, 0.0254], [4e-3, 0.0254]])
+    assert surface.coordinates[:, :2] == pytest.approx(places, rel=1e-12)
+    assert series["q"].times.tolist() == [0.5]
+    found = {name: each.values[0].tolist() for name, each in series.items()}
+    assert found["q"] == [2e3, 3e3]
+    assert found["T"] == pytest.approx([293.15, 303.15], rel=1e-12)
+    assert found["share"] == pytest.approx([0.05, 0.06], rel=1e-12)
+    assert found["n"] == [7.0, 8.0]
+
+
 @pytest.mark.parametrize(
     ("text", "words"),
     [
@@ -75,6 +91,8 @@ def test_tables_are_read_with_time_and_units(tmp_path):
         ("x,y,q\n1,2,3\n\n1,2\n", "a.csv: line 4: 2 columns, where there are 3"),
         ("x,y,q\n1,2,nan\n", "a.csv: line 2: column q: nan is not finite"),
         ("1,2,3\n", "a.csv: line 1: names of columns are needed"),
+        ("x,y,q [frogs]\n1,2,3\n", r"a.csv: line 1: column q \[frogs\]: .*no unit"),
+        ("x [kg],y,q\n1,2,3\n", r"line 1: column x \[kg\]: .*quantities of different kinds"),
         ("x,x,q\n", "a.csv: line 1: column `x` stands twice"),
         ("x,z,q\n1,2,3\n", "a.csv: columns x and y are needed; there are x, z, q"),
         ("x,y,time\n1,2,0\n1,2,1\n3,3,1\n", "a.csv: times have different places"),

@@ -29,7 +29,8 @@ def drop_inputs(
         With file and drop, if two fall at one time, which inputs cannot tell apart.
     """
     path = Path(path)
-    names, rows = read_table(path)
+    place = placement or Placement()
+    names, rows = read_table(path, place.metres)
     missing = [column for column in ("x", "y", "time") if column not in names]
     if missing:
         raise SurfaceError(
@@ -49,7 +50,6 @@ def drop_inputs(
             f"{path}: drops {a} and {b} both fall at {times[twice[0]]} s; inputs "
             "release one at a time"
         )
-    place = placement or Placement()
     faced = place.to_face(np.column_stack([columns["x"], columns["y"], np.zeros(len(times))]))
     inputs = {"release": np.arange(1.0, len(times) + 1), "x": faced[:, 0], "y": faced[:, 1]}
     inputs |= {column: columns[column] for column in MORE if column in columns}

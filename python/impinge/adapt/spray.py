@@ -49,7 +49,8 @@ def spray_frames(
         units of the amount times the factor.
     """
     path = Path(path)
-    names, rows = read_table(path)
+    placement = placement or Placement()
+    names, rows = read_table(path, placement.metres)
     missing = [name for name in ("x", "y", amount) if name not in names]
     if missing:
         raise SurfaceError(
@@ -79,7 +80,7 @@ def spray_frames(
     place = np.floor(times / window + 1e-9).astype(int)
     first = place - place.min()
     places = np.column_stack([columns["x"], columns["y"], np.zeros(len(rows))])
-    placed = (placement or Placement()).to_face(places)
+    placed = placement.to_face(places)
     placed[:, 2] += target.z
     carry = Surface.points(placed).map_to(target, quantity="extensive", outside=outside)
     amounts = np.zeros((first.max() + 2, len(rows)))

@@ -8,32 +8,41 @@ from pathlib import Path
 
 import numpy as np
 
+from ..measure import Measure, conversion, parse
 from ..reading import read_bytes, reading
 from .errors import SurfaceError
+from .placement import METRES
+
+_UNIT = re.compile(r"\s+\[([^\]]*)\]\s*$")
+_AS_IT_IS = ("", "-", "1", "Pa.m(1/2)")  # pure numbers, and SI with an exponent that is not whole
+_KINDS = {"x": "m", "y": "m", "z": "m", "time": "s"}
 
 
-def read_table(path: Path) -> tuple[list[str], np.ndarray]:
+def read_table(path: Path, metres: float = 1.0) -> tuple[list[str], np.ndarray]:
     """Names of the columns without their units, and numbers, shape (rows, columns).
 
     The first line that is no comment (#) names the columns: ``x [mm], y [mm], heat_flux``. Columns
-    are parted by commas, semicolons or tabs.
+    are parted by commas, semicolons or tabs. Numbers of a column with a unit are converted to SI
+    units (kg, m, s, K, rad), those of x, y and z to lengths of `metres`; others stay as they are.
 
     Raises
     ------
     SurfaceError
-        With file, line and column of what is not a number.
+        With file, line and column of what is not a number, or of a unit that is unknown or of
+        another quantity.
     """
     with reading(path, SurfaceError):
-        return _read_table(path)
+        return _read_table(path, metres)
 
 
-def _read_table(path: Path) -> tuple[list[str], np.ndarray]:
+def _read_table(path: Path, metres: float) -> tuple[list[str], np.ndarray]:
     lines = _lines(path)
     if not lines:
         raise SurfaceError(f"{path}: is empty")
     line, header = lines[0]
     mark = next((m for m in (";", "\t") if m in header), ",")
-    names = [re.sub(r"\s+\[[^\]]*\]\s*$", "", n).strip() for n in _cells(header, mark)]
+    titles = _cells(header, mark)
+    names = [_UNIT.sub("", title).strip() for title in titles]
     if len(set(names)) < len(names):
         twice = next(n for n in names if names.count(n) > 1)
         raise SurfaceError(f"{path}: line {line}: column `{twice}` stands twice")
@@ -44,7 +53,26 @@ def _read_table(path: Path) -> tuple[list[str], np.ndarray]:
     rows = np.empty((len(lines) - 1, len(names)))
     for k, (line, text) in enumerate(lines[1:]):
         rows[k] = numbers(path, line, _cells(text, mark), names)
+    for k, (name, title) in enumerate(zip(names, titles, strict=True)):
+        factor, shift = _conversion(f"{path}: line {lines[0][0]}", name, title, metres)
+        rows[:, k] = factor * rows[:, k] + shift
     return names, rows
+
+
+def _conversion(place: str, name: str, title: str, metres: float) -> tuple[float, float]:
+    """Factor and shift from the unit in a column's title."""
+    found = _UNIT.search(title)
+    unit = found[1].strip() if found else ""
+    if unit in _AS_IT_IS:
+        return 1.0, 0.0
+    try:
+        given = Measure(parse("m").exponents, METRES[unit]) if unit in METRES else parse(unit)
+        taken = parse(_KINDS[name]) if name in _KINDS else Measure(given.exponents)
+        if name in ("x", "y", "z"):
+            taken = taken._replace(factor=metres)
+        return conversion(given, taken)
+    except ValueError as error:
+        raise SurfaceError(f"{place}: column {name} [{unit}]: {error}") from None
 
 
 def read_matrix(path: Path) -> np.ndarray:

@@ -42,7 +42,8 @@ def read(
     """A surface of a file, with its fields in ``surface.data``.
 
     ============================  ==============================================================
-    .csv, .txt                    columns x, y (and z) and fields: scattered points
+    .csv, .txt                    columns x, y (and z) and fields: scattered points; numbers
+                                  under a unit, ``q [kW/m2]``, become those of SI
     .h5, .hdf5                    ``points`` (n, 2 or 3), ``cells`` (m, 3 or 4) unless scattered,
                                   fields of n or m rows
     .vtp, .vts, .vtr              VTK's XML of polygons and of grids that are flat
@@ -206,7 +207,7 @@ class _Maker:
 
 
 def _read_csv(path: Path, make: _Maker) -> tuple[Surface, dict[str, Series]]:
-    names, rows = read_table(path)
+    names, rows = read_table(path, (make.placement or Placement()).metres)
     axes = [name for name in ("x", "y", "z") if name in names]
     if axes[:2] != ["x", "y"]:
         raise SurfaceError(f"{path}: columns x and y are needed; there are {', '.join(names)}")
