@@ -376,6 +376,7 @@ def test_sobol_indices_are_those_of_a_product(slab, tmp_path):
     with pytest.warns(UserWarning, match="same in all rows"):  # at time zero
         over = sobol_indices(table, ["top.temperature(t)"])
     assert over.sizes["output"] == table.sizes["time"]
+    assert over["output"].values[0] == "top.temperature(t)[1]"
     with pytest.raises(ValueError, match="Sobol"):
         sobol_indices(table.assign_attrs(sampler_kind="Grid"))
 

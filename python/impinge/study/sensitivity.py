@@ -29,8 +29,8 @@ def sobol_indices(
     Variables `first`, `total` and the half widths of their confidence intervals `first_confidence`
     and `total_confidence`, dims (output, parameter), no unit; `second` (output, parameter,
     parameter_2) where the study has rows for it. Outputs that are arrays have indices for every
-    element, called `name[i]`. Blocks of rows that belong together are left out, with a warning,
-    where one of them failed.
+    element, called `name[i]`, counted from 1. Blocks of rows that belong together are left out,
+    with a warning, where one of them failed.
 
     I. M. Sobol', Math. Comput. Simul. 55 (2001), doi 10.1016/S0378-4754(00)00270-6;
     A. Saltelli et al., Comput. Phys. Commun. 181 (2010), doi 10.1016/j.cpc.2009.09.018.
@@ -103,5 +103,5 @@ def _series(results: xr.Dataset, outputs: Sequence[str]) -> dict[str, np.ndarray
             series[name] = values
             continue
         for place in np.ndindex(values.shape[1:]):
-            series[f"{name}[{','.join(str(i) for i in place)}]"] = values[(slice(None), *place)]
+            series[f"{name}[{','.join(str(i + 1) for i in place)}]"] = values[(slice(None), *place)]
     return series
