@@ -22,6 +22,7 @@ from impinge.study import (
     Paired,
     Sobol,
     Table,
+    Uniform,
     maximum,
     minimum,
     of_run,
@@ -349,6 +350,15 @@ def test_samplers_fill_their_ranges(slab):
         sampler=Paired(),
     )
     assert [list(row.values()) for row in paired.design.rows] == [[1.0, 3.0], [2.0, 4.0]]
+
+
+@pytest.mark.parametrize("sampler", [LatinHypercube(32), Sobol(16)])
+@pytest.mark.parametrize("values", [("a", 1, 2.5), (1, 2.5, True), tuple(np.arange(3))])
+def test_samplers_take_levels_as_they_are(sampler, values):
+    parameters = {"a": Levels(values), "b": Uniform(0.0, 1.0)}
+    found = {repr(row["a"]) for row in sampler.design(parameters).rows}
+    assert found == {repr(row["a"]) for row in Grid().design(parameters).rows}
+    assert found == {repr(v.item() if isinstance(v, np.generic) else v) for v in values}
 
 
 def test_sobol_indices_are_those_of_a_product(slab, tmp_path):

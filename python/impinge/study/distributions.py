@@ -21,10 +21,13 @@ class Levels:
     def __post_init__(self) -> None:
         if not self.values:
             raise ValueError("no values (allowed: at least one)")
+        own = (v.item() if isinstance(v, np.generic) else v for v in self.values)
+        object.__setattr__(self, "values", tuple(own))
 
     def quantile(self, probability: np.ndarray) -> np.ndarray:
+        """Values as they are, whatever others are among them."""
         index = np.minimum((probability * len(self.values)).astype(int), len(self.values) - 1)
-        return np.array(self.values)[index]
+        return np.array(self.values, object)[index]
 
     def levels(self, _count: int) -> Sequence[Any]:
         return self.values
