@@ -217,6 +217,8 @@ def test_drops_beside_the_cells_are_told(tmp_path):
     assert total == pytest.approx({"brought": 4e-9, "given": 1e-9, "lost": 3e-9})
     assert TILES.integral(series.integral(0, 0)) == 0
     assert TILES.integral(series.values[0]) * 1e-5 == pytest.approx(1e-9)
+    _, total = spray_frames(path, TILES, window=1e-5, outside="drop", factor=-1.0)
+    assert total == pytest.approx({"brought": -4e-9, "given": -1e-9, "lost": -3e-9})
     path.write_text("x,y,mass\n0,0,-1\n")
     with pytest.raises(SurfaceError, match="drop 1: column mass: -1.0 is below 0"):
         spray_frames(path, TILES, window=1e-5)

@@ -89,7 +89,7 @@ def spray_frames(
     begin = window * (place.min() + np.arange(len(amounts)))
     total = {"brought": float(amounts.sum()), "given": float(given.sum())}
     lost = total["brought"] - total["given"]
-    total["lost"] = lost if lost > NOTHING * total["brought"] else 0.0
+    total["lost"] = lost if abs(lost) > NOTHING * abs(total["brought"]) else 0.0
     flux = given / target.areas / window
     if begin[0] > 0:  # nothing falls before
         begin, flux = np.append(0.0, begin), np.concatenate([np.zeros_like(flux[:1]), flux])
