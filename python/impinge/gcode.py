@@ -48,7 +48,7 @@ def write(
         raise ValueError(f"title = {title!r} has several lines (allowed: one)")
     section = 0.25 * np.pi * filament_diameter**2
     fed = 1e3 * np.cumsum(np.r_[0.0, volumes[1:]]) / section
-    shown = 1e3 * (places - [*origin, 0.0])
+    shown = np.round(1e3 * (places - [*origin, 0.0]), 6) + 0.0  # as it is printed, without -0
     lines = [_HEAD.format(title=title), "G0 X{:.6f} Y{:.6f} Z{:.6f}\n".format(*shown[0])]
     for n in range(1, count):
         duration = times[n] - times[n - 1]

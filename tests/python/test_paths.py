@@ -354,3 +354,11 @@ def test_what_makes_no_sense_is_refused(scene, tmp_path):
     ]:
         with pytest.raises(ValueError, match=words):
             gcode.write(tmp_path / "a.gcode", *wrong)
+
+
+def test_a_wait_is_written_where_places_differ_by_rounding_alone(tmp_path):
+    places = np.array([[0.0, 0.0, 0.0], [0.1 + 0.2, 0.0, 0.0], [0.3, -1e-17, 0.0]])
+    gcode.write(tmp_path / "a.gcode", places, np.arange(3.0), np.zeros(3))
+    *_, move, wait = (tmp_path / "a.gcode").read_text().splitlines()
+    assert move == "G0 X300.000000 Y0.000000 Z0.000000 F18000.000000"
+    assert wait == "G4 P1000.000000"
