@@ -140,6 +140,15 @@ def test_tables_that_are_straight_within_steps_are_followed_without_a_word():
     assert line.courses["u"].ends.ravel() == pytest.approx([2.0, 1.0, 0.0])
 
 
+@pytest.mark.parametrize("cut", [True, False])
+def test_tables_jump_where_steps_begin_but_for_rounding(cut):
+    assert 3 * 0.3 < 0.9
+    jump = Table([0.0, 0.9, 0.9, 5.0], [0.0, 0.0, 1.0, 1.0])
+    line = timeline(1.8, 0.3, {"u": jump}, cut, {})
+    for part in ("begins", "middles", "ends"):
+        assert getattr(line.courses["u"], part).ravel().tolist() == [0, 0, 0, 1, 1, 1]
+
+
 def test_means_of_tables_are_those_of_all_elements():
     table = Table([0.0, 0.7, 0.7, 2.0], [[0.0, 1.0], [0.0, 1.0], [1.0, 5.0], [1.0, 5.0]])
     line = timeline(2.0, 1.0, {"u": table}, False, {})

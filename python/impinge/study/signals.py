@@ -189,9 +189,10 @@ def timeline(
             mean, does = functions[name].mean, "jumps"
         else:
             assert isinstance(signal, Table)
-            courses[name] = _course_of_table(signal, times)
-            inside = {} if cut else _bends(signal, times)
-            mean, does = signal.mean, "bends or jumps"
+            table = _on_steps(signal, times, step)
+            courses[name] = _course_of_table(table, times)
+            inside = {} if cut else _bends(table, times)
+            mean, does = table.mean, "bends or jumps"
         for k in inside:
             courses[name].hold(k, mean(times[k], times[k + 1]))
         if inside:
@@ -200,6 +201,15 @@ def timeline(
                 " the unit takes steps of one length: its mean over the step is held"
             )
     return Timeline(times, courses, tuple(notes))
+
+
+def _on_steps(table: Table, times: np.ndarray, step: float) -> Table:
+    """The table with jumps where steps begin, if rounding alone sets them apart."""
+    after = np.clip(np.searchsorted(times, table.times), 1, len(times) - 1)
+    before, after = times[after - 1], times[after]
+    nearest = np.where(table.times - before < after - table.times, before, after)
+    is_same = np.abs(nearest - table.times) <= _SAME * step
+    return Table(np.where(is_same, nearest, table.times), table.values, table.hold)
 
 
 def _bends(table: Table, times: np.ndarray) -> dict[int, float]:
