@@ -426,7 +426,8 @@ fn prescribed(
 /// be.
 fn is_there(solid: &LargeStrain, face: FaceName) -> bool {
     let is_across = matches!(face, FaceName::Front | FaceName::Back);
-    !(is_across && solid.dimension == 2) && !is_mirrored(solid, face)
+    let is_flat = is_across && solid.dimension == 2;
+    !(is_flat || is_mirrored(solid, face))
 }
 
 /// Returns true if the face is the mirror image of the one opposite.
