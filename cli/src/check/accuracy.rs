@@ -11,8 +11,8 @@ use impinge::scene::Scene;
 const MOST: usize = 4;
 /// Most gaps of the estimates that are listed.
 const MOST_GAPS: usize = 3;
-/// Notes on gaps of an estimate begin with the first of these or have the second; the third is in one on a discretisation
-/// with a smaller error.
+/// Notes that are shown: on gaps of an estimate, which begin with the first of these or have the second, and on a
+/// discretisation with a smaller error, which have the third.
 const SHOWN: [&str; 3] = ["no estimate", "left out", "would err by"];
 
 /// Error of an output, or the largest of the elements of an array.
