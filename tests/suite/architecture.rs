@@ -100,7 +100,7 @@ fn only_bodies_and_scenes_know_kinds_of_bodies() {
     let lists =
         [".solids(", ".droplets(", ".reservoirs(", ".large_strains(", ".filaments(", ".lattices("];
     let solids = [".solid(\"", ".solid(&", ".solid(name"];
-    let kinds = [".droplet(", ".reservoir(", ".large_strain(", ".filament(", ".lattice("];
+    let kinds = [".droplet(", ".reservoir(", "scene.large_strain(", ".filament(", ".lattice("];
     let words = [
         "Body::Solid",
         "Body::Droplet",
