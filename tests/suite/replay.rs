@@ -465,9 +465,9 @@ fn states_that_contradict_themselves_are_refused() {
     let state = trial.state.clone();
     trial.model.check_state(&state).unwrap();
     let body = trial.model.scene().body.keys().position(|name| name == "drop").unwrap();
-    // Time, last step, asked, released, overlapping, films, heat, impulse; then contact, place, speed, temperature,
-    // rings.
-    let first = 10;
+    // Time, last step, asked, released, overlapping, films, heat, impulse, the last drop that has ended; then contact,
+    // place, speed, temperature, rings.
+    let first = 12;
     for (place, value, words) in [
         (0, -1.0, "a last step"),
         (1, 1.0, "a last step"),
@@ -476,6 +476,8 @@ fn states_that_contradict_themselves_are_refused() {
         (3, 3.0, "released of 5"),
         (4, 3.0, "on others"),
         (6, f64::NAN, "not finite"),
+        (10, 1.0, "a last drop"),
+        (11, 1e3, "a last drop"),
         (first, 1.0, "touches the wall"),
         (first, -1.0, "m/s and"),
         (first + 1, 1.0, "beyond what drops reach"),

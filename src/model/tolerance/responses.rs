@@ -65,12 +65,18 @@ pub fn watched(scene: &Scene, is_mechanical: bool) -> Vec<Watched> {
         let array = own.name.split('[').next().unwrap_or_default().to_owned();
         of_fields.entry(array).or_default().push(place);
     }
-    // A sample that follows no period, as the rows and columns of a grid have.
     let most = (PLACES / of_fields.len().max(1)).max(LEAST_PLACES);
-    let taken: BTreeSet<usize> = of_fields
-        .values()
-        .flat_map(|places| sample(places.len(), most).into_iter().map(|n| places[n]))
-        .collect();
+    let of_field = |places: &Vec<usize>| -> Vec<usize> {
+        let is_of_rows = all[places[0]].name.contains(',');
+        let stride = places.len().div_ceil(most);
+        let taken: Vec<usize> = match is_of_rows {
+            // A sample that follows no period, as rows and columns have.
+            true => sample(places.len(), most),
+            false => (stride - 1..places.len()).step_by(stride).collect(),
+        };
+        taken.into_iter().map(|n| places[n]).collect()
+    };
+    let taken: BTreeSet<usize> = of_fields.values().flat_map(of_field).collect();
     let is_taken = |(place, own): &(usize, Watched)| !is_of_grid(own) || taken.contains(place);
     all.into_iter().enumerate().filter(is_taken).map(|(_, own)| own).collect()
 }

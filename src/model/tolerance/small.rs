@@ -96,7 +96,7 @@ fn clear(trials: &SmallTrials, watched: &[Watched], own: &Responses) -> (Vec<Wat
     let is_clear = |place: &usize| {
         let is_force =
             matches!(watched[*place].quantity, Quantity::Force | Quantity::ForcePerLength);
-        !is_force || own.iter().any(|rows| rows[1][*place].abs() >= least)
+        !is_force || own.iter().flatten().any(|row| row[*place].abs() >= least)
     };
     let places: Vec<usize> = (0..watched.len()).filter(is_clear).collect();
     let of_row = |row: &Vec<f64>| places.iter().map(|&place| row[place]).collect();
@@ -148,7 +148,7 @@ fn watched(scene: &Scene) -> Vec<Watched> {
     own.collect()
 }
 
-/// Changes of outputs by each input, trial by trial: a row of zeros, and one of changes.
+/// Changes of outputs by each input: a row of zeros, and one of changes for each trial.
 fn responses(
     trials: &SmallTrials,
     finer: f64,
@@ -173,7 +173,9 @@ fn responses(
     }
     let rest = all.remove(0);
     let change = |row: Vec<f64>| row.iter().zip(&rest).map(|(a, b)| a - b).collect();
-    Ok(all.into_iter().map(|row| vec![vec![0.0; rest.len()], change(row)]).collect())
+    // One experiment, as an input that leaves an output alone has no range of its own.
+    let changes = all.into_iter().map(change);
+    Ok(vec![std::iter::once(vec![0.0; rest.len()]).chain(changes).collect()])
 }
 
 /// Responses of the limit of fine meshes, by the error over the difference to another mesh.
