@@ -93,12 +93,18 @@ impl SmallTrials {
         Some(self.scene.large_strain(&self.name)?.spacing())
     }
 
-    /// Usual size of a force, or of one per metre of depth: that of an even strain.
-    pub fn force(&self) -> f64 {
+    /// Usual size of an output: forces, or those per metre of depth, of an even strain, and the curvature by which it
+    /// changes its sign across the body; zero of others.
+    pub fn size(&self, quantity: Quantity) -> f64 {
         let Some(solid) = self.scene.large_strain(&self.name) else { return 0.0 };
         let [shear, _] = stiffness_and_weight(solid);
         let across = solid.smallest();
-        STRAIN * shear * if solid.dimension == 2 { across } else { across * across }
+        match quantity {
+            Quantity::Force => STRAIN * shear * across * across,
+            Quantity::ForcePerLength => STRAIN * shear * across,
+            Quantity::Curvature => STRAIN / across,
+            _ => 0.0,
+        }
     }
 
     /// Places of the inputs among those of the scene.

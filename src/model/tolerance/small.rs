@@ -18,7 +18,7 @@ const LONGEST: f64 = 1.0;
 pub const OVER: f64 = 5.0;
 /// Part of the error of a mesh from which on another discretisation is no better.
 const BETTER: f64 = 0.5;
-/// Part of the usual force of a trial below which a force is zero but for rounding.
+/// Part of the usual size of an output below which it is zero but for rounding.
 const FAINT: f64 = 1e-6;
 
 /// Estimates the errors of the outputs of a solid of large strain; `None` for other bodies.
@@ -90,13 +90,11 @@ fn of_trials(
     Ok((outputs.collect(), notes))
 }
 
-/// Outputs without forces that are zero but for rounding, and their responses.
+/// Outputs without forces and curvatures that are zero but for rounding, and their responses.
 fn clear(trials: &SmallTrials, watched: &[Watched], own: &Responses) -> (Vec<Watched>, Responses) {
-    let least = FAINT * trials.force();
     let is_clear = |place: &usize| {
-        let is_force =
-            matches!(watched[*place].quantity, Quantity::Force | Quantity::ForcePerLength);
-        !is_force || own.iter().flatten().any(|row| row[*place].abs() >= least)
+        let least = FAINT * trials.size(watched[*place].quantity);
+        own.iter().flatten().any(|row| row[*place].abs() >= least)
     };
     let places: Vec<usize> = (0..watched.len()).filter(is_clear).collect();
     let of_row = |row: &Vec<f64>| places.iter().map(|&place| row[place]).collect();
