@@ -88,7 +88,7 @@ class Watched:
         return at if _change(at, beside) <= self.tolerance else beside
 
     def misfit(self, begin: float, end: float, order: int = 2) -> float:
-        """How far u is from its path over a step, at a quarter, the half and three quarters of it.
+        """Returns how far u is from its path at a quarter, the half and three quarters of a step.
 
         order: degree of the path in time: the value at the end, the chord, or the parabola.
         """
@@ -146,7 +146,7 @@ class Watched:
         return total / (end - begin)
 
     def is_steep(self, begin: float, end: float, order: int = 2) -> bool:
-        """Whether u leaves its path by more than a tenth of all that it has shown."""
+        """Returns True if u leaves its path by more than a tenth of the range that it has had."""
         if self.is_constant:
             return False
         return self.misfit(begin, end, order) > _STEEP * self.range + self.tolerance

@@ -260,7 +260,7 @@ def test_ranges_of_functions_are_those_of_the_whole_run(tmp_path):
 def test_the_first_step_after_a_jump_is_as_short_as_that_after_the_start(
     tmp_path, options, size, jumps
 ):
-    """Whether the jump is declared, or found as its step is about to be taken."""
+    """It is the same for a jump that is declared and for one that is found before its step."""
     unit = make(tmp_path, "count", [0.0], [1.0], [1.0], x=[0.0])
     inputs = {"a.u": lambda t: 1.0 if t < 0.35 else 2.0}
     with Master({"a": unit}, inputs=inputs, jumps=jumps, outputs=["a.y"], **options) as master:

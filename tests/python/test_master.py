@@ -63,7 +63,7 @@ def test_both_directions_converge_with_acceleration(folder, ratio, acceleration,
 
 
 def test_runs_without_convergence_go_on_from_what_units_have_borne(folder):
-    """Where the fixed point diverges, the guess after the last one is far off that."""
+    """Where the fixed point diverges, the guess after the last iteration is far from that."""
     options = {"acceleration": "none", "max_iterations": 5, "strict": False, "order": 0}
     with Master(lumps(folder, 1.0, 10.0), RING, step=4.0, **options) as master:
         with pytest.warns(MasterWarning, match="does not converge"):
@@ -345,8 +345,8 @@ def test_units_of_fmi_3_are_held_and_say_so(pack, folder):
 
 @pytest.mark.parametrize("options", [{"order": 2}, {"order": 1, "extrapolation": 2}], ids=str)
 def test_units_that_follow_straight_lines_get_the_mean_of_a_parabola(folder, options):
-    """What a store of 1 J/K has taken is what the master takes for it: ∫ 4t (1 − t) dt = 2/3 in the
-    one case; in the other a curve that is extrapolated from three values."""
+    """A store of 1 J/K takes the heat that the master accounts for: ∫ 4t (1 − t) dt = 2/3 in the
+    first case, and that of a curve through three earlier values in the second."""
     rates = [[0.0, 1.0], [-4.0, 0.0]]
     units = {
         "swing": make(folder, "swing", rates, [0.0, 0.0], [1.0, 0.0], x=[1.0, 0.0]),

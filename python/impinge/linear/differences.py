@@ -141,7 +141,7 @@ def _quantum(levels: list[_Level]) -> np.ndarray:
 
 
 def _tableau(rows: list[np.ndarray], first: int) -> list[list[np.ndarray]]:
-    """Neville's tableau of values that err by powers `first`, `first` + 2, … of the change."""
+    """Returns Neville's tableau of values with errors of orders `first`, `first` + 2, …"""
     tableau: list[list[np.ndarray]] = []
     for number, value in enumerate(rows):
         row = [value]

@@ -158,8 +158,8 @@ class Link:
         return max(self.largest, now) or self.nominal
 
     def step_scale(self, present: np.ndarray) -> float:
-        """What errors in time are a share of: the scale, or, after zeros alone, the nominal value
-        if that is larger, since the first change from zero is as large as the scale."""
+        """Returns the scale of errors in time: after zeros alone, at least the nominal value, since
+        the first change from zero is as large as the scale."""
         scale = self.scale(present)
         return scale if self.connection.scale or self.largest else max(scale, self.nominal)
 

@@ -150,7 +150,7 @@ class _Description:
         self.add([given, state, list(items or ()), list(pairs or ())])
 
     def _add_named(self, thing: Any) -> None:
-        """Adds what its name tells, with the function that it wraps, if any."""
+        """Adds the name of a thing, and the function that it wraps, if any."""
         if not hasattr(thing, "__wrapped__"):
             pickle.dumps(thing)  # fails where the name belongs to another thing or to none
         if hasattr(thing, "__dict__"):
@@ -196,14 +196,14 @@ def _unwrapped(value: Any) -> list[Any]:
 
 
 def _is_called_by_name(value: Any) -> bool:
-    """Whether a global is a function, a class or a module rather than data, or holds nothing."""
+    """Returns True if a global is a function, a class or a module rather than data, or None."""
     held = getattr(value, "__self__", None)
     holds_data = held is not None and not isinstance(held, type | types.ModuleType)
     return value is None or (hasattr(value, "__name__") and not holds_data)
 
 
 def _is_installed(module: str | None) -> bool:
-    """Whether a module belongs to Python or to an installed package, which nobody edits."""
+    """Returns True if a module belongs to Python or to an installed package, which nobody edits."""
     if not module or module.partition(".")[0] in sys.stdlib_module_names:
         return bool(module) and module != "__main__"
     file = getattr(sys.modules.get(module), "__file__", None)

@@ -1,4 +1,4 @@
-"""Hashes that tell one row from all others: of its unit and of all that is done with it."""
+"""Hashes that identify a row by its unit and by all that is done with it."""
 
 from __future__ import annotations
 

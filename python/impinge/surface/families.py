@@ -166,7 +166,7 @@ def _of_scene(path: Path, name: str) -> Surface:
 
 
 def _middle(entry: dict[str, Any]) -> tuple[float, float]:
-    """Where the footprint of a field lies, and that of a load at first [m]."""
+    """Returns the middle of the footprint of a field, or of a load at the start [m]."""
     start = entry.get("start", {})
     x, y = entry.get("at", (start.get("x", 0.0), start.get("y", 0.0)))
     return float(x), float(y)

@@ -54,9 +54,9 @@ struct StepTimes {
 /// metal that yields, in plane strain, in plane stress and in space, with `fem`, `rkpm` (`nsni`, `gauss`), `efg` and
 /// `sph`, of 121 to 10 200 nodes in a plane and 125 to 3400 in space. They are sheared by 15 % and 1 % in three steps,
 /// or set in motion by a traction for six. To these come bars of 4 to 16 elements across, bent and drawn out by 0.2 to
-/// 3 times the yield strain a step, or at once by a jump. Of 168 forecasts, 164 are within a factor of two of the
-/// measured times; the others are 0.32 to 2.5 times these. `benches/forecasts.py "bent steel"` repeats four cases, whose
-/// forecasts are 0.63 to 1.1 times the measured times.
+/// 3 times the yield strain a step, or at once by a jump. Of 168 forecasts, 164 were within a factor of two of the
+/// measured times at the fit; the others were 0.32 to 2.5 times these. Pairs have become faster since: `OF_KERNELS`.
+/// `benches/forecasts.py "bent steel"` repeats four cases, whose forecasts are 0.63 to 1.1 times the measured times.
 ///
 /// Newton's method takes some 3 iterations for a step of rubber and 10 to 20 where metal yields. Each of these
 /// evaluates the law up to four times, as lengths of its steps are tried.

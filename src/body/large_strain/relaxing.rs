@@ -1,8 +1,8 @@
 //! Steps in which stress relaxes, which are cut until the error of strains is small.
 //!
-//! A step takes the elastic strains of points as linear in time. Under loads that last they creep, and a long step errs:
-//! by 9 % of the strain where one ten relaxation times long bears a constant load. So a step is compared with two halves
-//! of it, whose error is a third of the difference, and halved until that is within the tolerance.
+//! A step takes the elastic strains of points as linear in time. Under loads that last they creep, and the error of a
+//! step grows with its length. So a step is compared with two halves of it, whose error is a third of the difference,
+//! and halved until that is within the tolerance.
 //!
 //! Most steps need no halves: with the largest change D of an elastic strain over a step of x relaxation times, strains
 //! deviate from a straight line by `D min(x, 1)/8` at most, as a parabola does.

@@ -79,8 +79,10 @@ const HALVINGS_OF_CONCRETE: u32 = 14;
 /// Change of the damage function η of a point in a part of a step. A longer part may jump over the peak, to a second
 /// equilibrium whose damage is in one place: at most half of this below the peak the bound excludes it.
 const PASSED: f64 = 0.05;
-/// Error that a step of relaxation may have, over the scene's tolerance.
+/// Error that a step of relaxation may have, over the scene's tolerance, and the least that is kept. Forces of an
+/// equilibrium balance to 1e-10, so that shorter steps would compare rounding.
 const OF_TOLERANCE: f64 = 0.1;
+const LEAST_TOLERANCE: f64 = 1e-8;
 /// Iterations of a usual step.
 const ITERATIONS: f64 = 5.0;
 /// Part of the distance between two faces by which sides may bulge beyond them without a warning.
@@ -167,7 +169,7 @@ impl RestingBody {
             warming,
             advised,
             bend_test: BendTest::of((name, solid)),
-            tolerance: OF_TOLERANCE * scene.fidelity.tolerance,
+            tolerance: (OF_TOLERANCE * scene.fidelity.tolerance).max(LEAST_TOLERANCE),
         };
         Ok(own)
     }

@@ -73,6 +73,8 @@ pub(super) struct Block {
     pub nodes: Vec<u32>,
     /// Unknowns of the nodes, axis by axis, which are the columns of the block's matrix.
     pub columns: Vec<Column>,
+    /// The same as rows and columns of the pattern.
+    lines: Vec<Line>,
 }
 
 /// An unknown of a block.
@@ -115,7 +117,7 @@ impl Stiffness {
         let block = |(groups, nodes): (Range<usize>, Vec<u32>)| {
             let mut columns = columns(&unknowns, &nodes);
             columns.sort_by_key(|column| (column.place % 3, column.place));
-            Block { groups, nodes, columns }
+            Block { groups, nodes, lines: lines(&columns), columns }
         };
         let blocks: Vec<Block> = assembled(body).into_iter().map(block).collect();
         let nodes_of_blocks = blocks.iter().map(|block| &block.nodes).chain(couplings);
@@ -160,9 +162,8 @@ impl Stiffness {
                 element.compute(body, terms.of_group, &self.blocks[first + n]);
             });
             for (n, element) in elements.iter().enumerate() {
-                let Block { nodes, columns, .. } = &self.blocks[first + n];
-                let block = (first + n, nodes.len());
-                self.pattern.add(&mut values, block, &lines(columns), element.values());
+                let Block { nodes, lines, .. } = &self.blocks[first + n];
+                self.pattern.add(&mut values, (first + n, nodes.len()), lines, element.values());
             }
         }
         for (n, load) in terms.loads.iter().enumerate() {

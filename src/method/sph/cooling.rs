@@ -63,7 +63,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_step_is_so_long_that_fluid_becomes_colder_than_the_air() {
+    fn steps_of_any_length_leave_fluid_warmer_than_the_air() {
         let phases = Phases { melting: [-20.0, -5.0], latent: 240.0, heat: 0.05, conduction: 1.9 };
         for part in [1e-3, 0.3, 20.0, 1e9] {
             let air = -90.0;

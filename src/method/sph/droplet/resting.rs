@@ -124,7 +124,7 @@ impl DropletSph {
     }
 }
 
-/// Lists the particles at rest beside those that have left the cloud of a run, by their numbers.
+/// Returns the numbers of the particles at rest in the cloud of a run.
 fn held_beside(cloud: &Cloud) -> Vec<usize> {
     let Some(origin) = &cloud.origin else { return Vec::new() };
     (0..cloud.len()).filter(|&i| origin.hold[i] == ASLEEP).collect()
