@@ -64,21 +64,21 @@ macro_rules! number {
 number!(f32);
 number!(f64);
 
-/// The dimensionless shape of a kernel. No formula branches, so that loops over many pairs compile to vector
+/// The dimensionless shape of a kernel. No formula branches on q, so that loops over many pairs compile to vector
 /// instructions.
-pub trait Shape {
+pub trait Shape: Copy + Sync {
     /// w(q), zero for q ≥ 1.
-    fn value<N: Number>(q: N) -> N;
+    fn value<N: Number>(self, q: N) -> N;
 
     /// w′(q)/q: zero for q ≥ 1; smooth kernels have a finite limit at q = 0.
-    fn slope_over_q<N: Number>(q: N) -> N;
+    fn slope_over_q<N: Number>(self, q: N) -> N;
 
     /// F′(q)/q of F = w′(q)/q, which completes the second derivatives of W:
     /// `∂²w/∂x_a∂x_b = F δ_ab + (F′/q) x_a x_b`.
-    fn bend_over_q<N: Number>(q: N) -> N;
+    fn bend_over_q<N: Number>(self, q: N) -> N;
 
     /// σ_d for d = 1, 2, 3.
-    const NORMALISATION: [f64; 3];
+    fn normalisation(self) -> [f64; 3];
 }
 
 /// A kernel by name.
@@ -96,29 +96,53 @@ pub enum Kernel {
     QuinticSpline,
 }
 
-/// Calls a generic function with the shape of a kernel.
-#[macro_export]
-macro_rules! with_kernel_shape {
+/// Evaluates an expression with the shape of a kernel.
+macro_rules! with_shape {
     ($kernel:expr, $shape:ident => $call:expr) => {
         match $kernel {
-            $crate::kernel::Kernel::WendlandC2 => {
-                type $shape = $crate::kernel::WendlandC2;
+            Kernel::WendlandC2 => {
+                let $shape = WendlandC2;
                 $call
             }
-            $crate::kernel::Kernel::WendlandC4 => {
-                type $shape = $crate::kernel::WendlandC4;
+            Kernel::WendlandC4 => {
+                let $shape = WendlandC4;
                 $call
             }
-            $crate::kernel::Kernel::CubicSpline => {
-                type $shape = $crate::kernel::CubicSpline;
+            Kernel::CubicSpline => {
+                let $shape = CubicSpline;
                 $call
             }
-            $crate::kernel::Kernel::QuinticSpline => {
-                type $shape = $crate::kernel::QuinticSpline;
+            Kernel::QuinticSpline => {
+                let $shape = QuinticSpline;
                 $call
             }
         }
     };
+}
+
+/// Shape of a kernel that is chosen at run time, for one code of all kernels. Each value costs a branch.
+#[derive(Debug, Clone, Copy)]
+pub struct Chosen(pub Kernel);
+
+impl Shape for Chosen {
+    #[inline(always)]
+    fn value<N: Number>(self, q: N) -> N {
+        with_shape!(self.0, shape => shape.value(q))
+    }
+
+    #[inline(always)]
+    fn slope_over_q<N: Number>(self, q: N) -> N {
+        with_shape!(self.0, shape => shape.slope_over_q(q))
+    }
+
+    #[inline(always)]
+    fn bend_over_q<N: Number>(self, q: N) -> N {
+        with_shape!(self.0, shape => shape.bend_over_q(q))
+    }
+
+    fn normalisation(self) -> [f64; 3] {
+        with_shape!(self.0, shape => shape.normalisation())
+    }
 }
 
 impl Kernel {
@@ -127,12 +151,12 @@ impl Kernel {
 
     /// W(r, H) [1/m^d].
     pub fn value(self, r: f64, support: f64, dimension: usize) -> f64 {
-        with_kernel_shape!(self, S => self.scale(support, dimension) * S::value(r / support))
+        self.scale(support, dimension) * Chosen(self).value(r / support)
     }
 
     /// The factor F of ∇W = F · (r_i − r_j), i.e. (1/r) ∂W/∂r [1/m^(d+2)]; never positive.
     pub fn gradient_factor(self, r: f64, support: f64, dimension: usize) -> f64 {
-        let slope = with_kernel_shape!(self, S => S::slope_over_q(r / support));
+        let slope = Chosen(self).slope_over_q(r / support);
         self.scale(support, dimension) * slope / (support * support)
     }
 
@@ -149,7 +173,7 @@ impl Kernel {
 
     /// σ_d / H^d [1/m^d].
     pub fn scale(self, support: f64, dimension: usize) -> f64 {
-        with_kernel_shape!(self, S => S::NORMALISATION[dimension - 1] / support.powi(dimension as i32))
+        Chosen(self).normalisation()[dimension - 1] / support.powi(dimension as i32)
     }
 }
 
@@ -207,13 +231,17 @@ mod tests {
     #[test]
     fn bend_is_the_derivative_of_the_gradient_factor() {
         for kernel in Kernel::ALL {
-            with_kernel_shape!(kernel, S => for q in [0.05, 0.2, 0.45, 0.6, 0.75, 0.95, 1.2] {
+            let shape = Chosen(kernel);
+            for q in [0.05, 0.2, 0.45, 0.6, 0.75, 0.95, 1.2] {
                 let step = 1e-6;
-                let ahead: f64 = S::slope_over_q(q + step);
-                let slope = (ahead - S::slope_over_q(q - step)) / (2.0 * step);
-                let scale = S::slope_over_q(0.01f64).abs();
-                assert!((slope - S::bend_over_q(q) * q).abs() < 1e-6 * scale, "{kernel:?} at {q}");
-            });
+                let ahead: f64 = shape.slope_over_q(q + step);
+                let slope = (ahead - shape.slope_over_q(q - step)) / (2.0 * step);
+                let scale = shape.slope_over_q(0.01f64).abs();
+                assert!(
+                    (slope - shape.bend_over_q(q) * q).abs() < 1e-6 * scale,
+                    "{kernel:?} at {q}"
+                );
+            }
         }
     }
 
@@ -267,13 +295,16 @@ mod tests {
                 assert!((f64::from(single) - double).abs() < 2e-6 * scale, "{q}");
             };
             for kernel in Kernel::ALL {
-                with_kernel_shape!(kernel, S => {
-                    check(S::value(q as f32), S::value(q), S::value(0.0f64));
-                    let near = S::slope_over_q(0.01f64).abs();
-                    check(S::slope_over_q(q as f32), S::slope_over_q(q), near);
-                    let bend = (S::bend_over_q(0.01f64) * 0.01).abs() + near;
-                    check((S::bend_over_q(q as f32)) * q as f32, S::bend_over_q(q) * q, 10.0 * bend);
-                });
+                let shape = Chosen(kernel);
+                check(shape.value(q as f32), shape.value(q), shape.value(0.0f64));
+                let near = shape.slope_over_q(0.01f64).abs();
+                check(shape.slope_over_q(q as f32), shape.slope_over_q(q), near);
+                let bend = (shape.bend_over_q(0.01f64) * 0.01).abs() + near;
+                check(
+                    shape.bend_over_q(q as f32) * q as f32,
+                    shape.bend_over_q(q) * q,
+                    10.0 * bend,
+                );
             }
         }
     }

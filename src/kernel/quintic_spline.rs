@@ -12,10 +12,8 @@ use super::{Number, Shape};
 pub struct QuinticSpline;
 
 impl Shape for QuinticSpline {
-    const NORMALISATION: [f64; 3] = [1.0 / 40.0, 63.0 / (478.0 * PI), 9.0 / (40.0 * PI)];
-
     #[inline(always)]
-    fn value<N: Number>(q: N) -> N {
+    fn value<N: Number>(self, q: N) -> N {
         let s = N::constant(3.0) * q;
         let power = |reach: f64| {
             let t = (N::constant(reach) - s).max(N::constant(0.0));
@@ -26,7 +24,7 @@ impl Shape for QuinticSpline {
     }
 
     #[inline(always)]
-    fn slope_over_q<N: Number>(q: N) -> N {
+    fn slope_over_q<N: Number>(self, q: N) -> N {
         let s = N::constant(3.0) * q;
         // Inside s = 1 the pieces leave s (120 − 120 s² + 50 s³) · (−1), whose quotient is exact.
         let near = s * s * (N::constant(120.0) - N::constant(50.0) * s) - N::constant(120.0);
@@ -41,7 +39,7 @@ impl Shape for QuinticSpline {
     }
 
     #[inline(always)]
-    fn bend_over_q<N: Number>(q: N) -> N {
+    fn bend_over_q<N: Number>(self, q: N) -> N {
         let s = N::constant(3.0) * q;
         let near = N::constant(19440.0) - N::constant(12150.0) * s;
         let power = |reach: f64| {
@@ -54,5 +52,9 @@ impl Shape for QuinticSpline {
         let t = s.max(N::constant(0.5));
         let far = N::constant(-405.0) * (slope * t - value) / (t * t * t);
         s.choose_below(1.0, near, far)
+    }
+
+    fn normalisation(self) -> [f64; 3] {
+        [1.0 / 40.0, 63.0 / (478.0 * PI), 9.0 / (40.0 * PI)]
     }
 }

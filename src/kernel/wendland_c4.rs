@@ -11,26 +11,28 @@ use super::{Number, Shape};
 pub struct WendlandC4;
 
 impl Shape for WendlandC4 {
-    const NORMALISATION: [f64; 3] = [27.0 / 16.0, 9.0 / PI, 495.0 / (32.0 * PI)];
-
     #[inline(always)]
-    fn value<N: Number>(q: N) -> N {
+    fn value<N: Number>(self, q: N) -> N {
         let t = (N::constant(1.0) - q).max(N::constant(0.0));
         let t2 = t * t;
         t2 * t2 * t2 * (N::constant(1.0) + q * (N::constant(6.0) + N::constant(35.0 / 3.0) * q))
     }
 
     #[inline(always)]
-    fn slope_over_q<N: Number>(q: N) -> N {
+    fn slope_over_q<N: Number>(self, q: N) -> N {
         let t = (N::constant(1.0) - q).max(N::constant(0.0));
         let t2 = t * t;
         N::constant(-56.0 / 3.0) * t2 * t2 * t * (N::constant(1.0) + N::constant(5.0) * q)
     }
 
     #[inline(always)]
-    fn bend_over_q<N: Number>(q: N) -> N {
+    fn bend_over_q<N: Number>(self, q: N) -> N {
         let t = (N::constant(1.0) - q).max(N::constant(0.0));
         let t2 = t * t;
         N::constant(560.0) * t2 * t2
+    }
+
+    fn normalisation(self) -> [f64; 3] {
+        [27.0 / 16.0, 9.0 / PI, 495.0 / (32.0 * PI)]
     }
 }

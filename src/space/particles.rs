@@ -184,7 +184,7 @@ impl<'a> Around<'a> {
         let of = |&other: &u32| {
             let y = axes.map(|a| (self.nodes[other as usize][a] - at[a]) / reach);
             let q = y.iter().map(|y| y * y).sum::<f64>().sqrt();
-            let weight = -self.volumes[other as usize] * CubicSpline::slope_over_q(q);
+            let weight = -self.volumes[other as usize] * CubicSpline.slope_over_q(q);
             (other as usize != node && q < 1.0 && weight > 0.0).then_some(Neighbour {
                 node: other,
                 y,

@@ -105,6 +105,7 @@ impl<const HEAT: bool, const MOMENTS: bool> PairSum for Continuity<'_, HEAT, MOM
     #[inline(always)]
     fn sum<L: Lanes, S: Shape, F: Form>(
         &self,
+        shape: S,
         block: &Block,
         k: usize,
         local: &Local<L::Real>,
@@ -122,8 +123,8 @@ impl<const HEAT: bool, const MOMENTS: bool> PairSum for Continuity<'_, HEAT, MOM
         };
         let [fluid, wall] = block.neighbours(k);
         let mut sums = Sums::<L, HEAT, MOMENTS>::zero();
-        sums.add_all::<S, F>(&here, fluid, local);
-        sums.add_all::<S, F>(&here, wall, local);
+        sums.add_all::<S, F>(shape, &here, fluid, local);
+        sums.add_all::<S, F>(shape, &here, wall, local);
         let scale = self.normalisation;
         let dense = 1.0 + self.densities[i];
         let heating = 2.0 * self.conduction * scale / dense;
@@ -209,6 +210,7 @@ impl<L: Lanes, const HEAT: bool, const MOMENTS: bool> Sums<L, HEAT, MOMENTS> {
     #[inline(always)]
     fn add_all<S: Shape, F: Form>(
         &mut self,
+        shape: S,
         here: &Here<L>,
         neighbours: &[[u16; WIDTH]],
         local: &Local<L::Real>,
@@ -218,23 +220,23 @@ impl<L: Lanes, const HEAT: bool, const MOMENTS: bool> Sums<L, HEAT, MOMENTS> {
                 if HEAT || MOMENTS { local.gather_annex(places) } else { [L::constant(0.0); 4] };
             let neighbour = local.gather(places);
             if !F::ROUND {
-                self.add::<S>(here, neighbour, annex);
+                self.add(shape, here, neighbour, annex);
                 continue;
             }
             let arc = here.arc(&neighbour);
             for place in 0..PLACES {
                 let turn = arc.turn(place);
-                self.add::<S>(here, turn.record(neighbour), turn.annex(annex));
+                self.add(shape, here, turn.record(neighbour), turn.annex(annex));
             }
         }
     }
 
     #[inline(always)]
-    fn add<S: Shape>(&mut self, here: &Here<L>, neighbour: [L; 8], annex: [L; 4]) {
+    fn add<S: Shape>(&mut self, shape: S, here: &Here<L>, neighbour: [L; 8], annex: [L; 4]) {
         let [x, y, z, vx, vy, vz, volume, density] = neighbour;
         let d = [here.position[0] - x, here.position[1] - y, here.position[2] - z];
         let u = [here.velocity[0] - vx, here.velocity[1] - vy, here.velocity[2] - vz];
-        let slope = volume * S::slope_over_q((d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt());
+        let slope = volume * shape.slope_over_q((d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt());
         let jump = density - here.density;
         if HEAT {
             self.temperature = self.temperature + slope * (here.temperature - annex[3]);

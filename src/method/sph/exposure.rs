@@ -26,7 +26,7 @@ pub struct Exposure<'a> {
 impl Exposure<'_> {
     /// `a |n_i| V_i` over H² of all particles.
     pub fn areas(&self, blocks: &[Block], kind: PairKind, team: &Team) -> Vec<f64> {
-        for_all_of::<WendlandC2, Self>(self, blocks, kind, team, Vec::new())
+        for_all_of(WendlandC2, self, blocks, kind, team, Vec::new())
     }
 }
 
@@ -47,6 +47,7 @@ impl PairSum for Exposure<'_> {
     #[inline(always)]
     fn sum<L: Lanes, S: Shape, F: Form>(
         &self,
+        shape: S,
         block: &Block,
         k: usize,
         local: &Local<L::Real>,
@@ -58,7 +59,7 @@ impl PairSum for Exposure<'_> {
             let [x, y, z, _, _, _, volume, _] = local.gather(places);
             let d = [at[0] - x, at[1] - y, at[2] - z];
             let q = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
-            let slope = volume * S::slope_over_q(q);
+            let slope = volume * shape.slope_over_q(q);
             for (sum, d) in sums.iter_mut().zip(d) {
                 *sum = *sum + slope * d;
             }

@@ -10,10 +10,9 @@ use super::lanes::{Annex, Lanes, Record, WIDTH};
 use super::neighbours::Block;
 use super::order::BLOCK;
 use super::rings::{Form, with_form};
-use crate::kernel::{Kernel, Number, Shape};
+use crate::kernel::{Chosen, Kernel, Number, Shape, WendlandC2};
 use crate::runtime::parallel::Team;
 use crate::scene::Precision;
-use crate::with_kernel_shape;
 
 /// Number of blocks that share the memory of one local copy.
 const GROUP: usize = 2;
@@ -61,6 +60,7 @@ pub trait PairSum: Sync {
     /// Sums over the neighbours of the k-th particle of a block.
     fn sum<L: Lanes, S: Shape, F: Form>(
         &self,
+        shape: S,
         block: &Block,
         k: usize,
         local: &Local<L::Real>,
@@ -122,7 +122,8 @@ impl<R: Float + Number> Local<R> {
     }
 }
 
-/// Computes a sum for all particles, in their order; reuses the memory of `all`.
+/// Computes a sum for all particles, in their order; reuses the memory of `all`. The default kernel has compiled loops of
+/// its own, all others share theirs: a third of the library's code would be such loops.
 pub fn for_all<P: PairSum<Output: Clone + Default>>(
     pass: &P,
     blocks: &[Block],
@@ -130,11 +131,15 @@ pub fn for_all<P: PairSum<Output: Clone + Default>>(
     team: &Team,
     all: Vec<P::Output>,
 ) -> Vec<P::Output> {
-    with_kernel_shape!(kind.kernel, S => for_all_of::<S, P>(pass, blocks, kind, team, all))
+    match kind.kernel {
+        Kernel::WendlandC2 => for_all_of(WendlandC2, pass, blocks, kind, team, all),
+        other => for_all_of(Chosen(other), pass, blocks, kind, team, all),
+    }
 }
 
 /// Same as [`for_all`], with the shape of a kernel other than the model's.
 pub fn for_all_of<S: Shape, P: PairSum<Output: Clone + Default>>(
+    shape: S,
     pass: &P,
     blocks: &[Block],
     kind: PairKind,
@@ -145,7 +150,7 @@ pub fn for_all_of<S: Shape, P: PairSum<Output: Clone + Default>>(
     all.resize(count, P::Output::default());
     let mut parts: Vec<&mut [P::Output]> = all.chunks_mut(PART).collect();
     let store = |part: &mut &mut [P::Output], sums: &[P::Output]| part.clone_from_slice(sums);
-    for_parts_of::<S, P, _>(pass, blocks, kind, team, &mut parts, store);
+    for_parts_of(shape, pass, blocks, kind, team, &mut parts, store);
     all
 }
 
@@ -159,12 +164,14 @@ pub fn for_parts<P: PairSum, T: Send>(
     parts: &mut [T],
     take: impl Fn(&mut T, &[P::Output]) + Sync,
 ) {
-    with_kernel_shape!(kind.kernel, S => {
-        for_parts_of::<S, P, T>(pass, blocks, kind, team, parts, take);
-    });
+    match kind.kernel {
+        Kernel::WendlandC2 => for_parts_of(WendlandC2, pass, blocks, kind, team, parts, take),
+        other => for_parts_of(Chosen(other), pass, blocks, kind, team, parts, take),
+    }
 }
 
 fn for_parts_of<S: Shape, P: PairSum, T: Send>(
+    shape: S,
     pass: &P,
     blocks: &[Block],
     PairKind { precision, rings, .. }: PairKind,
@@ -176,8 +183,8 @@ fn for_parts_of<S: Shape, P: PairSum, T: Send>(
         let last = blocks.len().min((first + parts.len()) * GROUP);
         let (blocks, take) = (&blocks[first * GROUP..last], &take);
         with_form!(rings, F => {
-            let kind = PhantomData::<(S, F)>;
-            dispatch(PairWork { pass, blocks, parts, take, kind }, precision);
+            let form = PhantomData::<F>;
+            dispatch(PairWork { pass, blocks, parts, take, shape, form }, precision);
         });
     });
 }
@@ -189,7 +196,8 @@ struct PairWork<'a, P, T, K, S, F> {
     blocks: &'a [Block],
     parts: &'a mut [T],
     take: &'a K,
-    kind: PhantomData<(S, F)>,
+    shape: S,
+    form: PhantomData<F>,
 }
 
 impl<P: PairSum, T, K, S: Shape, F: Form> Work for PairWork<'_, P, T, K, S, F>
@@ -205,7 +213,7 @@ where
             for block in blocks {
                 local.fill::<P, L>(self.pass, block);
                 for k in 0..block.count {
-                    sums.push(self.pass.sum::<L, S, F>(block, k, &local));
+                    sums.push(self.pass.sum::<L, S, F>(self.shape, block, k, &local));
                 }
             }
             (self.take)(part, &sums);

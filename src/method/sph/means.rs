@@ -43,6 +43,7 @@ impl PairSum for Means<'_> {
     #[inline(always)]
     fn sum<L: Lanes, S: Shape, F: Form>(
         &self,
+        shape: S,
         block: &Block,
         k: usize,
         local: &Local<L::Real>,
@@ -56,14 +57,14 @@ impl PairSum for Means<'_> {
                 let [x, y, z, q, n, _, volume, _] = local.gather::<L>(places);
                 let weighted = volume * n * q;
                 if !F::ROUND {
-                    sum = sum + weighted * value::<L, S>(here, [x, y, z]);
+                    sum = sum + weighted * value(shape, here, [x, y, z]);
                     continue;
                 }
                 let d = [here[0] - x, here[2] - z];
                 let arc = Arc::about(here[0] + centre, x + centre, d[0] * d[0] + d[1] * d[1]);
                 for place in 0..PLACES {
                     let turn = arc.turn(place);
-                    let weight = value::<L, S>(here, turn.place([x, y, z]));
+                    let weight = value(shape, here, turn.place([x, y, z]));
                     sum = sum + weighted * turn.weight * weight;
                 }
             }
@@ -73,7 +74,7 @@ impl PairSum for Means<'_> {
 }
 
 #[inline(always)]
-fn value<L: Lanes, S: Shape>(here: [L; 3], [x, y, z]: [L; 3]) -> L {
+fn value<L: Lanes, S: Shape>(shape: S, here: [L; 3], [x, y, z]: [L; 3]) -> L {
     let d = [here[0] - x, here[1] - y, here[2] - z];
-    S::value((d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt())
+    shape.value((d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt())
 }

@@ -80,6 +80,7 @@ impl<const FROZEN: bool> PairSum for Momentum<'_, FROZEN> {
     #[inline(always)]
     fn sum<L: Lanes, S: Shape, F: Form>(
         &self,
+        shape: S,
         block: &Block,
         k: usize,
         local: &Local<L::Real>,
@@ -96,8 +97,8 @@ impl<const FROZEN: bool> PairSum for Momentum<'_, FROZEN> {
         let [fluid, wall] = block.neighbours(k);
         let scale = self.normalisation / (1.0 + self.densities[block.first + k]);
         [
-            flat::<F>(scaled(total::<L, S, F, FROZEN>(fluid, &here, local), scale)),
-            flat::<F>(scaled(total::<L, S, F, FROZEN>(wall, &here, local), scale)),
+            flat::<F>(scaled(total::<L, S, F, FROZEN>(shape, fluid, &here, local), scale)),
+            flat::<F>(scaled(total::<L, S, F, FROZEN>(shape, wall, &here, local), scale)),
         ]
     }
 }
@@ -105,6 +106,7 @@ impl<const FROZEN: bool> PairSum for Momentum<'_, FROZEN> {
 /// Sum of the forces of a list of neighbours.
 #[inline(always)]
 fn total<L: Lanes, S: Shape, F: Form, const FROZEN: bool>(
+    shape: S,
     neighbours: &[[u16; WIDTH]],
     here: &Here<L>,
     local: &Local<L::Real>,
@@ -118,7 +120,7 @@ fn total<L: Lanes, S: Shape, F: Form, const FROZEN: bool>(
             viscosity = L::constant(0.5) * viscosity * (here.factor + theirs);
         }
         if !F::ROUND {
-            add::<L, S>(&mut force, here, neighbour, viscosity);
+            add::<L, S>(shape, &mut force, here, neighbour, viscosity);
             continue;
         }
         let [x, _, z, ..] = neighbour;
@@ -126,7 +128,7 @@ fn total<L: Lanes, S: Shape, F: Form, const FROZEN: bool>(
         let radii = [here.position[0] + here.centre, x + here.centre];
         let arc = Arc::about(radii[0], radii[1], d[0] * d[0] + d[1] * d[1]);
         for place in 0..PLACES {
-            add::<L, S>(&mut force, here, arc.turn(place).record(neighbour), viscosity);
+            add::<L, S>(shape, &mut force, here, arc.turn(place).record(neighbour), viscosity);
         }
     }
     force
@@ -146,12 +148,18 @@ struct Here<L> {
 
 /// Adds the forces of sixteen neighbours.
 #[inline(always)]
-fn add<L: Lanes, S: Shape>(force: &mut [L; 3], here: &Here<L>, neighbour: [L; 8], viscosity: L) {
+fn add<L: Lanes, S: Shape>(
+    shape: S,
+    force: &mut [L; 3],
+    here: &Here<L>,
+    neighbour: [L; 8],
+    viscosity: L,
+) {
     let [x, y, z, vx, vy, vz, volume, pressure] = neighbour;
     let d = [here.position[0] - x, here.position[1] - y, here.position[2] - z];
     let u = [here.velocity[0] - vx, here.velocity[1] - vy, here.velocity[2] - vz];
     let q = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
-    let slope = volume * S::slope_over_q(q);
+    let slope = volume * shape.slope_over_q(q);
     let closing = u[0] * d[0] + u[1] * d[1] + u[2] * d[2];
     let along = slope * (viscosity * closing - (here.pressure + pressure));
     for n in 0..3 {

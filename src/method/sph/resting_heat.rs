@@ -31,7 +31,7 @@ impl RestingHeat<'_> {
     /// `(1 + r) dC/dt` of all particles.
     pub fn rates(&self, blocks: &[Block], kind: PairKind, team: &Team) -> Vec<f64> {
         let kind = PairKind { precision: Precision::Double, ..kind };
-        for_all_of::<WendlandC2, Self>(self, blocks, kind, team, Vec::new())
+        for_all_of(WendlandC2, self, blocks, kind, team, Vec::new())
     }
 }
 
@@ -52,6 +52,7 @@ impl PairSum for RestingHeat<'_> {
     #[inline(always)]
     fn sum<L: Lanes, S: Shape, F: Form>(
         &self,
+        shape: S,
         block: &Block,
         k: usize,
         local: &Local<L::Real>,
@@ -65,7 +66,7 @@ impl PairSum for RestingHeat<'_> {
             let d = [at[0] - x, at[1] - y, at[2] - z];
             let q = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
             let counts = left + theirs - left * theirs;
-            sum = sum + counts * volume * S::slope_over_q(q) * (potential - other);
+            sum = sum + counts * volume * shape.slope_over_q(q) * (potential - other);
         }
         self.scale * sum.sum().into()
     }

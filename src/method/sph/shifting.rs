@@ -58,6 +58,7 @@ impl PairSum for Crowding<'_> {
     #[inline(always)]
     fn sum<L: Lanes, S: Shape, F: Form>(
         &self,
+        shape: S,
         block: &Block,
         k: usize,
         local: &Local<L::Real>,
@@ -70,9 +71,9 @@ impl PairSum for Crowding<'_> {
         for places in block.neighbours(k).into_iter().flatten() {
             let neighbour = local.gather(places);
             let square = here.square_to(&neighbour);
-            let closeness = S::value(square.sqrt()) * L::constant(self.reference);
+            let closeness = shape.value(square.sqrt()) * L::constant(self.reference);
             if !F::ROUND {
-                lanes.add::<S>(&here, neighbour, closeness);
+                lanes.add(shape, &here, neighbour, closeness);
                 continue;
             }
             // Two rings are as close as their closest places. No ring is close to itself: places
@@ -80,7 +81,7 @@ impl PairSum for Crowding<'_> {
             let closeness = square.choose_below(SAME, L::constant(0.0), closeness);
             let arc = Arc::about(at[0] + centre, neighbour[0] + centre, square);
             for place in 0..PLACES {
-                lanes.add::<S>(&here, arc.turn(place).record(neighbour), closeness);
+                lanes.add(shape, &here, arc.turn(place).record(neighbour), closeness);
             }
         }
         let Sums { gradient, normal, surface } = lanes;
@@ -129,12 +130,12 @@ impl<L: Lanes> Sums<L> {
 
     /// Adds sixteen neighbours with closeness w(q)/w(q₀).
     #[inline(always)]
-    fn add<S: Shape>(&mut self, here: &Here<L>, neighbour: [L; 8], closeness: L) {
+    fn add<S: Shape>(&mut self, shape: S, here: &Here<L>, neighbour: [L; 8], closeness: L) {
         let [x, y, z, _, _, _, volume, theirs] = neighbour;
         let d = [here.position[0] - x, here.position[1] - y, here.position[2] - z];
         let q = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
-        let value = volume * S::value(q);
-        let slope = volume * S::slope_over_q(q);
+        let value = volume * shape.value(q);
+        let slope = volume * shape.slope_over_q(q);
         let square = closeness * closeness;
         let pull = slope * (L::constant(1.0) + L::constant(PAIRING) * square * square);
         let rise = slope * (theirs - here.fullness);

@@ -71,8 +71,8 @@ impl<L: Lanes> FractionSum<L> {
     #[inline(always)]
     fn add_at(&mut self, d: [L; 3], volume: L) {
         let q = length(d);
-        let slope = volume * WendlandC2::slope_over_q(q);
-        self.value = self.value + volume * WendlandC2::value(q);
+        let slope = volume * WendlandC2.slope_over_q(q);
+        self.value = self.value + volume * WendlandC2.value(q);
         for (sum, d) in self.gradient.iter_mut().zip(d) {
             *sum = *sum + slope * d;
         }
@@ -137,13 +137,13 @@ impl<L: Lanes> PullSum<L> {
     #[inline(always)]
     fn add_at(&mut self, d: [L; 3], a: [L; 3], b: L) {
         let q = length(d);
-        let slope = WendlandC2::slope_over_q(q);
+        let slope = WendlandC2.slope_over_q(q);
         let down = d[0] * a[0] + d[1] * a[1] + d[2] * a[2];
-        let along = WendlandC2::bend_over_q(q) * down + b * slope;
+        let along = WendlandC2.bend_over_q(q) * down + b * slope;
         for n in 0..3 {
             self.force[n] = self.force[n] + (along * d[n] + slope * a[n]);
         }
-        self.potential = self.potential + (slope * down + b * WendlandC2::value(q));
+        self.potential = self.potential + (slope * down + b * WendlandC2.value(q));
     }
 
     /// Force and potential.

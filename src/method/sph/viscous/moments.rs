@@ -33,6 +33,7 @@ impl PairSum for Moments<'_> {
     #[inline(always)]
     fn sum<L: Lanes, S: Shape, F: Form>(
         &self,
+        shape: S,
         block: &Block,
         k: usize,
         local: &Local<L::Real>,
@@ -46,7 +47,7 @@ impl PairSum for Moments<'_> {
         let mut sums = [L::constant(0.0); 15];
         for list in block.near_neighbours(k) {
             for places in list {
-                add_all::<L, S, F>(&mut sums, &here, local.gather(places));
+                add_all::<L, S, F>(shape, &mut sums, &here, local.gather(places));
             }
         }
         let mut moments = [0.0; 15];
@@ -69,28 +70,34 @@ struct Here<L> {
 
 /// Adds sixteen neighbours, or all places of sixteen rings.
 #[inline(always)]
-fn add_all<L: Lanes, S: Shape, F: Form>(sums: &mut [L; 15], here: &Here<L>, neighbour: [L; 8]) {
+fn add_all<L: Lanes, S: Shape, F: Form>(
+    shape: S,
+    sums: &mut [L; 15],
+    here: &Here<L>,
+    neighbour: [L; 8],
+) {
     if !F::ROUND {
-        return add::<L, S>(sums, here, neighbour);
+        return add::<L, S>(shape, sums, here, neighbour);
     }
     let [x, _, z] = here.position;
     let d = [x - neighbour[0], z - neighbour[2]];
     let radii = [x + here.centre, neighbour[0] + here.centre];
     let arc = Arc::about(radii[0], radii[1], d[0] * d[0] + d[1] * d[1]);
     for place in 0..PLACES {
-        add::<L, S>(sums, here, arc.turn(place).record(neighbour));
+        add::<L, S>(shape, sums, here, arc.turn(place).record(neighbour));
     }
 }
 
 #[inline(always)]
 fn add<L: Lanes, S: Shape>(
+    shape: S,
     sums: &mut [L; 15],
     here: &Here<L>,
     [x, y, z, _, _, _, volume, _]: [L; 8],
 ) {
     let [x, y, z] = [here.position[0] - x, here.position[1] - y, here.position[2] - z];
     let [xx, yy, zz] = [x * x, y * y, z * z];
-    let weight = volume * S::slope_over_q((xx + yy + zz).sqrt() * here.narrowing);
+    let weight = volume * shape.slope_over_q((xx + yy + zz).sqrt() * here.narrowing);
     let [wx, wy, wz] = [weight * xx, weight * yy, weight * zz];
     let [xy, yz, xz] = [x * y, y * z, x * z];
     let terms = [

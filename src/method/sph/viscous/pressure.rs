@@ -21,7 +21,7 @@ use super::super::momentum::Momentum;
 use super::super::neighbours::Block;
 use super::super::units::pressure;
 use super::system::Forces;
-use super::weights::{KERNEL, Shape};
+use super::weights::{KERNEL, SHAPE};
 use crate::runtime::parallel::Team;
 
 /// Pressure forces at the positions of a step.
@@ -94,7 +94,7 @@ impl<'a> PressureForces<'a> {
         let records = self.records(|i| [values[i], self.evenness[i], 0.0]);
         let normalisation = KERNEL.scale(1.0, self.method.dimension);
         let pass = Means { images, records: &records, normalisation };
-        for_all_of::<Shape, Means>(&pass, self.blocks, self.method.pairs(), self.team, Vec::new())
+        for_all_of(SHAPE, &pass, self.blocks, self.method.pairs(), self.team, Vec::new())
     }
 
     /// Position, three numbers and volume of each particle.

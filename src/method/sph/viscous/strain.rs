@@ -55,6 +55,7 @@ impl PairSum for Strain<'_> {
     #[inline(always)]
     fn sum<L: Lanes, S: Shape, F: Form>(
         &self,
+        shape: S,
         block: &Block,
         k: usize,
         local: &Local<L::Real>,
@@ -69,8 +70,8 @@ impl PairSum for Strain<'_> {
         };
         let [fluid, wall] = block.near_neighbours(k);
         let (mut by_fluid, mut by_wall) = (Sums::<L>::zero(), Sums::<L>::zero());
-        by_fluid.add_all::<S, F>(&here, fluid, local);
-        by_wall.add_all::<S, F>(&here, wall, local);
+        by_fluid.add_all::<S, F>(shape, &here, fluid, local);
+        by_wall.add_all::<S, F>(shape, &here, wall, local);
         let scale = self.weights.normalisation;
         let mut rates = [0.0; 6];
         for (n, rate) in rates.iter_mut().enumerate() {
@@ -111,6 +112,7 @@ impl<L: Lanes> Sums<L> {
     #[inline(always)]
     fn add_all<S: Shape, F: Form>(
         &mut self,
+        shape: S,
         here: &Here<L>,
         neighbours: &[[u16; WIDTH]],
         local: &Local<L::Real>,
@@ -118,7 +120,7 @@ impl<L: Lanes> Sums<L> {
         for places in neighbours {
             let neighbour = local.gather(places);
             if !F::ROUND {
-                self.add::<S>(here, neighbour);
+                self.add(shape, here, neighbour);
                 continue;
             }
             let [x, _, z, ..] = neighbour;
@@ -126,7 +128,7 @@ impl<L: Lanes> Sums<L> {
             let radii = [here.position[0] + here.centre, x + here.centre];
             let arc = Arc::about(radii[0], radii[1], d[0] * d[0] + d[1] * d[1]);
             for place in 0..PLACES {
-                self.add::<S>(here, arc.turn(place).record(neighbour));
+                self.add(shape, here, arc.turn(place).record(neighbour));
             }
         }
     }
@@ -135,12 +137,12 @@ impl<L: Lanes> Sums<L> {
     /// image where the fluid sticks, the other end sees the pair reflected: its elongation is
     /// `u_z z − (u_x x + u_y y)`, and its force has the opposite sign along the plane.
     #[inline(always)]
-    fn add<S: Shape>(&mut self, here: &Here<L>, neighbour: [L; 8]) {
+    fn add<S: Shape>(&mut self, shape: S, here: &Here<L>, neighbour: [L; 8]) {
         let [x, y, z, vx, vy, vz, volume, viscosity] = neighbour;
         let d = [here.position[0] - x, here.position[1] - y, here.position[2] - z];
         let u = [here.velocity[0] - vx, here.velocity[1] - vy, here.velocity[2] - vz];
         let q = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
-        let weight = volume * S::slope_over_q(q * here.narrowing);
+        let weight = volume * shape.slope_over_q(q * here.narrowing);
         let (along, across) = (u[0] * d[0] + u[1] * d[1], u[2] * d[2]);
         let elongation = along + across;
         let sign = viscosity.choose_below(0.0, L::constant(-1.0), L::constant(1.0));

@@ -58,6 +58,7 @@ impl PairSum for Stress<'_> {
     #[inline(always)]
     fn sum<L: Lanes, S: Shape, F: Form>(
         &self,
+        shape: S,
         block: &Block,
         k: usize,
         local: &Local<L::Real>,
@@ -72,8 +73,14 @@ impl PairSum for Stress<'_> {
         };
         let [fluid, wall] = block.near_neighbours(k);
         [
-            flat::<F>(scaled(total::<L, S, F>(&here, fluid, local), self.weights.normalisation)),
-            flat::<F>(scaled(total::<L, S, F>(&here, wall, local), self.weights.normalisation)),
+            flat::<F>(scaled(
+                total::<L, S, F>(shape, &here, fluid, local),
+                self.weights.normalisation,
+            )),
+            flat::<F>(scaled(
+                total::<L, S, F>(shape, &here, wall, local),
+                self.weights.normalisation,
+            )),
         ]
     }
 }
@@ -113,6 +120,7 @@ struct Here<L> {
 
 #[inline(always)]
 fn total<L: Lanes, S: Shape, F: Form>(
+    shape: S,
     here: &Here<L>,
     neighbours: &[[u16; WIDTH]],
     local: &Local<L::Real>,
@@ -124,7 +132,7 @@ fn total<L: Lanes, S: Shape, F: Form>(
         let [xz, volume, sign, _] = annex;
         let theirs = Neighbour { position: [x, y, z], form: Form6([xx, yy, zz, xy, yz, xz]), sign };
         if !F::ROUND {
-            add::<L, S>(&mut force, here, &theirs, volume, None);
+            add::<L, S>(shape, &mut force, here, &theirs, volume, None);
             continue;
         }
         let d = [here.position[0] - x, here.position[2] - z];
@@ -132,7 +140,7 @@ fn total<L: Lanes, S: Shape, F: Form>(
         let arc = Arc::about(radii[0], radii[1], d[0] * d[0] + d[1] * d[1]);
         for place in 0..PLACES {
             let turn = arc.turn(place);
-            add::<L, S>(&mut force, here, &theirs, volume * turn.weight, Some(turn));
+            add::<L, S>(shape, &mut force, here, &theirs, volume * turn.weight, Some(turn));
         }
     }
     force
@@ -148,6 +156,7 @@ struct Neighbour<L> {
 
 #[inline(always)]
 fn add<L: Lanes, S: Shape>(
+    shape: S,
     force: &mut [L; 3],
     here: &Here<L>,
     theirs: &Neighbour<L>,
@@ -160,7 +169,7 @@ fn add<L: Lanes, S: Shape>(
     };
     let d = [here.position[0] - x, here.position[1] - y, here.position[2] - z];
     let q = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
-    let weight = volume * S::slope_over_q(q * here.narrowing);
+    let weight = volume * shape.slope_over_q(q * here.narrowing);
     // In the frame of the turned ring.
     let seen = match turn {
         None => d,

@@ -12,7 +12,7 @@ use super::rate::Axes;
 use super::strain::{Elongation, Strain};
 use super::stress::Stress;
 use super::tensor::{Products, Square, times, transposed_times};
-use super::weights::{Shape, Weights};
+use super::weights::{SHAPE, Weights};
 use crate::math::conjugate_gradients::Operator;
 use crate::runtime::parallel::Team;
 
@@ -290,7 +290,7 @@ impl<'a> System<'a> {
 
     fn over_pairs<P: PairSum<Output: Clone + Default>>(&self, pass: &P) -> Vec<P::Output> {
         let kind = self.method.pairs();
-        for_all_of::<Shape, P>(pass, self.blocks, kind, self.team, Vec::new())
+        for_all_of(SHAPE, pass, self.blocks, kind, self.team, Vec::new())
     }
 }
 

@@ -5,7 +5,7 @@ use crate::kernel::{Kernel, WendlandC2};
 /// Kernel of the weights. Any is valid with its moments, so one suffices for all models.
 pub const KERNEL: Kernel = Kernel::WendlandC2;
 /// Shape of that kernel.
-pub type Shape = WendlandC2;
+pub const SHAPE: WendlandC2 = WendlandC2;
 /// Radius of the weights over the distance of particles. The error of strain rates grows with its square; in disorder,
 /// fewer neighbours would leave directions unresolved.
 const REACH: f64 = 2.0;
