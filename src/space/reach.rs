@@ -49,7 +49,7 @@ mod tests {
 
     #[test]
     fn nodes_of_a_lattice_have_the_functions_of_their_neighbours() {
-        let mesh = Mesh::of_box(Form::Solid, [0.0; 3], [40.0, 40.0, 40.0], [40, 40, 40]);
+        let mesh = Mesh::of_box(Form::Solid, [0.0; 3], [24.0, 24.0, 24.0], [24, 24, 24]);
         let inside = |count: f64, wanted: f64| (0.8 * wanted..wanted).contains(&count);
         assert!(inside(Supports::Balls(2.2).functions_at_nodes(&mesh), 33.0));
         let boxes = Supports::Boxes { support: 1.75, around: 0.5 };

@@ -124,7 +124,7 @@ fn quarter_cracks_as_the_whole_does() {
     let faces = "bottom = { clamped = true }";
     let run = |symmetry: &str| {
         let shape = format!(
-            "shape = {{ box = [0.8e-3, 0.8e-3, 0.2e-3] }}\nsymmetry = \"{symmetry}\"\nmesh = {{ spacing = 20e-6 }}"
+            "shape = {{ box = [0.56e-3, 0.56e-3, 0.16e-3] }}\nsymmetry = \"{symmetry}\"\nmesh = {{ spacing = 20e-6 }}"
         );
         let spot = SPOT.replace("start = { x = 0.1e-3, y = 0.05e-3 }", "");
         let mut trial = Trial::new(&scene(&shape, AT1, faces, &spot));

@@ -282,7 +282,7 @@ fn wax_freezes_and_rests() {
     advance(&two, &mut halves, 4);
     assert!(whole.bodies == halves.bodies);
     let mut trial = Trial::new(&text);
-    (0..20).for_each(|_| trial.step(0.1));
+    trial.restart(&whole);
     let mut get = |key: &str| trial.get(&format!("ink.{key}"));
     let [frozen, resting, heat] = ["solid_fraction", "resting", "heat"].map(&mut get);
     assert!(frozen > 0.7 && resting > 50.0, "{frozen} {resting}");

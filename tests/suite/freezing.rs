@@ -236,7 +236,9 @@ to = "plate.top"
 traction = false
 "#;
     let drop = &SCENE[..SCENE.find("[[wall]]").unwrap()];
-    let drop = drop.replace("initial_temperature = 520.0", "initial_temperature = 620.0");
+    let drop = drop
+        .replace("initial_temperature = 520.0", "initial_temperature = 620.0")
+        .replace("spacing = 8e-6", "spacing = 1.2e-5");
     let mut heats = Vec::new();
     for (key, input, value) in [
         ("temperature = 600.0", "plate.bottom.temperature", 400.0),

@@ -188,7 +188,7 @@ fn stiffness_is_the_derivative_of_forces() {
 fn cracks_in_space_are_those_of_plane_strain_between_fixed_planes() {
     let h = 0.25 * DAMAGE_LENGTH;
     let even = |count: usize| -> Vec<f64> { (0..=count).map(|i| h * i as f64).collect() };
-    let (columns, layers) = (24, 12);
+    let (columns, layers) = (14, 8);
     let mut law = law(Dissipation::At1, Split::NoTension);
     law.elastic.is_plane_stress = false;
     let section =

@@ -126,7 +126,7 @@ fn strands_change_evenly_with_the_speed() {
             assert!(totals.missing.abs() < 1e-12 * scale, "{totals:?} {scale}");
             [totals.width, totals.volume / totals.height, strand.given]
         };
-        let speeds = [0.02, 0.04, 0.08, 0.16, 0.23, 0.249, 0.25 - 1e-6, 0.25 + 1e-6, 0.251, 0.27];
+        let speeds = [0.04, 0.16, 0.249, 0.25 - 1e-6, 0.25 + 1e-6, 0.251, 0.27];
         let found = speeds.map(of);
         for (n, pair) in found.windows(2).enumerate() {
             let change = (speeds[n + 1] / speeds[n]).ln();

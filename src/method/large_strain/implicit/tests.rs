@@ -97,7 +97,7 @@ fn steps_are_of_second_order() {
     let mesh = Mesh::of_box(Form::Plane, [-1.0, 0.0, -0.5], [1.0, 0.0, 0.0], [4, 1, 2]);
     let body = Deformable::new(finite_elements(&mesh), law, 1.0, [false; 2], 1);
     let (dynamics, motion) = thrown(body);
-    let places = [20, 80, 640].map(|count| {
+    let places = [20, 80, 320].map(|count| {
         let mut motion = motion.clone();
         (0..count).for_each(|_| {
             step(&dynamics, &mut motion, 1.0 / f64::from(count));
