@@ -54,8 +54,8 @@ pub enum BodyError {
     Cracking { body: String, error: DamageError },
     /// Loads on a body modelled by one part are not symmetric about its planes of symmetry.
     #[error(
-        "{body}: forces are not even about the planes of symmetry, which a body that yields, relaxes or cracks needs (allowed: \
-         forces that are, or `symmetry = \"none\"`)"
+        "{body}: temperatures or forces are not even about the planes of symmetry, which a body that yields, relaxes or \
+         cracks needs (allowed: loads and faces that are, or `symmetry = \"none\"`)"
     )]
     Uneven { body: String },
     #[error("{0}")]

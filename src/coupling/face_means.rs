@@ -130,15 +130,30 @@ fn points(mesh: &Mesh, high: bool, cell: &Seen) -> Vec<([f64; 3], f64)> {
     let depth = if high { z.end() } else { z.start() };
     let area = area(cell);
     let signed = |value: f64, is_image: bool| if is_image { -value } else { value };
-    let point = |image: &[bool; 2], node: usize| match mesh.geometry {
-        Geometry::Axisymmetric => [x.nodes[node], 0.0, depth],
+    let places = |image: &[bool; 2], node: usize| match mesh.geometry {
+        Geometry::Axisymmetric => around(x.nodes[node], depth),
         Geometry::Box => {
             let [i, j] = [node % x.len(), node / x.len()];
-            [signed(x.nodes[i], image[0]), signed(y.nodes[j], image[1]), depth]
+            vec![[signed(x.nodes[i], image[0]), signed(y.nodes[j], image[1]), depth]]
         }
     };
-    let of_image = |(image, vector): &([bool; 2], SparseVector)| {
-        vector.iter().map(|&(node, weight)| (point(image, node), weight / area)).collect::<Vec<_>>()
-    };
-    cell.iter().flat_map(of_image).collect()
+    let mut points = Vec::new();
+    for (image, vector) in cell {
+        for &(node, weight) in vector {
+            let places = places(image, node);
+            let weight = weight / area / places.len() as f64;
+            points.extend(places.into_iter().map(|place| (place, weight)));
+        }
+    }
+    points
+}
+
+/// Places on a circle whose mean of a component along x, y or z is that of the circle.
+fn around(radius: f64, depth: f64) -> Vec<[f64; 3]> {
+    match radius > 0.0 {
+        true => [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]]
+            .map(|[x, y]| [radius * x, radius * y, depth])
+            .to_vec(),
+        false => vec![[0.0, 0.0, depth]],
+    }
 }

@@ -512,6 +512,93 @@ gives = ["temperature"]
     }
 }
 
+/// Bodies that touch exchange heat once a step, within which a footprint is sampled as on a body that touches nothing.
+#[test]
+fn footprints_move_on_bodies_in_contact_as_on_others() {
+    let plate = r#"
+name = "Plate"
+stop_time = 1e-3
+step = 1e-3
+[body.plate]
+kind = "solid"
+shape = { box = [2e-3, 0.5e-3, 0.2e-3] }
+material = { model = "thermoelastic", density = 3950.0, specific_heat = 900.0, conductivity = 10.0 }
+initial_temperature = 293.15
+mesh = { spacing = 50e-6, depth_spacing = 25e-6, growth = 1.0, order = 1 }
+[[load]]
+name = "spot"
+on = "plate.top"
+footprint = { gaussian = { radius = 80e-6 } }
+carries = ["power"]
+start = { power = 1.0, x = -0.7e-3 }
+range = { x = [-0.7e-3, 0.7e-3] }
+[[probe]]
+name = "behind"
+in = "plate"
+at = [-0.3e-3, 0.0, 0.0]
+gives = ["temperature"]
+[[probe]]
+name = "ahead"
+in = "plate"
+at = [0.4e-3, 0.0, 0.0]
+gives = ["temperature"]
+"#;
+    let chuck = "[body.chuck]\nkind = \"reservoir\"\nheat_capacity = 400.0\ninitial_temperature = 293.15\n[[coupling]]\n\
+                 from = \"chuck.top\"\nto = \"plate.bottom\"\nconductance = 1e-3\n";
+    for method in ["modal", "newton"] {
+        let run = |rest: &str, steps: usize| {
+            let mut trial = Trial::new(&format!("{plate}{rest}[solver]\nmethod = \"{method}\"\n"));
+            trial.set_derivative("spot.x", 1, 1.4);
+            (0..steps).for_each(|_| trial.step(1e-3 / steps as f64));
+            ["behind", "ahead"].map(|name| trial.get(&format!("{name}.temperature")) - 293.15)
+        };
+        let alone = run("", 1);
+        assert!(alone.iter().all(|&rise| rise > 10.0), "{method} {alone:?}");
+        for steps in [1, 3] {
+            let touched = run(chuck, steps);
+            for (one, other) in alone.iter().zip(touched) {
+                assert!(off(other, *one) < 2e-3, "{method}, {steps}: {alone:?} {touched:?}");
+            }
+        }
+    }
+}
+
+/// A spot that shrinks to a tenth of its radius in one step heats as it does in many.
+#[test]
+fn footprints_that_shrink_within_a_step_are_followed_to_their_least_size() {
+    let text = r#"
+name = "Disc"
+stop_time = 1e-3
+step = 1e-3
+[body.disc]
+kind = "solid"
+shape = { disc = { radius = 1e-3, thickness = 0.2e-3 } }
+material = { model = "thermoelastic", density = 3950.0, specific_heat = 900.0, conductivity = 10.0 }
+initial_temperature = 293.15
+mesh = { spacing = 10e-6, depth_spacing = 5e-6, growth = 1.3 }
+[[load]]
+name = "spot"
+on = "disc.top"
+footprint = { gaussian = { radius = 300e-6 } }
+carries = ["power"]
+start = { power = 1.0 }
+range = { radius = [30e-6, 300e-6] }
+[[probe]]
+name = "centre"
+in = "disc"
+at = [0.0, 0.0, 0.0]
+gives = ["temperature"]
+"#;
+    let run = |steps: usize| {
+        let mut trial = Trial::new(text);
+        trial.set_derivative("spot.radius", 1, -0.27);
+        (0..steps).for_each(|_| trial.step(1e-3 / steps as f64));
+        trial.get("centre.temperature") - 293.15
+    };
+    let [once, often] = [1, 300].map(run);
+    assert!(off(once, often) < 2e-4, "{once} {often}");
+}
+
 #[test]
 fn a_path_that_leaves_the_face_or_its_range_is_refused_and_changes_nothing() {
     let mut trial = Trial::new(&block("auto", 1));

@@ -150,3 +150,30 @@ fn a_uniform_temperature_is_its_mean_on_every_cell() {
         }
     }
 }
+
+/// Means of components over rings of a disc are those of components along x, y and z, as in a box: of radial and hoop
+/// stress their mean, of radial displacement nothing.
+#[test]
+fn rings_of_discs_have_components_along_the_axes() {
+    let rings = "rings = { count = 4, radius = 1.4e-4 }";
+    let probe =
+        "[[probe]]\nname = \"p\"\nin = \"plate\"\nat = [1.2e-4, 0.0, 0.0]\ngives = [\"stress\"]\n";
+    let text = plate(SHAPES[1].1, rings, [0.0; 2], "");
+    let text = text.replace(
+        "gives = [\"temperature\", \"displacement\"]",
+        "gives = [\"stress\", \"displacement\"]",
+    );
+    let mut trial = Trial::new(&(text + probe));
+    for ring in 1..=4 {
+        trial.set(&format!("hot.heat_flux[{ring}]"), if ring < 3 { 1e8 } else { 0.0 });
+    }
+    trial.step(1e-3);
+    let [radial, hoop] = ["p.stress_xx", "p.stress_yy"].map(|name| trial.get(name));
+    assert!(off(radial, hoop) > 0.05, "{radial} {hoop}");
+    let read = |trial: &mut Trial, name: &str| trial.get(&format!("seen.{name}[4]"));
+    let [xx, yy, xy] = ["stress_xx", "stress_yy", "stress_xy"].map(|name| read(&mut trial, name));
+    assert!(off(xx, yy) < 1e-9 && xy.abs() < 1e-9 * xx.abs(), "{xx} {yy} {xy}");
+    assert!(off(xx, 0.5 * (radial + hoop)) < 0.05, "{xx} {radial} {hoop}");
+    let [along, down] = ["displacement_x", "displacement_z"].map(|name| read(&mut trial, name));
+    assert!(along.abs() < 1e-9 * down.abs(), "{along} {down}");
+}

@@ -106,6 +106,13 @@ fn shocks_tell_when_flaws_can_grow_at_the_earliest() {
     for part in ["falls by 36.9 K", "1.29e8 Pa", "8.72e-4 m", "4.82e-4 m", "0.0263 s"] {
         assert!(notes.contains(part), "{part} in {notes}");
     }
+    // A chuck that is colder than all faces.
+    let chuck = "[body.chuck]\nkind = \"reservoir\"\nheat_capacity = 400.0\ninitial_temperature = 500.0\n[[coupling]]\n\
+                 from = \"chuck.top\"\nto = \"plate.bottom\"\nconductance = 1e5\n";
+    let text = plate(1.0, "", &(scratch("own", "1e-5") + chuck));
+    let text = text.replace("bottom = { temperature = 573.15, roller", "bottom = { roller");
+    let notes = Trial::new(&text).model.notes().join("\n");
+    assert!(notes.contains("falls by 73.1 K"), "{notes}");
 }
 
 #[test]

@@ -388,3 +388,33 @@ fn both_sides_of_an_interface_keep_to_their_own_law() {
         }
     }
 }
+
+/// A quarter has no place for stress that is not even about its planes: the step and the reading are refused, and nothing
+/// changes.
+#[test]
+fn quarters_refuse_uneven_temperatures() {
+    for (model, own) in [
+        ("elastoplastic", "yield_stress = 3e8"),
+        ("viscoelastic", "shear_relaxation = [{ fraction = 0.5, time = 1.0 }]"),
+        ("thermoelastic", "fracture = { model = \"at1\", strength = 180e6, energy = 2e4 }"),
+    ] {
+        let text = format!(
+            "name = \"Quarter\"\nstop_time = 1.0\nstep = 0.01\n[body.plate]\nkind = \"solid\"\n\
+             shape = {{ box = [2e-3, 2e-3, 0.5e-3] }}\nsymmetry = \"quarter\"\ninitial_temperature = 293.15\n\
+             mesh = {{ spacing = 0.25e-3, depth_spacing = 0.25e-3, growth = 1.0, order = 1 }}\n\
+             material = {{ model = \"{model}\", density = 3950.0, specific_heat = 900.0, conductivity = 10.0, \
+             young = 200e9, poisson = 0.3, expansion = 1.2e-5, {own} }}\n[body.plate.faces]\n\
+             bottom = {{ clamped = true }}\nleft = {{ temperature = 293.15 }}\nright = {{ temperature = 293.15 }}\n"
+        );
+        let mut trial = Trial::new(&text);
+        for side in ["left", "right"] {
+            trial.set(&format!("plate.{side}.temperature"), 320.0);
+        }
+        trial.step(0.01);
+        trial.set("plate.right.temperature", 330.0);
+        let before = trial.state.clone();
+        let refusal = trial.try_step(0.01).unwrap_err().to_string();
+        assert!(refusal.contains("not even") && refusal.contains("none"), "{model}: {refusal}");
+        assert!(trial.state.bodies == before.bodies, "{model}");
+    }
+}

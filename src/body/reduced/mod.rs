@@ -201,7 +201,7 @@ impl ReducedBody {
         (path, duration): (&InputPath, f64),
         allowance: &Allowance,
     ) -> Result<(), BodyError> {
-        let travel = self.loads.travel(path.derivatives(), duration);
+        let travel = self.loads.travel(path, duration);
         let parts = (PARTS_OF_A_FOOTPRINT * travel).ceil().max(1.0);
         let halted = |halt| BodyError::Halted { body: self.name.clone(), halt };
         allowance.foresee(parts, "samples of moving footprints", state.len()).map_err(halted)?;

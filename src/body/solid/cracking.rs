@@ -417,6 +417,7 @@ impl SolidBody {
             self.port(received.face).add(&mut loads, received.given);
         }
         let temperatures = self.solid.temperatures(self.heat_of(state), &loads);
+        self.require_even(&temperatures)?;
         let thermal = self.solid.above_stress_free(temperatures);
         let rise = match thermal[0].is_empty() {
             true => vec![0.0; cracking.nodes()],

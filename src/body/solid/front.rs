@@ -22,7 +22,7 @@ struct Heat {
 }
 
 /// Temperatures of bodies that touch a solid, and of their faces [K].
-fn temperatures_in_contact<'s>(
+pub fn temperatures_in_contact<'s>(
     scene: &'s Scene,
     name: &'s str,
 ) -> impl Iterator<Item = f64> + use<'s> {
@@ -34,7 +34,7 @@ fn temperatures_in_contact<'s>(
         let solid = scene.solid(other);
         let of_faces = solid.into_iter().flat_map(|solid| {
             let faces = solid.shape.faces().iter();
-            faces.filter_map(|&face| temperature_of(&solid.face(face)))
+            faces.flat_map(|&face| temperatures_of(&solid.face(face)))
         });
         let of_reservoir = scene.reservoir(other).map(|own| own.initial_temperature);
         of_faces.chain(solid.map(|solid| solid.initial_temperature)).chain(of_reservoir)
@@ -48,7 +48,7 @@ impl Heat {
             scene.couplings_to(name).filter_map(|coupling| scene.droplet(&coupling.from));
         let hottest = faces
             .iter()
-            .filter_map(temperature_of)
+            .flat_map(temperatures_of)
             .chain(droplets.map(|droplet| droplet.initial_temperature))
             .chain(temperatures_in_contact(scene, name))
             .fold(solid.initial_temperature, f64::max);
@@ -69,11 +69,11 @@ impl Heat {
     }
 }
 
-/// Temperature of the surroundings of a face, if it is known [K].
-fn temperature_of(face: &Face) -> Option<f64> {
+/// Temperatures that a face has or is surrounded by [K].
+pub fn temperatures_of(face: &Face) -> impl Iterator<Item = f64> + use<> {
     let ambient = face.convection.as_ref().map(|convection| convection.ambient);
     let surroundings = face.radiation.as_ref().map(|radiation| radiation.ambient);
-    [face.temperature, ambient, surroundings].into_iter().flatten().reduce(f64::max)
+    [face.temperature, ambient, surroundings].into_iter().flatten()
 }
 
 /// Heat flux of a load [W/m²] and its radius [m]; the flux is infinite if the scene does not set it.

@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::body::BodyError;
 use crate::channel::{Channel, Direction};
 use crate::coupling::{Pattern, Placement, split_load};
-use crate::inputs::{FaceInputKind, InputLayout, LoadInputs};
+use crate::inputs::{FaceInputKind, InputLayout, InputPath, LoadInputs};
 use crate::method::fem::{Geometry, Mesh, Parity, Plan, SolidLoads};
 use crate::scene::{FaceName, Load, Scene, Shape};
 
@@ -99,12 +99,13 @@ impl BodyLoads {
         self.sum(meshes, faces, Asked::Change { inputs, rates })
     }
 
-    /// Largest distance, in units of its own size, by which any footprint moves or grows in a time `dt` [s]; `path`
-    /// holds the inputs and their time derivatives at the beginning.
-    pub fn travel(&self, path: &[Vec<f64>], dt: f64) -> f64 {
+    /// Largest distance, in units of its own least size, by which any footprint moves or grows in a time `dt` [s].
+    pub fn travel(&self, path: &InputPath, dt: f64) -> f64 {
+        let turns: Vec<Vec<f64>> = path.turns(dt).into_iter().map(|s| path.at(0, s)).collect();
+        let ends = [path.at(0, 0.0), path.at(0, dt)];
         let way = |at: usize| {
             let mut weight = 1.0;
-            let parts = path.iter().enumerate().skip(1).map(|(k, list)| {
+            let parts = path.derivatives().iter().enumerate().skip(1).map(|(k, list)| {
                 weight *= dt / k as f64;
                 weight * list[at].abs()
             });
@@ -112,8 +113,11 @@ impl BodyLoads {
         };
         let travel = |(load, places): &(Load, LoadInputs)| {
             let moved = [places.x, places.y, places.radius].into_iter().flatten();
-            let radius = placement(load, places, &path[0]).radius;
-            let size = load.footprint.finest(Some(radius));
+            let radii =
+                ends.iter().chain(&turns).map(|inputs| placement(load, places, inputs).radius);
+            // A radius that is not positive is refused where loads are sampled.
+            let least = radii.filter(|&radius| radius > 0.0).fold(f64::INFINITY, f64::min);
+            let size = load.footprint.finest(least.is_finite().then_some(least));
             moved.map(way).sum::<f64>() / size
         };
         self.loads.iter().map(travel).fold(0.0, f64::max)

@@ -98,15 +98,16 @@ impl Port {
         }
     }
 
-    /// Adds the heat of a step, as it was transferred over time, to the loads and their derivatives.
-    pub fn add_over_step(&self, derivatives: &mut [SolidLoads], given: &Given) {
+    /// Adds the heat of a step, as it was transferred over time, to the loads and their derivatives at a time [s] after
+    /// the beginning of the transfer.
+    pub fn add_over_step(&self, derivatives: &mut [SolidLoads], given: &Given, after: f64) {
         if given.duration <= 0.0 {
             return;
         }
         self.add_heat(&mut derivatives[0], given);
         let (slope, side) = (-2.0 / given.duration, self.side());
         for (class, vector) in self.heat_of(&given.falling, given) {
-            add(&mut derivatives[0].heat[class][side], &vector, 1.0);
+            add(&mut derivatives[0].heat[class][side], &vector, 1.0 + slope * after);
             add(&mut derivatives[1].heat[class][side], &vector, slope);
         }
     }

@@ -1,6 +1,7 @@
 //! Sizes of a thermal shock that no flaw survives or every flaw survives: the critical length of the material, and the
 //! depth that heat has gone before any flaw can grow.
 
+use super::front::{temperatures_in_contact, temperatures_of};
 use crate::limits::number;
 use crate::scene::{Flaw, Scene, Solid};
 
@@ -27,19 +28,15 @@ pub fn note(scene: &Scene, (name, solid): (&str, &Solid)) -> Option<String> {
     ))
 }
 
-/// Coldest temperature that faces, a bath and drops bring to a solid at its start [K].
+/// Coldest temperature that faces, a bath, drops and bodies in contact bring to a solid at its start [K].
 fn coldest(scene: &Scene, (name, solid): (&str, &Solid)) -> f64 {
-    let faces = solid.faces.values();
-    let of_faces = faces.flat_map(|face| {
-        let convective = face.convection.map(|convection| convection.ambient);
-        [face.temperature, convective, face.radiation.map(|radiation| radiation.ambient)]
-    });
-    let of_faces = of_faces.flatten();
+    let of_faces = solid.faces.values().flat_map(temperatures_of);
     let of_drops = scene
         .couplings_to(name)
         .filter_map(|coupling| Some(scene.first_contact(&coupling.from)?.temperature));
     let of_bath = solid.bath.map(|bath| bath.ambient);
-    of_faces.chain(of_drops).chain(of_bath).fold(f64::INFINITY, f64::min)
+    let of_bodies = temperatures_in_contact(scene, name);
+    of_faces.chain(of_drops).chain(of_bath).chain(of_bodies).fold(f64::INFINITY, f64::min)
 }
 
 /// A suddenly cooled half space.

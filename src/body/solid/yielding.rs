@@ -32,6 +32,9 @@ const LOOKS: [f64; 3] = [0.0625, 0.25, 0.5];
 /// Part of a temperature change that replaces the rise to yield if the latter is smaller.
 const LEAST: f64 = 0.1;
 
+/// Odd temperatures that rounding may leave, relative to the largest even one.
+const ROUNDING: f64 = 1e-9;
+
 /// Data for advancing a part of a step.
 struct Advance<'a> {
     yielding: &'a Yielding,
@@ -176,8 +179,8 @@ impl SolidBody {
             let loads = self.loads.assemble(&acts.path.at(0, time), self.meshes());
             self.nodal_temperatures(yielding, &self.solid.temperatures(heat, &loads))
         };
-        let first = at(0.0, self.heat_of(start));
-        let last = at(acts.duration, self.heat_of(end));
+        let first = at(0.0, self.heat_of(start))?;
+        let last = at(acts.duration, self.heat_of(end))?;
         let ends = first.iter().zip(&last);
         let change = ends.clone().map(|(a, b)| (b - a).abs()).fold(0.0, f64::max);
         let ranges: Vec<Range> = ends.map(|(&a, &b)| Range::of(a, b)).collect();
@@ -188,7 +191,7 @@ impl SolidBody {
             let path = acts.path.from(from);
             (advance.heat)(&mut heat, &Acts { path: &path, duration: to - from, ..*acts })?;
             done = look;
-            let now = at(to, &heat);
+            let now = at(to, &heat)?;
             let most =
                 now.iter().zip(&ranges).map(|(&own, range)| range.beyond(own)).fold(0.0, f64::max);
             let hottest = now.iter().copied().fold(0.0, f64::max);
@@ -223,7 +226,7 @@ impl SolidBody {
                 self.port(received.face).add(&mut loads, received.given);
             }
             let temperatures = self.solid.temperatures(heat, &loads);
-            let nodal = self.nodal_temperatures(yielding, &temperatures);
+            let nodal = self.nodal_temperatures(yielding, &temperatures)?;
             Ok::<_, BodyError>((nodal, self.nodal_forces(&loads)?))
         };
         let end = at(acts.duration, heat)?;
@@ -250,16 +253,32 @@ impl SolidBody {
     }
 
     /// Temperature of every node of the mesh [K]; an interface has one value, as layers are in perfect thermal contact.
-    fn nodal_temperatures(&self, yielding: &Yielding, temperatures: &Temperatures) -> Vec<f64> {
+    fn nodal_temperatures(
+        &self,
+        yielding: &Yielding,
+        temperatures: &Temperatures,
+    ) -> Result<Vec<f64>, BodyError> {
+        self.require_even(temperatures)?;
         let mesh = self.solid.mesh();
         let plane = mesh.axes[0].len() * mesh.axes[1].len();
         let start = self.solid.initial_temperature();
         let rises = &temperatures[0];
         if rises.is_empty() {
-            return vec![start; mesh.nodes()];
+            return Ok(vec![start; mesh.nodes()]);
         }
         let level = |&level: &usize| &rises[level * plane..(level + 1) * plane];
-        yielding.levels.iter().flat_map(level).map(|rise| start + rise).collect()
+        Ok(yielding.levels.iter().flat_map(level).map(|rise| start + rise).collect())
+    }
+
+    /// Refuses temperatures that are not even about the planes of symmetry, but for rounding: mechanics with a history
+    /// has the part of a body between them alone.
+    pub(super) fn require_even(&self, temperatures: &Temperatures) -> Result<(), BodyError> {
+        let largest = |class: &Vec<f64>| class.iter().fold(0.0, |most: f64, t| most.max(t.abs()));
+        let allowed = ROUNDING * largest(&temperatures[0]);
+        if temperatures.iter().skip(1).any(|class| largest(class) > allowed) {
+            return Err(BodyError::Uneven { body: self.name.clone() });
+        }
+        Ok(())
     }
 
     /// Forces on all nodes, with the components of a node together [N].
@@ -295,7 +314,7 @@ impl SolidBody {
             return Ok(None);
         };
         let mechanics = self.mechanics_of(state);
-        let nodal = self.nodal_temperatures(yielding, temperatures);
+        let nodal = self.nodal_temperatures(yielding, temperatures)?;
         let values = yielding.problem.nodal_values(mechanics, &nodal);
         let NodalValues { stress, plastic_strain, back_strain } =
             values.map_err(|error| self.inelastic_error(error))?;
@@ -322,7 +341,7 @@ impl SolidBody {
         temperatures: &Temperatures,
     ) -> Result<f64, BodyError> {
         let Some(yielding) = &self.yielding else { return Ok(0.0) };
-        let nodal = self.nodal_temperatures(yielding, temperatures);
+        let nodal = self.nodal_temperatures(yielding, temperatures)?;
         let stored = yielding.problem.stored_energy(self.mechanics_of(state), &nodal);
         stored.map_err(|error| self.inelastic_error(error))
     }

@@ -41,7 +41,22 @@ fn even_loads(checker: &mut Checker, path: &Path) {
             let allowed = "0, or `symmetry = \"none\"` for the body";
             checker.require(fine, &path.at(key), message, allowed);
         }
+        for (key, values) in
+            [("start.heat_flux", &load.start.heat_flux), ("start.pressure", &load.start.pressure)]
+        {
+            let Some(CellValues::Tiles(rows)) = values else { continue };
+            let message =
+                "a quarter of a nonlinear body requires tiles symmetric about x = 0 and y = 0";
+            let allowed = "such values, or `symmetry = \"none\"` for the body";
+            checker.require(are_even(rows), &path.at(key), message, allowed);
+        }
     }
+}
+
+/// Returns true if values of tiles are those of their mirror images.
+fn are_even(rows: &[Vec<f64>]) -> bool {
+    let is_even = |row: &Vec<f64>| row.iter().eq(row.iter().rev());
+    rows.iter().eq(rows.iter().rev()) && rows.iter().all(is_even)
 }
 
 pub fn check(checker: &mut Checker, path: &Path, solid: &Solid) {
