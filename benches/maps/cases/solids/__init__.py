@@ -6,6 +6,7 @@ from cases.solids import (
     footprints,
     fronts_and_yield,
     inputs_in_time,
+    large_strain,
     lattices,
     locking,
     particle_clouds,
@@ -49,5 +50,8 @@ ALL = (
     lattices.lattice_peak,
     lattices.lattice_work,
     lattices.lattice_steps,
+    large_strain.locking_at_large_strain,
+    large_strain.creep_over_steps,
+    large_strain.turns_in_one_step,
 )
 MAPS = {build.__name__: build for build in ALL}
