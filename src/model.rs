@@ -210,8 +210,9 @@ impl Model {
         self.note_peaks_here(&mut next, cache, When::Beginning).map_err(|(_, error)| error)?;
         cache.update(self, state);
         let bodies = self.bodies.iter().zip(&mut next.bodies);
-        let approached: Vec<_> =
-            bodies.flat_map(|(body, unknowns)| body.approached(unknowns, path, ahead)).collect();
+        let approached: Vec<_> = bodies
+            .flat_map(|(body, unknowns)| body.approached(unknowns, path, (dt, ahead)))
+            .collect();
         let changed = (!approached.is_empty()).then(|| path.with(&approached));
         let taken = changed.as_ref().unwrap_or(path);
         self.advance(&mut next.bodies, cache, (taken, dt), allowance)?;

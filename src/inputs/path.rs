@@ -33,6 +33,14 @@ impl InputPath {
         Self { derivatives }
     }
 
+    /// Value and slope of an input that goes evenly from a value to its own within a time [s]; `None` if derivatives
+    /// move it.
+    pub fn approach(&self, place: usize, from: f64, time: f64) -> Option<(usize, [f64; 2])> {
+        let (start, higher) = self.derivatives.split_first()?;
+        let is_held = higher.iter().all(|list| list[place] == 0.0);
+        is_held.then(|| (place, [from, (start[place] - from) / time]))
+    }
+
     pub fn is_held(&self) -> bool {
         self.derivatives.len() == 1
     }
@@ -101,6 +109,15 @@ mod tests {
             assert_eq!(changed.at(0, 0.5)[0], path.at(0, 0.5)[0]);
             assert_eq!(changed.at(0, 0.5)[1], 4.5);
         }
+    }
+
+    #[test]
+    fn inputs_without_derivatives_are_approached() {
+        let path = InputPath::new(&[1.0, -2.0], &[vec![3.0, 0.0]]);
+        assert_eq!(path.approach(0, 0.0, 2.0), None);
+        let approach = path.approach(1, 2.0, 8.0).unwrap();
+        assert_eq!(path.with(&[approach]).at(0, 8.0), [25.0, -2.0]);
+        assert_eq!(path.with(&[approach]).at(0, 2.0), [7.0, 1.0]);
     }
 
     #[test]

@@ -199,10 +199,10 @@ impl Approach for FilamentBody {
         &self,
         state: &mut Vec<f64>,
         path: &InputPath,
-        duration: f64,
+        (_, ahead): (f64, f64),
     ) -> Vec<(usize, [f64; 2])> {
         let mut strand = self.structure(state);
-        let approached = self.nozzle.approached(path, strand.nozzle, duration);
+        let approached = self.nozzle.approached(path, strand.nozzle, ahead);
         if strand.flowing == 0.0 || approached.is_empty() {
             return Vec::new();
         }

@@ -241,10 +241,10 @@ impl Approach for ParticleFilament {
         &self,
         state: &mut Vec<f64>,
         path: &InputPath,
-        duration: f64,
+        (_, ahead): (f64, f64),
     ) -> Vec<(usize, [f64; 2])> {
         let fed = self.sph.fed(state);
-        let approached = self.nozzle.approached(path, fed.nozzle, duration);
+        let approached = self.nozzle.approached(path, fed.nozzle, ahead);
         if fed.flowing == 0.0 || approached.is_empty() {
             return Vec::new();
         }

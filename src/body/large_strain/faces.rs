@@ -156,6 +156,18 @@ impl Faces {
         places
     }
 
+    /// Inputs that prescribe displacements, each with the displacement of its face [m].
+    pub fn displacing(&self, displacements: &[[f64; 3]]) -> Vec<(usize, f64)> {
+        let places = self.places(displacements);
+        self.inputs.clone().zip(self.along_moved_axes(&places)).collect()
+    }
+
+    /// Displacements of the moved faces along the axes that inputs prescribe, in the order of the inputs.
+    fn along_moved_axes(&self, places: &[[f64; 3]]) -> Vec<f64> {
+        let faces = self.moved.iter().zip(places);
+        faces.flat_map(|(axes, place)| axes.iter().map(|&axis| place[axis])).collect()
+    }
+
     /// Forces on the held faces, moved ones included, with their images. Along a mirrored axis, where those of images
     /// are opposite, it is the force on the face of the model; about an axis of rotation they cancel.
     pub fn forces(&self, reactions: &[[f64; 3]]) -> Vec<[f64; 3]> {
@@ -193,8 +205,7 @@ impl Faces {
 
     /// Values of the inputs under conditions, in the order of the inputs.
     fn numbers(&self, own: &Prescribed) -> Vec<f64> {
-        let places = self.moved.iter().zip(&own.places);
-        let places = places.flat_map(|(axes, place)| axes.iter().map(|&axis| place[axis]));
+        let places = self.along_moved_axes(&own.places).into_iter();
         let loads = self.loaded.iter().zip(&own.loads).flat_map(|(components, load)| {
             components.iter().map(|component| match component {
                 LoadComponent::Pressure => load.pressure,

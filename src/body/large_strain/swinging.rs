@@ -14,15 +14,15 @@ use crate::body::{
     Acts, Advice, Approach, BodyError, Events, Given, Giver, Maxima, Occasion, Reading, Resources,
     Structured,
 };
-use crate::inputs::InputLayout;
+use crate::inputs::{InputLayout, InputPath};
 use crate::method::large_strain::{
     Course, Courses, Deformable, Drive, Failure, IMPLICIT_STEPS, IMPLICIT_WORK, ImplicitDynamics,
     Motion, through_mirror,
 };
 use crate::method::sph::ParticleFields;
-use crate::runtime::allowance::{Allowance, cost};
+use crate::runtime::allowance::Allowance;
 use crate::scene::{LargeStrain, Scene};
-use crate::state::{Field, Fields, Per};
+use crate::state::{Field, Fields, Per, store_all};
 use crate::warning::{self, Warning};
 
 /// A body with inertia whose time steps are those of communication.
@@ -47,7 +47,7 @@ pub struct SwingingBody {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Swinging {
     motion: Motion,
-    /// Forces on the faces that are held or moved, means over the last step [N].
+    /// Forces on the faces that are held or moved, means over the last step, whose length the ledger has [N].
     forces: Vec<[f64; 3]>,
     /// Shortest part into which a step was cut as a face changed its speed [s]; zero if none was.
     cut: f64,
@@ -63,6 +63,7 @@ impl Fields for Swinging {
         vec![
             (body("time", "time since the start [s]"), from_mut(&mut ledger.time)),
             (body("steps", "time steps made"), from_mut(&mut ledger.steps)),
+            (body("duration", "length of the last step [s]"), from_mut(&mut ledger.duration)),
             (
                 body("internal_work", "work of the stresses [J]"),
                 from_mut(&mut ledger.internal_work),
@@ -82,6 +83,18 @@ impl Fields for Swinging {
             (of("velocity", "velocity [m/s]", Per::Node, 3), velocity.as_flattened_mut()),
             (of("history", "history of the law", Per::Point, 1), history),
         ]
+    }
+}
+
+impl Swinging {
+    /// Extends the last step by the one before.
+    fn join(&mut self, before: &Self) {
+        let [own, earlier] = [&self.motion, &before.motion].map(|motion| motion.ledger.duration);
+        let whole = earlier + own;
+        for (force, before) in self.forces.iter_mut().zip(&before.forces) {
+            *force = [0, 1, 2].map(|a| (earlier * before[a] + own * force[a]) / whole);
+        }
+        self.motion.ledger.duration = whole;
     }
 }
 
@@ -365,6 +378,9 @@ impl Structured for SwingingBody {
         if ![cut, waves_until].iter().all(|own| (0.0..=last).contains(own)) {
             return Err("waves of a jolt do not last longer than the run".to_owned());
         }
+        if !(0.0..=last).contains(&motion.ledger.duration) {
+            return Err("a step does not last longer than the run".to_owned());
+        }
         if !forces.as_flattened().iter().all(|force| force.is_finite()) {
             return Err("a force is not finite".to_owned());
         }
@@ -385,6 +401,7 @@ impl Structured for SwingingBody {
         let swung = self.swing_through(state, (&from, &to), acts.duration, allowance);
         swung.map_err(|failure| named(&self.name, failure))?;
         state.forces.iter_mut().flatten().for_each(|force| *force /= acts.duration);
+        state.motion.ledger.duration = acts.duration;
         Ok(None)
     }
 
@@ -416,13 +433,33 @@ impl Structured for SwingingBody {
     }
 }
 
-impl Giver for SwingingBody {}
+impl Giver for SwingingBody {
+    fn join_steps(&self, before: &[f64], state: &mut Vec<f64>) {
+        let (before, mut own) = (self.structure(before), self.structure(state));
+        own.join(&before);
+        store_all(&mut own, state);
+    }
+}
 
 impl Events for SwingingBody {}
 
 impl Maxima for SwingingBody {}
 
-impl Approach for SwingingBody {}
+impl Approach for SwingingBody {
+    /// A part of a longer step moves faces by its share of the way to their inputs. A whole step takes all of the way.
+    fn approached(
+        &self,
+        state: &mut Vec<f64>,
+        path: &InputPath,
+        (dt, ahead): (f64, f64),
+    ) -> Vec<(usize, [f64; 2])> {
+        if dt == ahead {
+            return Vec::new();
+        }
+        let own = self.faces.displacing(&self.structure(state).motion.displacement);
+        own.into_iter().filter_map(|(input, from)| path.approach(input, from, ahead)).collect()
+    }
+}
 
 impl Advice for SwingingBody {
     fn notes(&self) -> Vec<String> {
@@ -450,10 +487,6 @@ impl Resources for SwingingBody {
         let work = IMPLICIT_WORK * self.dynamics.body.space.volume.len();
         let foreseen = allowance.foresee_step(dt, ITERATIONS, IMPLICIT_STEPS, work);
         foreseen.map_err(|halt| BodyError::Halted { body: self.name.clone(), halt })
-    }
-
-    fn updates(&self, _: f64) -> f64 {
-        cost(ITERATIONS, IMPLICIT_WORK * self.dynamics.body.space.volume.len())
     }
 
     fn threads(&self) -> usize {

@@ -127,11 +127,11 @@ impl Approach for MovingLatticeBody {
         &self,
         state: &mut Vec<f64>,
         path: &InputPath,
-        duration: f64,
+        (_, ahead): (f64, f64),
     ) -> Vec<(usize, [f64; 2])> {
         let from = self.structure(state).prescribed;
-        let to = path.at(0, duration)[self.input];
-        vec![(self.input, [from, (to - from) / duration])]
+        let to = path.at(0, ahead)[self.input];
+        vec![(self.input, [from, (to - from) / ahead])]
     }
 }
 

@@ -193,8 +193,12 @@ fn is_too_long(error: &ModelError) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use std::cell::RefCell;
+    use std::rc::Rc;
+
     use super::*;
     use crate::scene;
+    use crate::variables::{Registry, Slot};
 
     /// A drop in flight.
     const DROP: &str = r#"
@@ -209,6 +213,117 @@ initial_temperature = 350.0
 spacing = 1e-5
 fluid = { density = 1000.0, viscosity = 1e-3, specific_heat = 4180.0, conductivity = 0.6 }
 "#;
+
+    /// A body that is moved by a face in implicit steps, and one that flies in explicit ones.
+    const MOVED: &str = r#"
+name = "Moved"
+stop_time = 1e-2
+step = 1e-3
+[body.pad]
+kind = "solid"
+strain = "finite"
+inertia = true
+motion = "implicit"
+dimension = 2
+shape = { box = [8e-3, 4e-3, 8e-3] }
+symmetry = "none"
+material = { model = "neo_hookean", density = 1000.0, specific_heat = 1900.0, conductivity = 0.2, young = 1e6, poisson = 0.3 }
+initial_temperature = 293.15
+mesh = { spacing = 4e-3 }
+faces.bottom = { displacement = [0.0, 0.0, 0.0] }
+[body.block]
+kind = "solid"
+strain = "finite"
+inertia = true
+dimension = 2
+shape = { box = [1e-3, 1e-3, 1e-3] }
+symmetry = "none"
+material = { model = "neo_hookean", density = 1000.0, specific_heat = 1900.0, conductivity = 0.2, young = 1e6, poisson = 0.3 }
+initial_temperature = 293.15
+mesh = { spacing = 1e-3 }
+start = { height = 1.0 }
+"#;
+
+    /// A model that is stepped as a unit does it.
+    struct Stepped {
+        model: Model,
+        registry: Registry,
+        state: State,
+        cache: Cache,
+    }
+
+    impl Stepped {
+        fn new(text: &str) -> Self {
+            let scene = scene::parse(text, "scene.toml").unwrap_or_else(|error| panic!("{error}"));
+            let model = Model::build(&scene, 1).unwrap_or_else(|error| panic!("{error}"));
+            let (registry, state) = (Registry::of(&scene), model.initial_state());
+            Self { model, registry, state, cache: Cache::default() }
+        }
+
+        fn slot(&self, name: &str) -> Slot {
+            let mut all = self.registry.variables.iter();
+            all.find(|variable| variable.name == name).unwrap().slot.clone()
+        }
+
+        fn set(&mut self, name: &str, value: f64) {
+            let Slot::Input(index) = self.slot(name) else { panic!("{name} is no input") };
+            self.state.inputs[index] = value;
+        }
+
+        fn get(&mut self, name: &str) -> f64 {
+            let Slot::Output(output) = self.slot(name) else { panic!("{name} is no output") };
+            self.model.output(&self.state, &mut self.cache, &output).unwrap()
+        }
+
+        /// Advances to a time [s]; returns true if there is an event.
+        fn advance(&mut self, control: &StepControl, to: f64) -> bool {
+            let (times, interrupt) =
+                ((self.state.time, to - self.state.time), Interrupt::default());
+            let run = (&self.model, &mut self.cache);
+            control.advance(run, &mut self.state, times, &interrupt).unwrap()
+        }
+    }
+
+    /// A control that notes the times at which it asks its host.
+    fn asking(times: &Rc<RefCell<Vec<f64>>>) -> StepControl {
+        let times = Rc::clone(times);
+        let ask: Ask = Box::new(move |time, _| {
+            times.borrow_mut().push(time);
+            None
+        });
+        StepControl { ask: Some(ask), ..StepControl::default() }
+    }
+
+    #[test]
+    fn parts_of_a_step_move_faces_and_average_forces_as_the_whole() {
+        let (duration, way) = (0.04, 1e-3);
+        let times = Rc::default();
+        let mut cut = Stepped::new(MOVED);
+        let parts = cut.model.parts(duration);
+        cut.set("pad.bottom.displacement_z", way);
+        cut.advance(&asking(&times), duration);
+        let mut ends = times.take();
+        assert_eq!(ends.len() as f64, parts - 1.0);
+        assert!(ends.len() > 1);
+        ends.push(duration);
+        // A host that takes these parts itself and moves the face evenly.
+        let mut ramped = Stepped::new(MOVED);
+        let (mut impulse, mut time) = (0.0, 0.0);
+        for end in ends {
+            ramped.set("pad.bottom.displacement_z", way * end / duration);
+            ramped.advance(&StepControl::default(), end);
+            impulse += (end - time) * ramped.get("pad.bottom.force_z");
+            time = end;
+        }
+        for name in ["pad.momentum_z", "pad.kinetic", "pad.stored", "pad.height"] {
+            let [found, wanted] = [&mut cut, &mut ramped].map(|own| own.get(name));
+            assert!((found / wanted - 1.0).abs() < 1e-6, "{name}: {found} {wanted}");
+        }
+        let found = duration * cut.get("pad.bottom.force_z");
+        assert!((found / impulse - 1.0).abs() < 1e-6, "{found} {impulse}");
+        let momentum = cut.get("pad.momentum_z");
+        assert!((found / momentum - 1.0).abs() < 1e-6, "{found} {momentum}");
+    }
 
     #[test]
     fn errors_in_later_parts_change_nothing() {
