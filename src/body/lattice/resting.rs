@@ -4,11 +4,11 @@ use crate::body::{
     Acts, Advice, Approach, BodyError, Events, Given, Giver, Maxima, Occasion, Reading, Resources,
     Structured,
 };
-use crate::inputs::InputLayout;
+use crate::inputs::{InputLayout, InputPath};
 use crate::method::lattice::{Lattice, LatticeState};
 use crate::method::sph::ParticleFields;
 use crate::quantity::percent;
-use crate::runtime::allowance::{Allowance, cost};
+use crate::runtime::allowance::Allowance;
 use crate::scene;
 use crate::warning::{self, Warning};
 
@@ -131,7 +131,21 @@ impl Events for RestingLatticeBody {
 
 impl Maxima for RestingLatticeBody {}
 
-impl Approach for RestingLatticeBody {}
+impl Approach for RestingLatticeBody {
+    /// A part of a longer step moves the load by its share of the way to the input. A whole step takes all of the way.
+    fn approached(
+        &self,
+        state: &mut Vec<f64>,
+        path: &InputPath,
+        (dt, ahead): (f64, f64),
+    ) -> Vec<(usize, [f64; 2])> {
+        if dt == ahead {
+            return Vec::new();
+        }
+        let from = self.structure(state).prescribed;
+        path.approach(self.input, from, ahead).into_iter().collect()
+    }
+}
 
 impl Advice for RestingLatticeBody {
     fn notes(&self) -> Vec<String> {
@@ -155,10 +169,6 @@ impl Resources for RestingLatticeBody {
     fn foresee(&self, _: &[f64], dt: f64, allowance: &Allowance) -> Result<(), BodyError> {
         let foreseen = allowance.foresee_step(dt, ITERATIONS, WORDS, self.work());
         foreseen.map_err(|halt| BodyError::Halted { body: self.name.clone(), halt })
-    }
-
-    fn updates(&self, _: f64) -> f64 {
-        cost(ITERATIONS, self.work())
     }
 
     fn threads(&self) -> usize {

@@ -244,6 +244,21 @@ mesh = { spacing = 1e-3 }
 start = { height = 1.0 }
 "#;
 
+    /// A strip of links that is pulled apart in equilibrium.
+    const LINKS: &str = r#"
+name = "Links"
+stop_time = 1.0
+step = 0.1
+[body.strip]
+kind = "lattice"
+length = 0.1
+depth = 0.05
+thickness = 0.05
+spacing = 1e-2
+support = "ends"
+material = { density = 2300.0, young = 30e9, poisson = 0.2, softening = { model = "openings", strength = 4.5e6, openings = [9.05e-6, 2e-5], share = 0.13 } }
+"#;
+
     /// A model that is stepped as a unit does it.
     struct Stepped {
         model: Model,
@@ -323,6 +338,30 @@ start = { height = 1.0 }
         assert!((found / impulse - 1.0).abs() < 1e-6, "{found} {impulse}");
         let momentum = cut.get("pad.momentum_z");
         assert!((found / momentum - 1.0).abs() < 1e-6, "{found} {momentum}");
+    }
+
+    #[test]
+    fn load_of_a_lattice_at_rest_is_on_its_way_at_an_event() {
+        let (duration, way) = (1.0, 5e-5);
+        let control = StepControl { may_end_early: true, reports_events: true, ask: None };
+        let mut strip = Stepped::new(LINKS);
+        strip.set("strip.displacement", way);
+        assert!(strip.advance(&control, duration));
+        let reached = strip.get("strip.mechanical_work");
+        let sixteenths = (16.0 * strip.state.time / duration).round() as u32;
+        assert!(sixteenths > 1 && sixteenths < 16, "{sixteenths}");
+        // A host that takes the same parts, and moves the load by their shares, finds the strip apart at last.
+        let whole = StepControl { reports_events: true, ..StepControl::default() };
+        let mut ramped = Stepped::new(LINKS);
+        let mut done = 0;
+        for part in [8, 4, 2, 1].into_iter().filter(|part| sixteenths & part != 0) {
+            done += part;
+            let share = f64::from(done) / 16.0;
+            ramped.set("strip.displacement", way * share);
+            assert_eq!(ramped.advance(&whole, duration * share), done == sixteenths, "{share}");
+        }
+        let wanted = ramped.get("strip.mechanical_work");
+        assert!((reached / wanted - 1.0).abs() < 1e-9, "{reached} {wanted}");
     }
 
     #[test]
