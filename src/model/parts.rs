@@ -34,3 +34,54 @@ impl Model {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene;
+
+    /// A body with further keys.
+    fn model(keys: &str) -> Model {
+        let text = format!("name = \"One\"\nstop_time = 1.0\nstep = 0.1\n[body.one]\n{keys}");
+        let scene = scene::parse(&text, "scene.toml").unwrap_or_else(|error| panic!("{error}"));
+        Model::build(&scene, 1).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    #[test]
+    fn equilibria_implicit_steps_and_lines_cut_no_step() {
+        let solid = r#"
+kind = "solid"
+strain = "finite"
+dimension = 2
+shape = { box = [2e-3, 1e-3, 1e-3] }
+initial_temperature = 293.15
+material = { model = "neo_hookean", density = 1000.0, specific_heat = 1900.0, conductivity = 0.2, young = 1e6, poisson = 0.4 }
+mesh = { spacing = 1e-3 }
+"#;
+        let held = "faces.bottom = { clamped = true }";
+        let lattice = r#"
+kind = "lattice"
+length = 0.1
+depth = 0.05
+thickness = 0.05
+spacing = 1e-2
+support = "ends"
+material = { density = 2300.0, young = 30e9, poisson = 0.2, softening = { model = "openings", strength = 4.5e6, openings = [9.05e-6, 2e-5], share = 0.13 } }
+"#;
+        let line = r#"
+kind = "filament"
+fluid = { density = 1e3, viscosity = 1.0, specific_heat = 1e3, conductivity = 0.2 }
+nozzle = { diameter = 1e-3, height = 2e-3, temperature = 300.0 }
+most = 1e-6
+path = { time = [0.0, 1.0], x = [0.0, 5e-3], y = [0.0, 0.0] }
+"#;
+        let at_rest = format!("{solid}{held}");
+        let implicit = format!("{solid}inertia = true\nmotion = \"implicit\"\n{held}");
+        for keys in [&at_rest[..], &implicit, lattice, line] {
+            let updates = model(keys).bodies[0].updates(1.0);
+            assert_eq!(updates, 0.0, "{keys}");
+        }
+        let explicit = model(&format!("{solid}inertia = true"));
+        assert!(explicit.parts(1.0) > 1.0);
+    }
+}

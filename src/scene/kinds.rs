@@ -190,6 +190,11 @@ impl Scene {
         self.droplets().next().is_some()
     }
 
+    /// Returns true if units report the progress of a step, as those with drops do.
+    pub fn reports_progress(&self) -> bool {
+        self.has_drops()
+    }
+
     /// Returns true if drops are repeated from records or closed forms.
     pub fn has_replayed_drops(&self) -> bool {
         self.droplets().any(|(_, droplet)| droplet.is_replayed())

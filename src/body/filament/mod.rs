@@ -24,7 +24,7 @@ use crate::method::fem::Plan;
 use crate::method::filament::{Around, Deviation, Failure, Line, Segment, Strand, Target};
 use crate::method::sph::{ParticleFields, WarmPlace};
 use crate::port::{Surface, WallCells};
-use crate::runtime::allowance::{Allowance, cost};
+use crate::runtime::allowance::Allowance;
 use crate::scene::{Coupling, Filament, FilamentMethod, Scene};
 use crate::state::store_all;
 use crate::warning::{self, Warning};
@@ -261,10 +261,6 @@ impl Resources for FilamentBody {
         let work = WORK * self.structure(state).len();
         let foreseen = allowance.foresee_step(dt, 1.0, ROUNDS, work);
         foreseen.map_err(|halt| BodyError::Halted { body: self.name.clone(), halt })
-    }
-
-    fn updates(&self, _: f64) -> f64 {
-        cost(1.0, WORK * self.line.plan().capacity())
     }
 }
 

@@ -20,7 +20,7 @@ use crate::method::large_strain::{
     Conditions, Course, Courses, Equilibrium, FaceLoad, Failure, Rest, STEPS, WORK, Warmth,
 };
 use crate::method::sph::ParticleFields;
-use crate::runtime::allowance::{Allowance, Interrupt, cost};
+use crate::runtime::allowance::{Allowance, Interrupt};
 use crate::scene::{LargeStrain, Scene};
 use crate::state::{Field, Fields, Per};
 use crate::warning::{self, Warning};
@@ -560,10 +560,6 @@ impl Resources for RestingBody {
         let work = WORK * self.equilibrium.body.space.volume.len();
         let foreseen = allowance.foresee_step(dt, ITERATIONS, STEPS, work);
         foreseen.map_err(|halt| BodyError::Halted { body: self.name.clone(), halt })
-    }
-
-    fn updates(&self, _: f64) -> f64 {
-        cost(ITERATIONS, WORK * self.equilibrium.body.space.volume.len())
     }
 
     /// A reading finds the equilibrium under inputs that have changed.

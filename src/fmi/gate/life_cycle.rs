@@ -21,8 +21,9 @@ pub fn instantiate<F: Function>(
 ) -> Handle {
     match panics::caught(load).unwrap_or_else(|panic| Err(Refusal::error(panic))) {
         Ok(packed) => {
+            let ask = control.ask.filter(|_| packed.reports_progress());
             let mut unit = Unit::new(packed, log);
-            unit.control = Rc::new(control);
+            unit.control = Rc::new(StepControl { ask, ..control });
             hand_out::<F>(unit)
         }
         Err(refusal) => no_instance(function, &log, refusal),

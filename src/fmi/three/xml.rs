@@ -39,7 +39,7 @@ impl Description for Arrays<'_> {
     }
 
     fn co_simulation(&self) -> Attributes {
-        let has_droplets = self.scene.has_drops();
+        let reports_progress = self.scene.reports_progress().to_string();
         // Modal heat advances by any step at once, with constant inputs.
         let has_long_steps = self.scene.has_particles();
         let has_events = self.scene.has_events();
@@ -54,9 +54,9 @@ impl Description for Arrays<'_> {
             ("providesPerElementDependencies", "true".into()),
             ("canHandleVariableCommunicationStepSize", "true".into()),
             ("maxOutputDerivativeOrder", highest_output_derivative(self.scene).to_string()),
-            ("providesIntermediateUpdate", has_droplets.to_string()),
+            ("providesIntermediateUpdate", reports_progress.clone()),
             ("mightReturnEarlyFromDoStep", (has_long_steps || has_events).to_string()),
-            ("canReturnEarlyAfterIntermediateUpdate", has_droplets.to_string()),
+            ("canReturnEarlyAfterIntermediateUpdate", reports_progress),
             ("hasEventMode", has_events.to_string()),
         ]
     }

@@ -34,6 +34,11 @@ impl Packed {
         self.scene.has_events()
     }
 
+    /// Returns true if the unit declares that it reports the progress of a step.
+    pub fn reports_progress(&self) -> bool {
+        self.scene.reports_progress()
+    }
+
     pub(super) fn of((scene, warnings): (Scene, Vec<Warning>), text: &str) -> Self {
         let registry = Registry::of(&scene);
         let guid = guid::guid(text, &registry);

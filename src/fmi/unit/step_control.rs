@@ -88,8 +88,8 @@ impl StepControl {
         model.foresee(state, step, allowance)?;
         let (before, may_end) = (state.clone(), self.may_end(state));
         let (mut now, mut end, mut has_event) = (point, point + step, false);
+        let mut parts = model.parts(end - now);
         while now < end {
-            let parts = model.parts(end - now);
             let next = if parts > 1.0 { now + (end - now) / parts } else { end };
             // Guards against a step lost in rounding.
             let next = if next > now { next } else { end };
@@ -114,6 +114,8 @@ impl StepControl {
                 // An invalid or past time means now.
                 end = if wanted > now { end.min(wanted) } else { now };
             }
+            // One part less at least, so that their number is bounded.
+            parts = model.parts(end - now).min(parts - 1.0);
         }
         Ok(has_event)
     }

@@ -204,6 +204,32 @@ fn a_master_that_may_not_end_a_step_is_told_of_it() {
     assert!(told.iter().all(|&(time, flags)| time < 2e-4 && flags == [false, false, true, false]));
 }
 
+/// A solid that flies through thousands of time steps, in a unit that declares no updates.
+#[test]
+fn units_that_declare_no_updates_make_none() {
+    let flying = r#"
+name = "Flying"
+stop_time = 0.1
+step = 0.1
+[body.block]
+kind = "solid"
+strain = "finite"
+inertia = true
+dimension = 2
+shape = { box = [1e-3, 1e-3, 1e-3] }
+material = { model = "neo_hookean", density = 1000.0, specific_heat = 1900.0, conductivity = 0.2, young = 1e6, poisson = 0.3 }
+initial_temperature = 293.15
+mesh = { spacing = 1e-3 }
+start = { height = 1.0 }
+"#;
+    let unit = listening(flying, true);
+    wish(Some(0.0));
+    let (status, stepped) = unit.step(0.0, 0.1);
+    assert_eq!((status, stepped.flags, stepped.time), (OK, [false; 3], 0.1));
+    assert!(unit.get("block.steps")[0] > 1e3);
+    assert!(told().is_empty());
+}
+
 /// What is told as a mean over the last step is one over all its parts, so that what a master passes on is
 /// all that the droplet gave.
 #[test]
