@@ -11,7 +11,8 @@ use crate::scene::{LargeStrain, SolidShape};
 use crate::space::Form;
 use crate::warning::{self, Warning};
 
-/// Dissipation below zero that is no rounding and no error of steps, over the shear modulus times the volume.
+/// Dissipation below zero that is no rounding and no error of steps, over the shear modulus times the volume of the
+/// whole body.
 const UNSOUND: f64 = 1e-3;
 
 /// Messages of a body to its user.
@@ -29,9 +30,10 @@ impl Advised {
             Deviator::Plastic(_) | Deviator::Concrete(_) => false,
         });
         let shear = relaxing.map(|layer| layer.law.shear).reduce(f64::max);
-        let volume: f64 = body.space.volume.weights.iter().sum();
+        let of_model: f64 = body.space.volume.weights.iter().sum();
+        let volume = copies(solid.mirrors()) * of_model;
         let mut notes = forecast::notes(solid);
-        notes.extend(note_on_volume(solid, copies(solid.mirrors()) * volume));
+        notes.extend(note_on_volume(solid, volume));
         Self { name: name.to_owned(), notes, unsound: shear.map(|shear| -UNSOUND * shear * volume) }
     }
 
@@ -67,4 +69,42 @@ fn note_on_volume(solid: &LargeStrain, filled: f64) -> Option<String> {
     (missing > MISSING).then(|| {
         format!("flat elements leave out {percents} % of the ball: so much less are mass, momentum and energy")
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::plan;
+    use super::*;
+    use crate::scene;
+
+    /// Dissipation below which a block is warned of [J].
+    fn unsound(symmetry: &str) -> f64 {
+        let text = format!(
+            r#"
+name = "Block"
+stop_time = 1.0
+step = 0.1
+[body.block]
+kind = "solid"
+strain = "finite"
+shape = {{ box = [4e-3, 4e-3, 2e-3] }}
+symmetry = "{symmetry}"
+initial_temperature = 293.15
+material = {{ model = "viscoelastic", density = 1000.0, specific_heat = 1900.0, conductivity = 0.2, young = 1e6, poisson = 0.4, shear_relaxation = [{{ fraction = 0.6, time = 0.3 }}] }}
+mesh = {{ spacing = 2e-3 }}
+faces.bottom = {{ clamped = true }}
+"#
+        );
+        let scene = scene::parse(&text, "scene.toml").unwrap_or_else(|error| panic!("{error}"));
+        let own = scene.large_strains().next().unwrap();
+        let body = plan::deformable(own.1, 1).unwrap();
+        Advised::of(own, &body).unsound.unwrap()
+    }
+
+    #[test]
+    fn a_quarter_is_warned_of_as_the_whole_body() {
+        let [whole, quarter] = ["none", "quarter"].map(unsound);
+        assert!((quarter / whole - 1.0).abs() < 1e-12, "{quarter} {whole}");
+        assert!((whole / -(1e-3 * 1e6 / 2.8 * 32e-9) - 1.0).abs() < 1e-12, "{whole}");
+    }
 }
