@@ -355,6 +355,20 @@ fn states_that_no_run_produces_are_refused() {
     }
 }
 
+/// Faces that rest on the plane touch it by rounding, an energy that was there at the start.
+#[test]
+fn states_at_rest_on_the_plane_are_accepted() {
+    for mechanics in ["fem", "rkpm", "efg", "sph"] {
+        let keys = "shape = { box = [6e-3, 4e-3, 5e-3] }\nmesh = { spacing = 1e-3 }";
+        let text = gel(&format!("{keys}\ninertia = true\nmechanics = \"{mechanics}\""));
+        let mut trial = Trial::new(&text);
+        for n in 0..3 {
+            assert_eq!(trial.model.check_state(&trial.state), Ok(()), "{mechanics}: {n} steps");
+            trial.step(1e-4);
+        }
+    }
+}
+
 #[test]
 fn what_tears_a_mesh_is_refused_and_changes_nothing() {
     let text = gel(&format!("{BALL}\nstart = {{ velocity = [0.0, 0.0, -60.0] }}"));

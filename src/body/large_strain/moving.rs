@@ -161,15 +161,23 @@ impl MovingBody {
             }
         }
         let copies = copies(self.mirrors);
-        let touch = self.dynamics.contact(motion);
-        let internal = copies * (ledger.internal_work + touch.energy + motion.friction.heat);
+        let contact = |motion: &Motion| self.dynamics.contact(motion).energy;
+        let touch = contact(motion) - contact(&self.start);
+        let internal = copies * (ledger.internal_work + touch + motion.friction.heat);
         let work = now.mass * gravity * (now.centre - start.centre) + copies * ledger.load_work;
         let missing = now.kinetic + internal - start.kinetic - work;
-        let scale = start.kinetic + work.abs() + copies * ledger.internal_work.abs();
+        let known = start.kinetic + work.abs() + copies * ledger.internal_work.abs();
+        let scale = known + copies * self.rounding();
         if missing.abs() > ENERGY * scale {
             return Err(format!("{missing:.1e} J of energy have no cause"));
         }
         Ok(())
+    }
+
+    /// Energy of the model that is rounding [J]: faces that rest on the plane touch it by rounding.
+    fn rounding(&self) -> f64 {
+        let body = &self.dynamics.body;
+        f64::EPSILON * body.wave_modulus() * body.space.volume.weights.iter().sum::<f64>()
     }
 
     fn sums(&self, motion: &Motion, snapshot: &Snapshot) -> Sums {
