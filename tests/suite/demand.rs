@@ -372,6 +372,24 @@ fn a_scene_says_either_when_or_how_many() {
     );
 }
 
+/// Before the first drop nothing yields.
+#[test]
+fn yielding_fluid_runs_before_its_first_drop() {
+    let law = "{ law = \"bingham\", yield_stress = 5.0, plastic_viscosity = 0.01 }";
+    let text = drop(ON_DEMAND).replace("viscosity = 1e-3", &format!("viscosity = {law}"));
+    let mut trial = Trial::new(&(text + &wall(TILES)));
+    let read = |trial: &mut Trial| {
+        ["yielded_fraction", "creep", "mass"].map(|key| trial.get(&format!("drop.{key}")))
+    };
+    assert_eq!(read(&mut trial), [0.0; 3]);
+    steps(&mut trial, 1);
+    assert_eq!(read(&mut trial), [0.0; 3]);
+    ask(&mut trial, &[("release", 1.0)]);
+    steps(&mut trial, 2);
+    let [yielded, _, mass] = read(&mut trial);
+    assert!((0.0..=1.0).contains(&yielded) && mass > 0.0, "{yielded} of {mass} kg");
+}
+
 /// Fluid beyond the edge of a plate has nothing below: it keeps its heat, and all temperatures stay between those of
 /// drop and plate, whatever the drops of the scene would be like.
 #[test]

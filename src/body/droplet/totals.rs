@@ -177,7 +177,7 @@ const TOTALS: [Total; 38] = [
         totals.waiting
     }),
     yielding("yielded_fraction", "fraction of the mass that yields", Quantity::Ratio, |totals| {
-        totals.yielded_mass / totals.mass
+        totals.yielded_fraction()
     }),
     yielding(
         "creep",

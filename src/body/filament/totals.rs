@@ -261,7 +261,7 @@ const TOTALS: [Total; 37] = [
     of(
         Offered::OfYieldingParticles,
         total("yielded_fraction", "fraction of the mass that yields", Quantity::Ratio, |seen| {
-            seen.particles.yielded_mass / seen.particles.mass
+            seen.particles.yielded_fraction()
         }),
     ),
     of(

@@ -69,6 +69,13 @@ pub struct DropletTotals {
     pub waiting: f64,
 }
 
+impl DropletTotals {
+    /// Fraction of the mass that yields; 0 before the first drop.
+    pub fn yielded_fraction(&self) -> f64 {
+        if self.mass > 0.0 { self.yielded_mass / self.mass } else { 0.0 }
+    }
+}
+
 /// Computes the sums over the fluid, with the shape of drops.
 pub fn totals(
     plan: &DropletPlan,
