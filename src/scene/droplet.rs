@@ -63,7 +63,7 @@ pub struct Droplet {
     #[serde(default)]
     #[schemars(extend(
         "otherwise" = "`auto`: axisymmetric above rings or a disc, else a quarter, where that is exact",
-        "condition" = "`quarter` and `axisymmetric` with all drops at x = 0, y = 0, straight down; `axisymmetric` in three dimensions, not above tiles"
+        "condition" = "`quarter` and `axisymmetric` with all drops at x = 0, y = 0, straight down; `quarter` on a lattice; `axisymmetric` in three dimensions, not above tiles"
     ))]
     pub symmetry: DropletSymmetry,
     /// True if the surface below is modelled as round (a disc or a wall of rings); derived from the scene.

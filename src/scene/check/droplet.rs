@@ -5,7 +5,9 @@ mod room;
 use room::meets;
 
 use super::{Checker, fits, freezing, number, replayed, viscosity};
-use crate::scene::droplet::{Droplet, DropletMethod, DropletSymmetry, LEAST_SOUND_OVER_FLOW};
+use crate::scene::droplet::{
+    Droplet, DropletMethod, DropletSymmetry, LEAST_SOUND_OVER_FLOW, Placement,
+};
 use crate::scene::locate::Path;
 use crate::scene::types::{Footprint, Shape};
 
@@ -176,6 +178,11 @@ fn symmetry(checker: &mut Checker, path: &Path, name: &str, droplet: &Droplet) {
     checker.require(droplet.is_straight(), path, message, "auto, none, or impact_angle = 0.0");
     if droplet.symmetry == DropletSymmetry::Axisymmetric {
         round(checker, path, name, droplet);
+    }
+    if droplet.symmetry == DropletSymmetry::Quarter {
+        let message = "particles that are placed at random do not mirror themselves";
+        let fine = droplet.placement == Placement::Lattice;
+        checker.require(fine, path, message, "auto, none, or placement = \"lattice\"");
     }
 }
 
