@@ -13,6 +13,7 @@ both_versions! {
     every_damaged_byte_and_every_cut_is_noticed,
     damage_among_the_unknowns_is_noticed_and_changes_nothing,
     a_state_of_another_scene_is_refused_with_both_guids,
+    states_of_solved_pressure_are_read_back,
     null_pointers_are_refused,
 }
 
@@ -121,6 +122,29 @@ fn a_state_of_another_scene_is_refused_with_both_guids<V: Version>() {
     let text = refused(&unit, &bytes, "another scene");
     assert!(text.contains(&other.guid) && text.contains(&unit.guid), "{text}");
     assert_eq!(unit.advance(0.0, 1e-8), OK);
+}
+
+/// A drop whose pressure is solved has no speed of sound that could be set.
+const HONEY: &str = r#"name = "Honey"
+stop_time = 1e-2
+step = 1e-3
+[body.honey]
+kind = "droplet"
+diameter = 1e-2
+impact_velocity = 0.01
+initial_temperature = 300.0
+spacing = 1.5e-3
+pressure = "implicit"
+fluid = { density = 1400.0, viscosity = 10.0, specific_heat = 2000.0, conductivity = 0.3 }
+"#;
+
+fn states_of_solved_pressure_are_read_back<V: Version>() {
+    let unit = UnitOf::<V>::of_scene(HONEY);
+    assert_eq!([unit.begin(0.0, None), unit.exit()], [OK; 2]);
+    let (bytes, before) = (unit.serialize(unit.save()), seen(&unit));
+    assert_eq!(unit.advance(0.0, 1e-3), OK);
+    assert_eq!(unit.restore(unit.deserialize(&bytes)), OK, "{:?}", unit.messages.take());
+    assert_eq!(seen(&unit), before);
 }
 
 fn null_pointers_are_refused<V: Version>() {

@@ -3,7 +3,7 @@
 use super::{Constant, OfferedConstant, fluid};
 use crate::laws::AtStart;
 use crate::quantity::Quantity;
-use crate::scene::Droplet;
+use crate::scene::{Droplet, PressureAdvance};
 
 /// A constant of a droplet.
 #[derive(Debug)]
@@ -59,18 +59,19 @@ impl PartialEq for DropletConstant {
 
 impl Eq for DropletConstant {}
 
-/// The constants of a droplet, with those of its fluid. Inputs set speed and temperature of drops on demand, and only
-/// particles have a speed of sound.
+/// The constants of a droplet, with those of its fluid. Inputs set speed and temperature of drops on demand. Only
+/// particles whose pressure is not solved have a speed of sound that may be set.
 pub fn offered(body: &str, droplet: &Droplet) -> Vec<OfferedConstant> {
     let is_input = |key: &str| droplet.is_on_demand() && key == "impact_velocity";
-    let is_of_particles = |key: &str| !droplet.has_particles() && key == "sound_speed";
+    let has_sound = droplet.has_particles() && droplet.pressure == PressureAdvance::Explicit;
+    let is_of_sound = |key: &str| !has_sound && key == "sound_speed";
     let offer = |constant: &'static DropletConstant| OfferedConstant {
         key: constant.key.to_owned(),
         description: format!("{} of {body}", constant.description),
         constant: Constant::Droplet(constant),
     };
     let own = DropletConstant::ALL.iter();
-    let own = own.filter(|constant| !is_input(constant.key) && !is_of_particles(constant.key));
+    let own = own.filter(|constant| !is_input(constant.key) && !is_of_sound(constant.key));
     let (last, first): (Vec<_>, Vec<_>) = own.partition(|constant| constant.key == "sound_speed");
     let (of_fluid, of_law) = fluid::offered(body, &droplet.fluid);
     let temperature = (!droplet.is_on_demand()).then(|| OfferedConstant {
