@@ -8,14 +8,29 @@ const LEAST: f64 = 0.1;
 
 /// Returns for each particle whether it belongs to the body of fluid. The body consists of the
 /// heaviest lump and of all lumps of touching particles with at least a tenth of a drop's mass.
-/// Positions are in units of Δx, masses in any unit.
+/// Positions are in units of Δx, masses in any unit; that of a drop includes images at mirrors
+/// x = 0 and y = 0.
 ///
-/// Images at mirrors are not needed: they touch only where their originals do.
-pub fn body_of_fluid(positions: &[[f64; 3]], masses: &[f64], drop: f64) -> Vec<bool> {
+/// A lump that touches its image at a mirror is one with it.
+pub fn body_of_fluid(
+    positions: &[[f64; 3]],
+    masses: &[f64],
+    mirrors: [bool; 2],
+    drop: f64,
+) -> Vec<bool> {
     let lumps = lumps(positions);
     let mut weights = vec![0.0; masses.len()];
     for (&lump, mass) in lumps.iter().zip(masses) {
         weights[lump as usize] += mass;
+    }
+    for axis in (0..2).filter(|&axis| mirrors[axis]) {
+        let mut touches = vec![false; masses.len()];
+        for (&lump, x) in lumps.iter().zip(positions) {
+            touches[lump as usize] |= 2.0 * x[axis].abs() <= TOUCH;
+        }
+        weights.iter_mut().zip(touches).for_each(|(weight, touches)| {
+            *weight *= if touches { 2.0 } else { 1.0 };
+        });
     }
     let heaviest = weights.iter().copied().fold(0.0, f64::max);
     let least = (LEAST * drop).min(heaviest);
@@ -75,6 +90,9 @@ fn root(parents: &mut [u32], mut of: u32) -> u32 {
 mod tests {
     use super::*;
 
+    /// No mirrors.
+    const WHOLE: [bool; 2] = [false; 2];
+
     /// A cube of particles from a corner on.
     fn cube(side: usize, corner: [f64; 3]) -> Vec<[f64; 3]> {
         let at = |n: usize| [n % side, n / side % side, n / side / side];
@@ -105,9 +123,33 @@ mod tests {
         let mut positions = cube(6, [0.0; 3]);
         positions.extend(cube(6, [0.0, 0.0, 30.0]));
         positions.extend(cube(2, [20.0, 0.0, 0.0]));
-        let body = body_of_fluid(&positions, &[1.0; 440], 216.0);
+        let body = body_of_fluid(&positions, &[1.0; 440], WHOLE, 216.0);
         assert!(body[..432].iter().all(|&body| body) && !body[432..].contains(&true));
-        assert_eq!(body_of_fluid(&positions[432..], &[1.0; 8], 216.0), [true; 8]);
-        assert!(body_of_fluid(&[], &[], 216.0).is_empty());
+        assert_eq!(body_of_fluid(&positions[432..], &[1.0; 8], WHOLE, 216.0), [true; 8]);
+        assert!(body_of_fluid(&[], &[], WHOLE, 216.0).is_empty());
+    }
+
+    /// A body on both mirrors, and lumps of its eighth on both, on one and on none.
+    #[test]
+    fn parts_between_mirrors_have_the_strays_of_the_whole() {
+        let edge = |corner: [f64; 3]| corner.map(|x| x + 0.5);
+        let mut part = cube(6, edge([0.0; 3]));
+        for corner in [[0.0, 0.0, 20.0], [20.0, 0.0, 0.0], [0.0, 20.0, 20.0], [20.0, 20.0, 0.0]] {
+            part.extend(cube(3, edge(corner)));
+        }
+        for mirrors in [[true, true], [true, false], [false, true]] {
+            let mut whole = part.clone();
+            for axis in (0..2).filter(|&axis| mirrors[axis]) {
+                let mut images = whole.clone();
+                images.iter_mut().for_each(|x| x[axis] = -x[axis]);
+                whole.extend(images);
+            }
+            let count = whole.len();
+            for drop in [200.0, 400.0, 700.0, 1500.0] {
+                let of_part = body_of_fluid(&part, &vec![1.0; part.len()], mirrors, drop);
+                let of_whole = body_of_fluid(&whole, &vec![1.0; count], WHOLE, drop);
+                assert_eq!(of_part, of_whole[..part.len()], "{mirrors:?}, {drop}");
+            }
+        }
     }
 }

@@ -30,7 +30,7 @@ const SPEEDS_OF_FILM: usize = 17;
 /// Temperature of the recorded drop [K]; the record does not depend on it.
 const WARM: f64 = 400.0;
 /// Version of the records; to be raised when their contents change.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 static COURSES: SharedValues<String, Course> = SharedValues::new();
 

@@ -186,8 +186,8 @@ fn yielded_mass(method: &Method, cloud: &Cloud) -> f64 {
 /// Returns for each particle whether it belongs to the body of fluid.
 fn body(plan: &DropletPlan, ledger: &Ledger, cloud: &Cloud) -> Vec<bool> {
     let places: Vec<_> = cloud.position.iter().map(|x| x.map(|x| x * plan.support)).collect();
-    let mass: f64 = cloud.mass.iter().sum();
-    body_of_fluid(&places, &cloud.mass, mass / ledger.released.max(1.0))
+    let mass = copies(plan.mirrors) * cloud.mass.iter().sum::<f64>();
+    body_of_fluid(&places, &cloud.mass, plan.mirrors, mass / ledger.released.max(1.0))
 }
 
 /// Height over Δx below which a particle counts as on the wall: twice that of the first layer,
