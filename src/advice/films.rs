@@ -1,7 +1,6 @@
 //! Replayed drops on surfaces for which their records are unreliable.
 
 use super::{Path, Reviewer, number};
-use crate::closed_form::DropImpact;
 use crate::limits::two_digits;
 use crate::scene::{Droplet, DropletMethod, Scene, Solid};
 use crate::warning;
@@ -31,7 +30,7 @@ fn risky(reviewer: &mut Reviewer, (name, droplet): (&str, &Droplet)) {
     let scene = reviewer.scene;
     let Some(coupling) = scene.coupling_from(name) else { return };
     let Some(solid) = scene.coupling[coupling].solid() else { return };
-    let (speed, _) = droplet.contact(droplet.normal_speed());
+    let speed = droplet.normal_speed_at_contact();
     let most = SHORT * droplet.diameter / speed;
     if scene.solid(solid).is_some_and(Solid::has_flaws) && speed > 0.0 && scene.step > most {
         let finding = warning::film_risk_follows_step(solid, number(scene.step), two_digits(most));
@@ -46,7 +45,7 @@ const SPENT: f64 = 3.0;
 
 /// Warns of arrivals on one place at which more films than were ever measured still transfer heat.
 fn stacked(reviewer: &mut Reviewer, (name, droplet): (&str, &Droplet)) {
-    let (speed, _) = droplet.contact(droplet.normal_speed());
+    let speed = droplet.normal_speed_at_contact();
     if droplet.fluid.conductivity == 0.0 || speed <= 0.0 || droplet.is_on_demand() {
         return;
     }
@@ -73,7 +72,7 @@ const ALIKE: f64 = 1.25;
 /// space, from which no heat returns.
 fn thin(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Droplet)) {
     let Some((thickness, diffusivity)) = half_space(reviewer.scene, name) else { return };
-    let (speed, _) = droplet.contact(droplet.normal_speed());
+    let speed = droplet.normal_speed_at_contact();
     if droplet.fluid.conductivity == 0.0 || speed <= 0.0 {
         return;
     }
@@ -121,7 +120,7 @@ const COOLED: f64 = 0.25;
 /// Warns of films that have cooled before fresh fluid stops arriving: metals on good conductors. They have their final
 /// thickness from the start.
 fn depleted(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Droplet)) {
-    let (speed, _) = droplet.contact(droplet.normal_speed());
+    let speed = droplet.normal_speed_at_contact();
     if droplet.fluid.conductivity == 0.0 || speed <= 0.0 {
         return;
     }
@@ -153,8 +152,7 @@ const VISCOUS: f64 = 4.0;
 /// Warns of drops beyond the ranges over which footprints of films were fitted. Compared with particles (D/Δx 40 and
 /// 80), heat after 1 D/U was 1.9 times as much at Re 2.4, 2.9 and 3.1 times at Re 0.7, and 8.9 times at Re 0.1.
 fn unfitted(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
-    let impact =
-        DropImpact { speed: droplet.contact(droplet.normal_speed()).0, ..droplet.impact() };
+    let impact = droplet.impact();
     let Some(outside) = impact.outside_of_fitted().filter(|_| impact.speed > 0.0) else { return };
     let error = match impact.reynolds() < VISCOUS {
         true => "its footprint and heat are expected to be too large, heat by two to nine times",

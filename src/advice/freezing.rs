@@ -29,7 +29,7 @@ pub fn review(reviewer: &mut Reviewer) {
 fn skin_after_spreading(scene: &Scene, (name, droplet): (&str, &Droplet)) -> Option<f64> {
     let Freezing { melting, specific_heat, conductivity } = scene.freezing_of(name)?;
     let FirstContact { below_temperature, .. } = scene.first_contact(name)?;
-    let (speed, _) = droplet.contact(droplet.normal_speed());
+    let speed = droplet.normal_speed_at_contact();
     // A wall without effusivity keeps its temperature.
     let effusivity = scene.effusivity_below(name).unwrap_or(f64::MAX.sqrt());
     let fluid = &droplet.fluid;

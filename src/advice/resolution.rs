@@ -136,7 +136,7 @@ impl Resolution {
         let begin = droplet.arrivals().first().map_or(0.0, |arrival| arrival.time);
         let (speed, fall) = droplet.contact(droplet.normal_speed());
         let on_wall = match droplet.is_replayed() {
-            true => droplet.recorded_time(droplet.impact_velocity),
+            true => droplet.recorded_time(speed),
             false => scene.stop_time - begin - fall,
         };
         if !(on_wall > 0.0 && speed > 0.0) {

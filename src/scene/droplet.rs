@@ -356,7 +356,7 @@ impl Droplet {
         let surface = self.fluid.laplace_speed(self.spacing);
         let viscous = self.fluid.viscous_speed(
             self.reference_viscosity(),
-            self.impact_velocity,
+            self.speed_at_contact(),
             self.diameter,
         );
         [(Governing::Surface, surface), (Governing::Viscosity, viscous)].into_iter().fold(
@@ -492,16 +492,16 @@ impl Droplet {
     /// Returns true if particles are shifted.
     pub fn shifts(&self) -> bool {
         let tension = self.fluid.surface_tension;
-        let inertia = self.fluid.density * self.impact_velocity.powi(2) * self.diameter;
+        let inertia = self.fluid.density * self.speed_at_contact().powi(2) * self.diameter;
         self.shifting.unwrap_or(inertia > INERTIAL * tension || tension == 0.0)
     }
 
-    /// The impact of a drop in terms of the closed forms.
+    /// The impact of a drop on the wall in terms of the closed forms.
     pub fn impact(&self) -> DropImpact {
         let Fluid { density, surface_tension, contact_angle, .. } = self.fluid;
         DropImpact {
             diameter: self.diameter,
-            speed: self.normal_speed(),
+            speed: self.normal_speed_at_contact(),
             density,
             viscosity: self.reference_viscosity(),
             surface_tension,

@@ -66,7 +66,17 @@ impl Droplet {
         (fast, if way > 0.0 { 2.0 * way / (speed + fast) } else { 0.0 })
     }
 
-    /// Recorded time after contact of replayed drops [s].
+    /// Speed of a drop of the scene just before contact [m/s].
+    pub fn speed_at_contact(&self) -> f64 {
+        self.contact(self.impact_velocity).0
+    }
+
+    /// Speed towards the wall of a drop of the scene just before contact [m/s].
+    pub fn normal_speed_at_contact(&self) -> f64 {
+        self.contact(self.normal_speed()).0
+    }
+
+    /// Recorded time after contact of replayed drops that touch the wall at a speed [s].
     pub fn recorded_time(&self, speed: f64) -> f64 {
         let impact = DropImpact { speed, ..self.impact() };
         let usual = RECORDED * impact.time();

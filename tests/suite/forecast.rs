@@ -1,5 +1,6 @@
 //! Forecasts agree with the counts of runs.
 
+use impinge::advice::parse_with_warnings;
 use impinge::model::forecast;
 use impinge::scene::parse;
 
@@ -33,6 +34,50 @@ fn solved_pressure_is_offered_to_slow_thick_drops() {
     assert_eq!(honey("pressure = \"implicit\"", "", 0.5), None);
     assert_eq!(honey("viscous = \"explicit\"", "", 0.5), None);
     assert_eq!(honey("", ", sound_speed = 1400.0", 0.5), None);
+}
+
+/// A drop that falls from a height and the same impact as a speed: what is planned, noted and warned of is the same.
+#[test]
+fn drops_from_a_height_are_those_of_the_same_impact() {
+    let keys = "spacing = 2e-4\n";
+    let thin = "viscosity = 1e-3, surface_tension = 0.07";
+    let thick = "viscosity = 2.0, surface_tension = 0.06";
+    let replayed = "effusivity = 1400.0\n";
+    for (method, fluid, spacing, wall) in [
+        ("sph", thin, keys, ""),
+        ("sph", thick, keys, ""),
+        ("sph", "viscosity = 1e-3, surface_tension = 0.002", keys, ""),
+        ("record", thin, keys, replayed),
+        ("film", thin, "", replayed),
+    ] {
+        // In 0.05 s at 10 m/s², and 0.05 m, a drop of 0.75 m/s reaches 1.25 m/s.
+        let seen = |speed: f64, way: f64, fall: f64| {
+            let gap = if spacing.is_empty() { way } else { way + 1e-4 };
+            let text = format!(
+                "name = \"Fall\"\nstop_time = {:e}\nstep = 1e-3\n[body.drop]\nkind = \"droplet\"\nmethod = \
+                 \"{method}\"\ndiameter = 2e-3\nimpact_velocity = {speed:?}\nheight = {gap:e}\ninitial_temperature = \
+                 330.0\ngravity = 10.0\n{spacing}fluid = {{ density = 1000.0, specific_heat = 4000.0, conductivity = \
+                 0.6, {fluid} }}\n[[wall]]\nname = \"wall\"\nunder = \"drop\"\n{wall}footprint = {{ rings = {{ \
+                 count = 2, radius = 5e-3 }} }}\nstart = {{ temperature = 300.0 }}\n",
+                fall + 0.01
+            );
+            let (scene, found) = parse_with_warnings(&text, "scene.toml").unwrap();
+            let droplet = scene.droplet("drop").unwrap();
+            let sizes = [droplet.spread_diameter(), droplet.sound_speed()];
+            let warnings: Vec<_> = found.iter().map(ToString::to_string).collect();
+            let mut notes = forecast(&scene).droplets.remove(0).notes;
+            // The time of a run includes the fall.
+            notes.retain(|note| !note.contains("all that follows") && !note.contains("this run"));
+            (sizes, droplet.shifts(), notes, warnings)
+        };
+        let (fallen, fast) = (seen(0.75, 0.05, 0.05), seen(1.25, 0.0, 0.0));
+        for (a, b) in fallen.0.iter().zip(fast.0) {
+            // Films have no particles, and so no speed of sound.
+            let equal = *a == b || (a / b - 1.0).abs() < 1e-12;
+            assert!(equal, "{method}, {fluid}: {a}, {b}");
+        }
+        assert_eq!((fallen.1, fallen.2, fallen.3), (fast.1, fast.2, fast.3), "{method}, {fluid}");
+    }
 }
 
 /// Metals flatten by what their kinetic energy is over their yield stress, and rubber by its speed over that of sound.

@@ -81,7 +81,7 @@ pub fn omissions(scene: &Scene, forecast: &Forecast) -> Vec<String> {
 
 /// `√We Re^¼` at impact.
 fn splash(droplet: &Droplet) -> f64 {
-    let (fluid, speed) = (&droplet.fluid, droplet.impact_velocity);
+    let (fluid, speed) = (&droplet.fluid, droplet.speed_at_contact());
     let weber = fluid.density * speed.powi(2) * droplet.diameter / fluid.surface_tension;
     let reynolds = fluid.density * speed * droplet.diameter / droplet.reference_viscosity();
     weber.sqrt() * reynolds.powf(0.25)

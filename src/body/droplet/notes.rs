@@ -127,7 +127,7 @@ const WINDOW: f64 = 0.1;
 /// Notes the effect of the model's speed of sound on the first impact force, and the quantities that do not depend on
 /// it.
 fn note_on_first_blow(droplet: &Droplet) -> String {
-    let speed = droplet.normal_speed();
+    let speed = droplet.normal_speed_at_contact();
     let hammer = droplet.fluid.density * droplet.sound_speed() * speed;
     let window = match speed {
         speed if speed > 0.0 => format!(" = {:.1e} s", WINDOW * droplet.diameter / speed),
@@ -190,7 +190,7 @@ fn note_on_resolution(resolution: &Resolution, tolerance: f64) -> String {
 /// Returns a note on how particles at the stagnation point affect the first temperatures there.
 fn note_on_first_contact(scene: &Scene, name: &str, droplet: &Droplet) -> Option<String> {
     scene.coupling_from(name)?;
-    let speed = droplet.contact(droplet.normal_speed()).0;
+    let speed = droplet.normal_speed_at_contact();
     (droplet.fluid.conductivity > 0.0 && speed > 0.0).then(|| {
         format!(
             "in the first 2 Δx/U = {:.1e} s of contact the temperature under the middle may dip by a tenth to a half of its \

@@ -128,7 +128,7 @@ impl Cooling {
     /// lower face.
     fn of(droplet: &Droplet) -> Self {
         let fluid = &droplet.fluid;
-        let recorded = droplet.recorded_time(droplet.impact_velocity);
+        let recorded = droplet.recorded_time(droplet.speed_at_contact());
         let thickness = droplet.diameter.powi(3) / (1.5 * droplet.spread_diameter().powi(2));
         let diffusivity = fluid.conductivity / (fluid.density * fluid.specific_heat);
         let half = fourier_number(0.5) * thickness.powi(2) / diffusivity;

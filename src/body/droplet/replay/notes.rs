@@ -1,6 +1,7 @@
 //! Notes on replayed drops.
 
 use crate::body::droplet::watch;
+use crate::limits::number;
 use crate::method::record::Course;
 use crate::scene::{Droplet, DropletMethod, Scene};
 
@@ -40,7 +41,7 @@ pub fn notes(scene: &Scene, (name, droplet): (&str, &Droplet)) -> Vec<String> {
 
 fn speeds(droplet: &Droplet) -> String {
     match &droplet.recorded_speeds()[..] {
-        [one] => format!("{one} m/s"),
+        [one] => format!("{} m/s", number(droplet.contact(*one).0)),
         several => format!("each of {} speeds", several.len()),
     }
 }
@@ -52,7 +53,7 @@ const SHALLOW: f64 = 0.5;
 fn note_on_depth(scene: &Scene, (name, droplet): (&str, &Droplet)) -> Option<String> {
     let coupling = &scene.coupling[scene.coupling_from(name)?];
     let top = scene.solid(coupling.solid()?)?.strata().first().copied()?;
-    let time = droplet.recorded_time(droplet.impact_velocity);
+    let time = droplet.recorded_time(droplet.speed_at_contact());
     let depth = (4.0 * top.constants.diffusivity() * time).sqrt();
     let thickness = top.thickness();
     (depth > SHALLOW * thickness && scene.effusivity_below(name).is_some()).then(|| {
@@ -66,12 +67,12 @@ fn note_on_depth(scene: &Scene, (name, droplet): (&str, &Droplet)) -> Option<Str
 /// Notes the speeds and times for which drops are known.
 pub fn on_course(course: &Course, droplet: &Droplet) -> String {
     let [slowest, fastest] = course.speeds();
-    let speed = droplet.contact(droplet.impact_velocity).0;
+    let speed = droplet.speed_at_contact();
     let range = match slowest == fastest {
         true => format!("at {slowest:.4} m/s"),
         false => format!("from {slowest:.4} to {fastest:.4} m/s"),
     };
-    let known = droplet.recorded_time(droplet.impact_velocity);
+    let known = droplet.recorded_time(speed);
     format!(
         "drops are known {range} as they touch the wall, for {known:.3e} s on {} rings out to {:.3e} m; then they cool as a \
          film, and have given what they give after {:.3e} s",
