@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use super::contact_law::{ContactLaw, THICK, couplings, effusivity};
 use super::freezing_curve::{Curve, KNOTS, Lattice, content_at, sections};
 use super::phases::Phases;
+use super::wall_heat::{BEYOND_ROUNDING, is_beyond_release};
 use crate::closed_form::special::erfcx;
 use crate::kernel::Kernel;
 
@@ -150,11 +151,29 @@ impl FreezingLaw {
         (more / (NUDGE * gap)).max(0.0)
     }
 
+    /// Returns true if no contact with this wall explains the content of the layer, which the law then regards as that
+    /// before contact: a hotter wall has warmed it, or a colder one has cooled it, earlier. Of a layer of uniform
+    /// temperature the law needs no past.
+    pub fn begins_anew(&self, at: Contents, resistances: [f64; 2]) -> bool {
+        let Contents { before, fluid, wall } = at;
+        if self.stays_molten(at, resistances) {
+            return is_beyond_release(before, fluid, wall);
+        }
+        let cools = self.phases.potential(fluid) > self.potential(wall);
+        cools && fluid - before.max(self.phases.melting[1]) > BEYOND_ROUNDING
+    }
+
+    /// Returns true if molten fluid is in perfect contact with a wall that freezes none.
+    fn stays_molten(&self, Contents { fluid, wall, .. }: Contents, resistances: [f64; 2]) -> bool {
+        let [_, molten] = self.phases.contents();
+        resistances == [0.0; 2] && wall >= self.phases.melting[1] && fluid >= molten
+    }
+
     /// Content lost and decrease of the flux.
     fn step(&self, at: Contents, diffusion: f64, resistances: [f64; 2]) -> (f64, f64) {
         let Contents { before, fluid, wall } = at;
         let perfect = resistances == [0.0; 2];
-        if perfect && wall >= self.phases.melting[1] && fluid >= self.phases.contents()[1] {
+        if self.stays_molten(at, resistances) {
             let deficit = Some((before - fluid) / (before - wall)).filter(|d| d.is_finite());
             return (self.contact.relaxation(deficit, diffusion) * (fluid - wall), 0.0);
         }

@@ -18,6 +18,8 @@ const AT_WALL: [f64; 2] = [0.95, 1.05];
 /// second fluid covers all of it. At an edge the fraction crosses their mean, and unevenly spread
 /// particles stay above both.
 const COVERED: [f64; 2] = [0.25, 0.75];
+/// Difference of heat content beyond rounding [K].
+pub const BEYOND_ROUNDING: f64 = 1e-6;
 /// Number of passes that reconcile the law's relaxation with the wall temperature. Every pass keeps
 /// the latter between its value without flux and that of the fluid. Through a resistance the
 /// temperature within it is reconciled, too. Tangents reconcile a fluid that freezes.
@@ -55,7 +57,14 @@ pub struct Touching {
     pub share: f64,
     pub mass: f64,
     pub content: f64,
-    /// Heat content before contact.
+    /// Heat content before contact: that of the release, or that at which a contact began anew.
+    pub initial: f64,
+}
+
+/// Changes of heat content [K] of a particle at the wall in a step, now and before contact.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Change {
+    pub content: f64,
     pub initial: f64,
 }
 
@@ -68,6 +77,7 @@ struct Contact {
     fluid: f64,
     relaxation: f64,
     fall: f64,
+    begins_anew: bool,
 }
 
 /// Line that replaces the heat of a freezing fluid as a function of the wall's temperature.
@@ -136,33 +146,40 @@ impl WallHeat {
         ((none - height / self.spacing) / (none - all)).clamp(0.0, 1.0)
     }
 
-    /// Exchanges heat for a time over H/c₀; returns the changes of heat content [K] of the particles
-    /// at the wall.
+    /// Exchanges heat for a time over H/c₀; returns the changes of the particles at the wall.
     ///
     /// At every point the mean content of the particle layer relaxes towards that of the wall
     /// by the [`ContactLaw`] or the [`FreezingLaw`], while the columns below absorb the heat. One flux applies to both
     /// sides, and temperatures are the columns' responses to it, so no step is too long. Each
     /// particle then approaches the wall by the same fraction of its own difference, so no
     /// content leaves the initial range.
+    ///
+    /// A layer that is hotter than at its release, above a wall colder than that, has met a wall that was hot before,
+    /// and vice versa. No time of contact explains its content, so its contact begins anew, from the present content.
     pub fn exchange(
         &self,
         touching: &[Touching],
         points: &mut WallPoints,
         dt: f64,
         team: &Team,
-    ) -> Vec<f64> {
+    ) -> Vec<Change> {
         let stencils = self.gather(touching, points);
         let seconds = dt * self.unit_of_time;
         points.time += seconds;
         self.settle(points, dt, team);
         let points = &points.points;
         team.map(touching.len(), |n| {
-            let Touching { share, content, .. } = touching[n];
+            let Touching { share, content, initial, .. } = touching[n];
             let change = |(point, weight): (usize, f64)| {
                 let point = &points[point];
                 weight * (point.relaxation * (point.wall - content) - point.even_loss)
             };
-            share * stencils[n].weights().map(change).sum::<f64>()
+            let begins_anew = |&(point, _): &(usize, f64)| points[point].begins_anew;
+            let anew = stencils[n].weights().filter(begins_anew).map(|(_, weight)| weight);
+            Change {
+                content: share * stencils[n].weights().map(change).sum::<f64>(),
+                initial: (content - initial) * anew.sum::<f64>(),
+            }
         })
     }
 
@@ -283,6 +300,7 @@ impl WallHeat {
         if let Some((phases, law)) = &self.freezing {
             let at = Contents { before, fluid: content, wall };
             let parts = resistance.map_or([0.0; 2], |found| found.parts(thickness / self.spacing));
+            let begins_anew = law.begins_anew(at, parts);
             let loss = law.loss(at, diffusion, parts);
             let Lost { content: lost, fall } = loss;
             let gap = phases.rise(content) - wall;
@@ -293,9 +311,12 @@ impl WallHeat {
             };
             let (relaxation, fluid) =
                 if slope > 0.0 { (slope, wall + lost / slope) } else { (secant, wall + gap) };
-            return Contact { conductance: capacity * relaxation, fluid, relaxation, fall };
+            let conductance = capacity * relaxation;
+            return Contact { conductance, fluid, relaxation, fall, begins_anew };
         }
         let fluid = content;
+        let begins_anew = is_beyond_release(before, fluid, wall);
+        let before = if begins_anew { fluid } else { before };
         let Loss { part: relaxation, fall } = if let Some(resistance) = resistance {
             let at = Temperatures { before, fluid, wall };
             resistance.loss(at, diffusion, thickness / self.spacing)
@@ -304,13 +325,14 @@ impl WallHeat {
             let deficit = Some(deficit).filter(|d| d.is_finite());
             Loss { part: self.law.relaxation(deficit, diffusion), fall: 0.0 }
         };
-        Contact { conductance: capacity * relaxation, fluid, relaxation, fall }
+        Contact { conductance: capacity * relaxation, fluid, relaxation, fall, begins_anew }
     }
 
     /// Sets how the fluid at a point loses the heat of its contact with a wall of a temperature: relaxation times the
     /// difference of temperatures.
     fn approach(&self, point: &mut Point, contact: &Contact, wall: f64) {
-        let Contact { fluid, relaxation, .. } = *contact;
+        let Contact { fluid, relaxation, begins_anew, .. } = *contact;
+        point.begins_anew = begins_anew;
         // Where nothing is below, as beyond the edge of a body, there is nothing to relax towards.
         let covered = covered(point);
         (point.relaxation, point.wall, point.even_loss) = (relaxation * covered, wall, 0.0);
@@ -324,6 +346,13 @@ impl WallHeat {
         point.relaxation = if approaches { part } else { 0.0 };
         point.even_loss = if approaches || lost == 0.0 { 0.0 } else { lost };
     }
+}
+
+/// Returns true if the content of a layer and that of fluid at the wall's temperature lie on opposite sides of that before
+/// contact, beyond rounding [K].
+pub fn is_beyond_release(before: f64, fluid: f64, wall: f64) -> bool {
+    let [passed, ahead] = [fluid - before, before - wall];
+    passed * ahead > 0.0 && passed.abs().min(ahead.abs()) > BEYOND_ROUNDING
 }
 
 /// Hottest drop on demand with a table of its own, over the expected one's temperature.

@@ -75,6 +75,8 @@ pub struct Point {
     pub relaxation: f64,
     /// Heat content that all fluid at the point loses alike [K].
     pub even_loss: f64,
+    /// True if the contact of the fluid begins anew.
+    pub begins_anew: bool,
     /// Impulse [N s].
     pub impulse: [f64; 3],
 }

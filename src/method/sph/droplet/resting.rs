@@ -46,10 +46,11 @@ impl DropletSph {
             return Ok(());
         }
         let phases = self.method.phases.as_ref();
-        for Touching { particle, content, .. } in
+        for Touching { particle, content, initial, .. } in
             run.points.iter_mut().flat_map(|points| std::mem::take(&mut points.resting))
         {
             rest.heat(particle, content - rest.contents()[particle], phases);
+            rest.initial[particle] = initial;
         }
         let all = duration / self.method.units.time();
         if let Some(cooling) = &self.method.cooling {

@@ -270,3 +270,29 @@ fn hot_wall_melts_a_frozen_layer_in_two_phases_and_a_plateau() {
     let half = -law.loss(at, times[0] + 0.5 * times[1], [0.0; 2]).content;
     assert!((at.fluid + half - 0.5 * (frozen + molten)).abs() < 1e-9, "{half}");
 }
+
+/// Contacts begin anew where fluid is hotter than at its release above a colder wall, or, molten, colder above a hotter
+/// one; not within the range of a contact, nor by rounding.
+#[test]
+fn contacts_begin_anew_beyond_the_content_of_release() {
+    let (phases, law) = (WARM_TIN, law(&WARM_TIN));
+    let begins = |fluid: f64, wall: f64, resistances: [f64; 2]| {
+        law.begins_anew(Contents { before: 0.0, fluid, wall }, resistances)
+    };
+    for resistances in [[0.0; 2], [0.3, 0.1]] {
+        for wall in [-1e-3, -5.0, -8.0, -60.0] {
+            assert!(begins(40.0, wall, resistances), "{wall}");
+            assert!(!begins(1e-9, wall, resistances), "{wall}");
+            let end = phases.content(wall);
+            for part in [0.0, 0.1, 0.5, 1.0] {
+                assert!(!begins(part * end, wall, resistances), "{part} of {wall}");
+            }
+        }
+        for part in [0.0, 0.5, 1.0] {
+            assert!(!begins(part * 40.0, 40.0, resistances), "{part}");
+        }
+    }
+    assert!(begins(-5.0, 40.0, [0.0; 2]));
+    // A frozen layer has a uniform temperature.
+    assert!(!begins(phases.content(-20.0), 40.0, [0.0; 2]));
+}

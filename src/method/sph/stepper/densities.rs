@@ -118,10 +118,12 @@ fn exchange_heat(
     let changes = heat.exchange(&touching, points, dt, team);
     touching.truncate(moving);
     for (touching, change) in touching.iter().zip(&changes) {
-        cloud.heat(touching.particle, *change, method.phases.as_ref());
+        cloud.heat(touching.particle, change.content, method.phases.as_ref());
+        cloud.initial[touching.particle] += change.initial;
     }
     for (resting, change) in points.resting.iter_mut().zip(&changes[moving..]) {
-        resting.content += change;
+        resting.content += change.content;
+        resting.initial += change.initial;
     }
     touching
 }
