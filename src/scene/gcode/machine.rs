@@ -76,20 +76,26 @@ pub fn steps(text: &str, settings: &PathFile, height: f64) -> Result<Vec<Step>, 
     Ok(machine.steps)
 }
 
-/// The line without comments, its number and its checksum.
-fn bare(line: &str) -> String {
-    let line = line.split([';', '*', '%']).next().unwrap_or_default();
-    let mut depth = 0;
+/// Returns the line without comments and checksum. Within brackets every letter belongs to the comment, also those that
+/// end a line elsewhere.
+fn bare(line: &str) -> Result<String, Refusal> {
+    let mut depth = 0_usize;
     let mut text = String::new();
     for letter in line.chars() {
         match letter {
             '(' => depth += 1,
-            ')' => depth -= 1,
+            ')' => depth = depth.checked_sub(1).ok_or_else(|| unbalanced(letter))?,
+            ';' | '*' | '%' if depth == 0 => break,
             _ if depth == 0 => text.push(letter),
             _ => {}
         }
     }
-    text
+    if depth == 0 { Ok(text) } else { Err(unbalanced('(')) }
+}
+
+fn unbalanced(bracket: char) -> Refusal {
+    let message = format!("the bracket `{bracket}` of a comment has no counterpart");
+    (message, "comments as in G1 X10 (wall), or after a semicolon".to_owned())
 }
 
 fn words_of(line: &str) -> Result<Words, Refusal> {
@@ -119,7 +125,11 @@ fn words_of(line: &str) -> Result<Words, Refusal> {
 
 impl Machine<'_> {
     fn read(&mut self, line: &str) -> Result<(), Refusal> {
-        let line = bare(line);
+        // Messages may contain any brackets.
+        if is_passed_over(line) {
+            return Ok(());
+        }
+        let line = bare(line)?;
         if is_passed_over(&line) {
             return Ok(());
         }
@@ -149,8 +159,8 @@ impl Machine<'_> {
             "G4" => self.dwell(values)?,
             "G20" => self.unit = INCH,
             "G21" => self.unit = MILLIMETRE,
-            // Home is where no fluid comes: the path begins afterwards.
-            "G28" if self.steps.is_empty() => {}
+            // No fluid comes at home, and the path begins afterwards.
+            "G28" if self.steps.is_empty() => self.home(values),
             "G90" => self.is_relative = false,
             "G91" => self.is_relative = true,
             "G92" => self.rename(values)?,
@@ -159,6 +169,17 @@ impl Machine<'_> {
             _ => return Err((format!("{code} is not understood"), UNDERSTOOD.to_owned())),
         }
         Ok(())
+    }
+
+    /// Forgets the place along the axes that go home, and that it was renamed; without words all axes go.
+    fn home(&mut self, values: &Words) {
+        let [x, y] = self.settings.origin;
+        for (axis, (letter, zero)) in [('X', x), ('Y', y), ('Z', 0.0)].into_iter().enumerate() {
+            if values.is_empty() || values.iter().any(|(named, _)| *named == letter) {
+                self.place[axis] = None;
+                self.zero[axis] = zero;
+            }
+        }
     }
 
     /// Place at which the words of a line end [m].

@@ -123,6 +123,26 @@ mod tests {
         }
     }
 
+    /// Comments may contain the letters that end a line elsewhere.
+    #[test]
+    fn comments_hide_no_words() {
+        let plain = "G0 X0 Y0\nG1 X10 E0.5 F600";
+        for commented in [
+            "G0 X0 Y0\nG1 X10 (outer; wall 50%) E0.5 F600",
+            "G0 X0 Y0 ; (\nG1 (a * (b)) X10 E0.5 F600 ;)",
+            "G0 X0 Y0*(\nG1 X10 E0.5 F600 % )",
+        ] {
+            assert_eq!(of(commented, ""), of(plain, ""), "{commented}");
+        }
+    }
+
+    /// The place after homing is not known, so a path may only begin with a new one.
+    #[test]
+    fn homing_forgets_the_place() {
+        let plain = "G0 X5 Y6 Z1\nG1 X15 E1 F600";
+        assert_eq!(of(&format!("G0 X1 Y2\nG92 X7\nG28\n{plain}"), ""), of(plain, ""));
+    }
+
     /// Filament that was drawn back is fed first; only then does fluid come again.
     #[test]
     fn retractions_bring_no_fluid() {
@@ -220,12 +240,15 @@ mod tests {
             ("G0 X0 Y0\nG1 X1 F0", 2, "speed"),
             ("hello", 1, "`h`"),
             ("X1 Y2", 1, "no command"),
+            ("G0 X0 Y0\nG1 X1 (wall F60", 2, "`(`"),
+            ("G0 X0 Y0\nG1 X1 wall) F60", 2, "`)`"),
+            ("G0 X0 Y0\nG28\nG1 X1 E1 F60", 3, "before the place"),
+            ("G0 X0 Y0\nG28 Y0\nG1 X1 E1 F60", 3, "before the place"),
         ] {
             let refused = route(text, &settings(""), 1e-3).unwrap_err();
             assert!(refused.line == line && refused.message.contains(words), "{text}: {refused:?}");
         }
-        let passed =
-            "M104 S200\nM107\nG28\nM117 Hello (world) X1\nT0\n; only a comment\n%\nG0 X0 Y0";
+        let passed = "M104 S200\nM107\nG28\nM117 Hello (world) X1\nM117 :)\nT0\n; only a comment\n%\nG0 X0 Y0";
         assert!(route(passed, &settings(""), 1e-3).is_ok());
     }
 }
