@@ -64,17 +64,8 @@ fn source(story: &Story, folder: &Path) -> Vec<Fact> {
 /// Maps of arrays, but for fields of solids whose nodes are shown.
 fn cells(scene: &Scene, maps: &[Map], outputs: &Outputs) -> Vec<Map> {
     let is_shown = |body: &str| maps.iter().any(|map| map.title.starts_with(&format!("{body}: ")));
-    let hidden: Vec<String> = CellFamily::places(scene)
-        .into_iter()
-        .filter(|family| family.kind == "field")
-        .filter(|family| is_shown(family.on.split('.').next().unwrap_or_default()))
-        .map(|family| family.name)
-        .collect();
-    let is_hidden = |map: &Map| {
-        let name = map.title.split([':', '.', '_']).next().unwrap_or_default();
-        hidden.iter().any(|family| family == name)
-    };
-    arrays(scene, outputs).into_iter().filter(|map| !is_hidden(map)).collect()
+    let body = |family: &CellFamily| family.on.split('.').next().unwrap_or_default().to_owned();
+    arrays(scene, outputs, |family| family.kind != "field" || !is_shown(&body(family)))
 }
 
 /// Warnings and notes of a run.

@@ -120,23 +120,32 @@ pub fn group(quantity: Option<Quantity>) -> &'static str {
     }
 }
 
-/// Arrays over time: those on rings as profiles, those on tiles and grids as maps of cells.
-pub fn arrays(scene: &Scene, outputs: &Outputs) -> Vec<Map> {
+/// Arrays over time of those families of cells that are shown: those on rings as profiles, those on tiles and grids as
+/// maps of cells.
+pub fn arrays(
+    scene: &Scene,
+    outputs: &Outputs,
+    is_shown: impl Fn(&CellFamily) -> bool,
+) -> Vec<Map> {
     let (registry, arrays) = (Registry::of(scene), ArrayRegistry::of(scene));
+    let structured = ArrayRegistry::structured(scene);
     let families = CellFamily::all(scene);
     let found: Vec<_> = arrays
         .variables
         .iter()
-        .filter(|array| {
+        .zip(&structured.variables)
+        .filter(|(array, _)| {
             !array.dimensions.is_empty() && matches!(array.content, Content::Elements(_))
         })
-        .filter_map(|array| {
-            Some((array, columns(array, &registry, outputs)?, family(array, &families)?))
+        .filter_map(|(array, structured)| {
+            let family = family(structured, &families)?;
+            Some((array, columns(array, &registry, outputs)?, family))
         })
         .collect();
     let most = MOST_OF_ARRAYS / found.len().max(1);
     found
         .iter()
+        .filter(|(_, _, family)| is_shown(family))
         .filter_map(|(array, columns, family)| {
             let unit = array.quantity(&registry).map_or("1", Quantity::unit);
             map(array, unit, columns, family, &outputs.times, most)
@@ -158,15 +167,10 @@ fn columns<'o>(
     })
 }
 
-/// The cells of an array.
+/// The cells of an array with a structured name, which begins with that of its family.
 fn family<'f>(array: &ArrayVariable, families: &'f [CellFamily]) -> Option<&'f CellFamily> {
-    let (owner, _) = array.name.rsplit_once(['.', '_'])?;
-    families.iter().find(|family| {
-        family.count == array.dimensions
-            && (owner == family.name
-                || array.name.starts_with(&format!("{}_", family.name))
-                || array.name.starts_with(&format!("{}.", family.name)))
-    })
+    let (owner, _) = array.name.split_once('.')?;
+    families.iter().find(|family| family.name == owner && family.count == array.dimensions)
 }
 
 fn map(
@@ -249,4 +253,60 @@ fn axes_of(
     };
     let (across, up) = (along(second, first)?, along(1, second)?);
     Some(([across.0, up.0], [across.1, up.1]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCENE: &str = r#"
+name = "Rings"
+stop_time = 1.0
+step = 1.0
+naming = "NAMING"
+[body.plate]
+kind = "solid"
+shape = { disc = { radius = 1.0, thickness = 0.5 } }
+material = { model = "thermoelastic", density = 2.0, specific_heat = 3.0, conductivity = 5.0 }
+initial_temperature = 300.0
+mesh = { spacing = 0.25 }
+[[load]]
+name = "spot"
+on = "plate.top"
+footprint = { rings = { count = 2, radius = 0.25 } }
+carries = ["heat_flux"]
+[[load]]
+name = "spot_wide"
+on = "plate.top"
+footprint = { rings = { count = 2, radius = 1.0 } }
+carries = ["heat_flux"]
+"#;
+
+    /// A table in which all elements of both loads change.
+    fn table(registry: &Registry) -> Outputs {
+        let names = registry.variables.iter().map(|variable| variable.name.as_str());
+        let names: Vec<_> = names.filter(|name| name.contains("heat_flux")).collect();
+        let row = |value: &str| format!("{value}{}\n", format!(",{value}").repeat(names.len()));
+        let head: String = names.iter().map(|name| format!(",{name} [W/m2]")).collect();
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("table.csv");
+        std::fs::write(&path, format!("time [s]{head}\n{}{}", row("0.0"), row("1.0"))).unwrap();
+        Outputs::read(&path).unwrap()
+    }
+
+    /// The name of one family begins with that of the other, whatever the style of names.
+    #[test]
+    fn arrays_belong_to_the_family_of_their_whole_name() {
+        for naming in ["structured", "flat"] {
+            let scene = impinge::scene::parse(&SCENE.replace("NAMING", naming), "scene.toml");
+            let scene = scene.unwrap_or_else(|error| panic!("{error}"));
+            let outputs = table(&Registry::of(&scene));
+            let maps = arrays(&scene, &outputs, |_| true);
+            let radii: Vec<_> = maps.iter().map(|map| map.axes[1].ends).collect();
+            assert_eq!(radii, [Some([0.0, 0.25]), Some([0.0, 1.0])], "{naming}");
+            let shown = arrays(&scene, &outputs, |family| family.name != "spot");
+            let radii: Vec<_> = shown.iter().map(|map| map.axes[1].ends).collect();
+            assert_eq!(radii, [Some([0.0, 1.0])], "{naming}");
+        }
+    }
 }
