@@ -58,16 +58,19 @@ pub fn couplings(scene: &Scene) -> String {
     table(["from", "to", "carries"], &rows)
 }
 
+/// Thermal conditions of a face; radiation may act beside a flux or convection.
 pub fn thermal(face: &Face) -> String {
-    if let Some(temperature) = face.temperature {
-        kelvin(temperature)
-    } else if let Some(convection) = face.convection {
+    let temperature = face.temperature.map(kelvin);
+    let convection = face.convection.map(|convection| {
         format!("convection, {} W/(m² K) to {}", convection.coefficient, kelvin(convection.ambient))
-    } else if let Some(flux) = face.flux {
-        format!("flux {}", engineering(flux, "W/m²"))
-    } else {
-        "insulated".into()
-    }
+    });
+    let flux = face.flux.map(|flux| format!("flux {}", engineering(flux, "W/m²")));
+    let radiation = face.radiation.map(|radiation| {
+        format!("radiation, emissivity {} to {}", radiation.emissivity, kelvin(radiation.ambient))
+    });
+    let conditions = [temperature, convection, flux, radiation].into_iter().flatten();
+    let words: Vec<String> = conditions.collect();
+    if words.is_empty() { "insulated".into() } else { words.join("; ") }
 }
 
 pub fn mechanical(face: &Face) -> &'static str {
@@ -75,5 +78,24 @@ pub fn mechanical(face: &Face) -> &'static str {
         (true, _) => "clamped",
         (false, true) => "roller",
         (false, false) => "free",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use impinge::scene::{Convection, Radiation};
+
+    use super::*;
+
+    #[test]
+    fn radiation_is_named_alone_and_beside_convection() {
+        let radiation = Some(Radiation { emissivity: 0.8, ambient: 300.0 });
+        let alone = Face { radiation, ..Face::default() };
+        assert_eq!(thermal(&alone), "radiation, emissivity 0.8 to 300.00 K");
+        let convection = Some(Convection { coefficient: 5.0, ambient: 290.0 });
+        let beside = Face { convection, ..alone };
+        let words = "convection, 5 W/(m² K) to 290.00 K; radiation, emissivity 0.8 to 300.00 K";
+        assert_eq!(thermal(&beside), words);
+        assert_eq!(thermal(&Face::default()), "insulated");
     }
 }
