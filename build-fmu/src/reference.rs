@@ -133,7 +133,7 @@ fn results(model: &Model, registry: &Registry, columns: &[Column]) -> Result<Str
     for done in 0..=timeline.count {
         if done > 0 {
             model.step(&mut state, &mut cache, timeline.length(done - 1))?;
-            state.time = timeline.time(done);
+            state.set_time(timeline.time(done));
         }
         let mut reader = model.reader(&state, &mut cache)?;
         let values: Result<Vec<f64>, _> = outputs.iter().map(|out| reader.value(out)).collect();
@@ -181,7 +181,11 @@ mod tests {
 
     /// The rows of inputs and outputs, the values of a column together.
     fn rows(fmi: Version) -> [Vec<Vec<Vec<f64>>>; 2] {
-        let scene = impinge::scene::parse(SCENE, "scene.toml").unwrap();
+        rows_of(SCENE, fmi)
+    }
+
+    fn rows_of(scene: &str, fmi: Version) -> [Vec<Vec<Vec<f64>>>; 2] {
+        let scene = impinge::scene::parse(scene, "scene.toml").unwrap();
         let files = entries(&scene, fmi).unwrap();
         [STIMULI, RESULTS].map(|name| {
             let text = str::from_utf8(&files[&format!("{FOLDER}/{name}")]).unwrap();
@@ -200,6 +204,18 @@ mod tests {
         assert!(inputs.iter().all(|row| row.len() == count(Causality::Input)));
         assert!(outputs.iter().all(|row| row.len() == count(Causality::Output)));
         assert_eq!((&outputs[0][0][..], &outputs[20][0][..]), (&[0.0][..], &[2e-7][..]));
+    }
+
+    /// Under a constant flux the highest temperature rises, so each row has its maximum at its own time.
+    #[test]
+    fn maxima_have_the_times_of_their_rows() {
+        let scene = SCENE.replace("[body.plate]", "[body.plate]\npeaks = [\"temperature\"]");
+        let registry = Registry::of(&impinge::scene::parse(&scene, "scene.toml").unwrap());
+        let mut names = registry.of_causality(Causality::Output);
+        let is_time = |i: usize| registry.variables[i].name == "plate.peak_temperature_time";
+        let column = 1 + names.position(is_time).unwrap();
+        let [_, outputs] = rows_of(&scene, Version::Two);
+        assert!(outputs.iter().all(|row| row[0] == row[column]), "{outputs:?}");
     }
 
     #[test]
