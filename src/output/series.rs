@@ -90,6 +90,11 @@ impl FieldSeries {
         Some(directory.join(own))
     }
 
+    /// The folder of the files.
+    pub fn directory(&self) -> &Path {
+        &self.directory
+    }
+
     /// Checks that the lists and all their files exist.
     pub fn check_present(&self) -> Result<(), OutputError> {
         let drawn = || self.bodies.iter().filter(|drawing| drawing.kind.is_some());

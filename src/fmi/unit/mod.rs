@@ -31,12 +31,12 @@ use super::gate::log::Log;
 use super::table::{Function, Phase, Reason, Rule};
 
 use crate::model::{Kept, KeptReduction, State, Stiffness, initial_inputs};
-use crate::output::{FieldSeries, FolderLock};
 use crate::runtime::allowance::Interrupt;
 use crate::scene::Scene;
 use crate::variables::{ArrayRegistry, Registry};
 use crate::warning::Warning;
 use built::{Run, explain};
+use fields::Series;
 use saved::SavedStates;
 
 /// One instance of a unit.
@@ -82,8 +82,8 @@ pub struct Unit {
     /// True if the last step was no shorter than the meshes resolve and no input has been set differently since. A
     /// single short step then follows no jump.
     is_settled: bool,
-    /// The field files, in a folder that is locked against other writers.
-    pub(super) series: Option<(FieldSeries, FolderLock)>,
+    /// The field files of the run, also after its end, from which a restored state may go on.
+    pub(super) series: Option<Series>,
     /// Ends the step under way from another thread.
     pub(super) interrupt: Interrupt,
     /// True if the last step has ended at an event that is to be reported.
@@ -208,10 +208,12 @@ impl Unit {
         Ok(Status::Ok)
     }
 
-    /// Ends the run: closes files, and sends warnings that only the end of a run allows.
+    /// Ends the run: releases the folder of its files, and sends warnings that only the end of a run allows.
     pub fn terminate(&mut self) -> Answer {
         self.warn_at_end();
-        self.series = None;
+        if let Some(series) = &mut self.series {
+            series.release();
+        }
         self.phase = Phase::Terminated;
         Ok(Status::Ok)
     }
@@ -243,7 +245,11 @@ impl Unit {
 impl Unit {
     /// A unit of the scene that the tests of the C ABI use, without logger.
     pub fn for_tests() -> Self {
-        let text = include_str!("../../../tests/fmi/scene.toml");
+        Self::of_scene_for_tests(include_str!("../../../tests/fmi/scene.toml"))
+    }
+
+    /// A unit of a scene, without logger.
+    pub fn of_scene_for_tests(text: &str) -> Self {
         let scene = crate::advice::parse_with_warnings(text, "scene.toml");
         let scene = scene.unwrap_or_else(|error| panic!("{error}"));
         Self::new(Packed::of(scene, text), Log::new(Box::new(|_, _, _| {}), true))

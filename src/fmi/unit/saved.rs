@@ -140,11 +140,16 @@ impl Unit {
         self.texts.clear();
         self.run = snapshot.model.map(Run::new);
         if !self.phase.is_running() {
-            self.series = None;
+            // A run that begins writes its files anew.
+            let begins = matches!(self.phase, Phase::Instantiated | Phase::InitializationMode);
+            match &mut self.series {
+                Some(series) if same_files && !begins => series.release(),
+                series => *series = None,
+            }
             return Ok(Status::Ok);
         }
         match &mut self.series {
-            Some((series, _)) if same_files => {
+            Some(series) if same_files => {
                 let gone_back = series.go_back(self.state.time);
                 if let Err(error) = gone_back {
                     return Ok(self.warn_of_output(&error));
