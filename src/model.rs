@@ -83,7 +83,8 @@ pub struct State {
     pub derivatives: Vec<Vec<f64>>,
     /// Unknowns of each body, in the order of their names. Their number grows in a droplet when a drop is released.
     pub bodies: Vec<Vec<f64>>,
-    /// Running maxima, body by body in the order of their lists; none before the first is noted.
+    /// Running maxima, body by body in the order of their lists; none before the first is noted, then a mark for each that
+    /// is not noted yet.
     pub peaks: Vec<Peak>,
 }
 

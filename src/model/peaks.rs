@@ -6,6 +6,9 @@
 use super::{Cache, Model, ModelError, State};
 use crate::body::{BodyError, Extreme, PeakPart};
 
+/// Value of a maximum that is not noted yet.
+const UNNOTED: f64 = f64::MIN;
+
 /// Highest value of a body so far.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
@@ -15,6 +18,15 @@ pub struct Peak {
 }
 
 impl Peak {
+    /// Mark of a maximum that is not noted yet while others are.
+    fn unnoted(time: f64) -> Self {
+        Self { time, highest: Extreme { value: UNNOTED, at: [0.0; 3] } }
+    }
+
+    fn is_noted(&self) -> bool {
+        self.highest.value != UNNOTED
+    }
+
     /// Value, time, x, y and z.
     pub fn numbers(&self) -> [f64; 5] {
         let Extreme { value, at: [x, y, z] } = self.highest;
@@ -92,23 +104,15 @@ impl Model {
             return Ok(());
         }
         cache.update(self, state);
-        let holds = |number: usize| {
-            let (place, which) = self.peaks[number];
-            when.is_end() || self.bodies[place].holds_at_beginning(which)
-        };
-        // The first maxima are noted together.
-        let is_soon = state.peaks.is_empty() && !(0..self.peaks.len()).all(holds);
-        let count = if is_soon { 0 } else { self.peaks.len() };
-        let peaks = (0..count).map(|number| {
-            let known = state.peaks.get(number).copied();
-            if let Some(known) = known.filter(|_| !holds(number)) {
-                return Ok(known);
-            }
-            let now = self.peak_now(state, cache, number);
-            let now = now.map_err(|error| (self.peaks[number].0, error))?;
-            Ok(known.filter(|known| known.highest.value >= now.highest.value).unwrap_or(now))
+        let all = 0..self.peaks.len();
+        let noted = all.map(|number| {
+            let noted = self.noted_so_far(state, cache, number, when);
+            noted.map_err(|error| (self.peaks[number].0, error))
         });
-        let peaks = peaks.collect::<Result<Vec<_>, _>>()?;
+        let mut peaks = noted.collect::<Result<Vec<_>, _>>()?;
+        if !peaks.iter().any(Peak::is_noted) {
+            peaks.clear();
+        }
         let is_kept = |&place: &usize| {
             let body = &self.bodies[place];
             body.keeps_field() && (when.is_end() || body.field_holds_at_beginning())
@@ -130,6 +134,36 @@ impl Model {
         Ok(())
     }
 
+    /// Returns a running maximum updated to the present value; an earlier or unnoted one where that does not hold yet.
+    fn noted_so_far(
+        &self,
+        state: &State,
+        cache: &mut Cache,
+        number: usize,
+        when: When,
+    ) -> Result<Peak, BodyError> {
+        let (place, which) = self.peaks[number];
+        let known = self.noted_peak(state, (place, which)).copied();
+        if !when.is_end() && !self.bodies[place].holds_at_beginning(which) {
+            return Ok(known.unwrap_or(Peak::unnoted(state.time)));
+        }
+        let now = match when {
+            When::Beginning => self.peak_at_beginning(state, cache, number, known)?,
+            When::End { .. } => self.peak_now(state, cache, number)?,
+        };
+        Ok(known.filter(|known| known.highest.value >= now.highest.value).unwrap_or(now))
+    }
+
+    /// Returns a running maximum of a body by its number there, once it is noted.
+    pub(super) fn noted_peak<'s>(
+        &self,
+        state: &'s State,
+        peak: (usize, usize),
+    ) -> Option<&'s Peak> {
+        let number = self.peaks.iter().position(|place| *place == peak)?;
+        state.peaks.get(number).filter(|peak| peak.is_noted())
+    }
+
     /// Returns true if a body has running maxima, of the whole body or of a field.
     fn keeps_maxima(&self) -> bool {
         !self.peaks.is_empty() || self.bodies.iter().any(|body| body.keeps_field())
@@ -145,7 +179,7 @@ impl Model {
     ) -> Result<f64, ModelError> {
         let number = self.peaks.iter().position(|place| *place == (body, which));
         let number = number.expect("registered from a body that keeps it");
-        match state.peaks.get(number) {
+        match self.noted_peak(state, (body, which)) {
             Some(peak) => Ok(peak.part(part)),
             None => Ok(self.peak_now(state, cache, number)?.part(part)),
         }
@@ -155,6 +189,23 @@ impl Model {
         let (place, which) = self.peaks[number];
         let (body, unknowns) = (&self.bodies[place], &state.bodies[place]);
         let highest = body.observe(unknowns, cache.memo(place), which)?;
+        BodyError::unless_finite(highest.value)?;
+        Ok(Peak { time: state.time, highest })
+    }
+
+    /// Returns the highest value when a step begins, whose inputs may have jumped.
+    fn peak_at_beginning(
+        &self,
+        state: &State,
+        cache: &mut Cache,
+        number: usize,
+        known: Option<Peak>,
+    ) -> Result<Peak, BodyError> {
+        let (place, which) = self.peaks[number];
+        let own = (&state.bodies[place][..], &state.inputs[..]);
+        let so_far = known.map(|known| known.highest);
+        let highest =
+            self.bodies[place].observe_at_beginning(own, cache.memo(place), which, so_far)?;
         BodyError::unless_finite(highest.value)?;
         Ok(Peak { time: state.time, highest })
     }
@@ -178,8 +229,120 @@ impl Model {
                     state.time
                 ));
             }
-            body.check_peak(which, &peak.highest).or_else(refuse)?;
+            if peak.is_noted() || body.holds_at_beginning(which) {
+                body.check_peak(which, &peak.highest).or_else(refuse)?;
+            }
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene;
+    use crate::variables::{Registry, Slot};
+
+    /// A plate of 1 mm at 500 K with further keys and faces.
+    fn plate(name: &str, keys: &str, faces: &str) -> String {
+        format!(
+            "[body.{name}]\nkind = \"solid\"\nshape = {{ box = [2e-3, 2e-3, 1e-3] }}\n\
+             initial_temperature = 500.0\nmesh = {{ spacing = 1e-3 }}\n{keys}\n\
+             material = {{ model = \"thermoelastic\", density = 2500.0, specific_heat = 750.0, \
+             conductivity = 1.0, young = 70e9, poisson = 0.22, expansion = 9e-6 }}\n\
+             [body.{name}.faces]\n{faces}\n"
+        )
+    }
+
+    struct Trial {
+        model: Model,
+        state: State,
+        cache: Cache,
+    }
+
+    impl Trial {
+        fn of(bodies: &[String]) -> Self {
+            let text =
+                format!("name = \"Plates\"\nstop_time = 1.0\nstep = 0.1\n{}", bodies.concat());
+            let scene = scene::parse(&text, "scene.toml").unwrap_or_else(|error| panic!("{error}"));
+            let model = Model::build(&scene, 1).unwrap_or_else(|error| panic!("{error}"));
+            Self { state: model.initial_state(), model, cache: Cache::default() }
+        }
+
+        fn step(&mut self, dt: f64) {
+            self.model.step(&mut self.state, &mut self.cache, dt).unwrap();
+            self.model.check_state(&self.state).unwrap();
+        }
+
+        fn get(&mut self, name: &str) -> f64 {
+            let registry = Registry::of(self.model.scene());
+            let variable = &registry.variables[registry.find(name).unwrap()];
+            let Slot::Output(output) = &variable.slot else { panic!("{name} is no output") };
+            self.model.output(&self.state, &mut self.cache, output).unwrap()
+        }
+    }
+
+    const COOLING: &str = "top = { convection = { coefficient = 1e3, ambient = 300.0 } }";
+    const HELD: &str = "bottom = { temperature = 300.0, clamped = true }";
+
+    /// A body that cools is hottest at time zero, whatever other maxima wait for.
+    #[test]
+    fn maxima_are_noted_each_by_itself() {
+        let kept = plate("a", "peaks = [\"temperature\"]", COOLING);
+        let other = plate("b", "peaks = [\"von_mises\"]", HELD);
+        let both = plate("a", "peaks = [\"temperature\", \"von_mises\"]", HELD);
+        for bodies in [&[kept, other][..], &[both]] {
+            let mut trial = Trial::of(bodies);
+            trial.model.note_peaks(&mut trial.state, &mut trial.cache).unwrap();
+            trial.model.check_state(&trial.state).unwrap();
+            trial.step(1.0);
+            assert_eq!(trial.get("a.peak_temperature"), 500.0);
+            assert_eq!(trial.get("a.peak_temperature_time"), 0.0);
+        }
+        let plain = plate("a", "peaks = [\"von_mises\"]", HELD);
+        let mut trial = Trial::of(&[plain]);
+        trial.model.note_peaks(&mut trial.state, &mut trial.cache).unwrap();
+        assert!(trial.state.peaks.is_empty());
+    }
+
+    #[test]
+    fn unnoted_maxima_equal_the_present_value() {
+        let both = plate("a", "peaks = [\"temperature\", \"von_mises\"]", HELD);
+        let mut trial = Trial::of(&[both]);
+        trial.model.note_peaks(&mut trial.state, &mut trial.cache).unwrap();
+        assert!(trial.state.peaks[0].is_noted() && !trial.state.peaks[1].is_noted());
+        assert_eq!(trial.get("a.peak_von_mises"), trial.get("a.max_von_mises"));
+        let mut forged = trial.state.clone();
+        forged.peaks[0] = Peak::unnoted(0.0);
+        assert!(trial.model.check_state(&forged).is_err());
+    }
+
+    /// Nothing is hotter than the body was when a face is cooled at once.
+    #[test]
+    fn cooled_faces_note_no_temperature_above_that_before() {
+        let kept = plate("a", "peaks = [\"temperature\"]", HELD);
+        let mut trial = Trial::of(std::slice::from_ref(&kept));
+        assert!(trial.get("a.max_temperature") > 510.0, "nodes make up for the heat of the face");
+        trial.step(1.0);
+        assert_eq!(trial.get("a.peak_temperature"), 500.0);
+        let mut trial = Trial::of(&[kept]);
+        trial.state.inputs[0] = 500.0;
+        trial.step(0.02);
+        trial.state.inputs[0] = 300.0;
+        trial.step(1.0);
+        assert!((trial.get("a.peak_temperature") - 500.0).abs() < 1e-9);
+    }
+
+    /// A face that is heated at once is the hottest place, also while another one is cooled.
+    #[test]
+    fn heated_faces_are_noted_when_a_step_begins() {
+        let faces = format!("{HELD}\ntop = {{ temperature = 510.0 }}");
+        let mut trial = Trial::of(&[plate("a", "peaks = [\"temperature\"]", &faces)]);
+        trial.step(1.0);
+        assert!((trial.get("a.peak_temperature") - 510.0).abs() < 1e-9);
+        assert_eq!(
+            ["time", "z"].map(|key| trial.get(&format!("a.peak_temperature_{key}"))),
+            [0.0; 2]
+        );
     }
 }

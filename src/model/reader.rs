@@ -34,7 +34,9 @@ impl Model {
         if output.reading == Reading::Error {
             return self.errors[output.body].get().is_none();
         }
-        if matches!(output.reading, Reading::Peak { .. }) && !state.peaks.is_empty() {
+        if let Reading::Peak { which, .. } = output.reading
+            && self.noted_peak(state, (output.body, which)).is_some()
+        {
             return false;
         }
         self.bodies[output.body].is_deep(cache.known(output.body), &output.reading)

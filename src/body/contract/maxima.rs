@@ -21,6 +21,18 @@ pub trait Maxima {
         Err(BodyError::NoSuchReading)
     }
 
+    /// Returns the highest value that the quantity behind a running maximum has when a step begins, under inputs that
+    /// may have jumped; `so_far` is the maximum noted before.
+    fn observe_at_beginning(
+        &self,
+        (state, _inputs): (&[f64], &[f64]),
+        memo: &mut Memo,
+        which: usize,
+        _so_far: Option<Extreme>,
+    ) -> Result<Extreme, BodyError> {
+        self.observe(state, memo, which)
+    }
+
     /// Returns true if the quantity behind a running maximum is right when a step begins. Stress is not where
     /// temperatures have just been prescribed: only the nodes of the face have jumped, which strains those next to them
     /// by what no body has.
@@ -36,6 +48,12 @@ pub trait Maxima {
     /// Returns true if that field is right when a step begins.
     fn field_holds_at_beginning(&self) -> bool {
         true
+    }
+
+    /// Returns true if a number of the state belongs to that field, so that the check of the body alone decides on its
+    /// size: before anything is noted it is a mark.
+    fn is_of_field(&self, _state: &[f64], _at: usize) -> bool {
+        false
     }
 
     /// Computes the present values of that field and keeps them in the memo of the state and its loads.

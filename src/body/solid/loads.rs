@@ -80,6 +80,16 @@ impl BodyLoads {
             || faces.flatten().any(|f| f.kind == FaceInputKind::Flux && inputs[f.index] < 0.0)
     }
 
+    /// Prescribed temperatures of faces [K].
+    pub fn temperatures_of_faces<'a>(
+        &'a self,
+        inputs: &'a [f64],
+    ) -> impl Iterator<Item = f64> + 'a {
+        let faces = self.faces.iter().flat_map(|(_, face, image)| [Some(face), image.as_ref()]);
+        let held = faces.flatten().filter(|face| face.kind == FaceInputKind::Temperature);
+        held.map(|face| inputs[face.index])
+    }
+
     /// Values of the thermal faces alone, which temperatures follow without delay.
     pub fn of_faces(&self, inputs: &[f64], mesh: &Mesh) -> SolidLoads {
         let faces = self.face_values(inputs, self.initial_temperature, mesh);

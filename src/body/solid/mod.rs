@@ -363,6 +363,18 @@ impl Maxima for SolidBody {
         self.highest(&mut SolidReader { body: self, state, memo }, which)
     }
 
+    fn observe_at_beginning(
+        &self,
+        (state, inputs): (&[f64], &[f64]),
+        memo: &mut Memo,
+        which: usize,
+        so_far: Option<Extreme>,
+    ) -> Result<Extreme, BodyError> {
+        let now = self.observe(state, memo, which)?;
+        let jumps = self.prescribes_temperature && !self.is_stress_peak(which);
+        Ok(if jumps { self.possible_after_jump(now, (state, inputs), memo, so_far) } else { now })
+    }
+
     fn holds_at_beginning(&self, which: usize) -> bool {
         !(self.prescribes_temperature && self.is_stress_peak(which))
     }
@@ -373,6 +385,11 @@ impl Maxima for SolidBody {
 
     fn field_holds_at_beginning(&self) -> bool {
         !self.prescribes_temperature
+    }
+
+    fn is_of_field(&self, state: &[f64], at: usize) -> bool {
+        let length = self.layout_of_growth().len() + self.layout_of_flaws().len();
+        at + length >= state.len()
     }
 
     fn observe_field(&self, state: &[f64], memo: &mut Memo) -> Result<(), BodyError> {

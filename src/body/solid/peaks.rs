@@ -2,8 +2,9 @@
 
 use super::SolidBody;
 use super::linear::SolidChange;
+use super::memo::SolidMemo;
 use super::reader::SolidReader;
-use crate::body::{BodyError, Descriptor, Direct, Extreme};
+use crate::body::{BodyError, Descriptor, Direct, Extreme, Memo};
 use crate::quantity::Quantity;
 use crate::scene::{PeakOf, Shape, Solid};
 
@@ -38,6 +39,26 @@ impl SolidBody {
             PeakOf::VonMises => reader.most_stressed()?[0],
             PeakOf::MaxPrincipal => reader.most_stressed()?[1],
         })
+    }
+
+    /// Highest temperature just after prescribed ones may have jumped, from that of the nodes `now`. Nodes next to a face
+    /// that has cooled make up for the heat of its nodes at once, and may be hotter than the body was and its faces are.
+    pub(super) fn possible_after_jump(
+        &self,
+        now: Extreme,
+        (state, inputs): (&[f64], &[f64]),
+        memo: &mut Memo,
+        so_far: Option<Extreme>,
+    ) -> Extreme {
+        let before = so_far.map_or(self.plan.initial_temperature, |highest| highest.value);
+        let limit = self.loads.temperatures_of_faces(inputs).fold(before, f64::max);
+        let exceeds = now.value > limit * (1.0 + SLACK);
+        if !exceeds {
+            return now;
+        }
+        let memo = SolidMemo::of_mut(memo);
+        let Extreme { at, .. } = self.solid.hottest_within(memo.heat(self, state), limit);
+        Extreme { value: limit, at }
     }
 
     /// Rate of change of that maximum.

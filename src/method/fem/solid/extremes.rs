@@ -68,8 +68,17 @@ impl Candidate {
 impl SolidFem {
     /// Highest nodal temperature [K].
     pub fn hottest(&self, temperatures: &Temperatures) -> Extreme {
+        self.hottest_within(temperatures, f64::INFINITY)
+    }
+
+    /// Highest nodal temperature that exceeds a limit by no more than rounding [K].
+    pub fn hottest_within(&self, temperatures: &Temperatures, limit: f64) -> Extreme {
+        let zero = self.initial_temperature;
+        let most = limit + ROUNDING * limit.abs() - zero;
         let of_image = |image| {
-            let rises = self.rise_of_image(temperatures, image);
+            let mut rises = self.rise_of_image(temperatures, image);
+            // Nodes above the limit count as if at absolute zero.
+            rises.iter_mut().filter(|rise| **rise > most).for_each(|rise| *rise = -zero);
             Candidate::of(&rises, |node| self.place_of_sided(node, image))
         };
         let rise =
