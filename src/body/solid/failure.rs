@@ -10,6 +10,7 @@ use super::SolidBody;
 use super::memo::SolidMemo;
 use super::reader::SolidReader;
 use crate::body::BodyError;
+use crate::limits::LARGEST;
 use crate::method::fem::{Flaws, FlawsIn};
 use crate::state::{Field, Layout, Per};
 
@@ -150,7 +151,7 @@ impl SolidBody {
         let is_possible = match self.noted(state) {
             None => state[place..] == self.nothing_noted()[..],
             Some(Noted { risk, stress }) => {
-                let is_known = |own: &f64| own.is_finite() && *own != NOTHING;
+                let is_known = |own: &f64| own.abs() <= LARGEST;
                 let follows = || {
                     let least = self.solid.risk(flaws, stress).min(f64::MAX);
                     risk.is_finite() && risk >= least && risk <= MOST_OF_STRESS * least
@@ -172,7 +173,7 @@ impl SolidBody {
         let growth = &state[self.place_of_noted(state) + 1 + count..];
         let (grown, last) = growth.split_at(growth.len() / 2);
         grown.iter().all(|own| own.is_finite() && *own >= 0.0)
-            && last.iter().all(|own| own.is_finite() && *own != NOTHING)
+            && last.iter().all(|own| own.abs() <= LARGEST)
     }
 }
 

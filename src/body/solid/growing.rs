@@ -12,6 +12,7 @@ use super::memo::SolidMemo;
 use super::reader::SolidReader;
 use crate::body::BodyError;
 use crate::laws::fracture::CrackGrowth;
+use crate::limits::LARGEST;
 use crate::state::{Field, Layout, Per};
 
 /// Stress before anything is noted [Pa].
@@ -232,7 +233,7 @@ impl SolidBody {
             (own.start..=own.line.end()).contains(depth)
         };
         let is_start = self.start_of_growth() == [depths, noted].concat();
-        let is_known = noted.iter().all(|own| own.is_finite() && *own != NOTHING);
+        let is_known = noted.iter().all(|own| own.abs() <= LARGEST);
         match is_start || is_known && self.growing().zip(depths).all(is_possible) {
             true => Ok(()),
             false => Err(format!("flaws of {} that no run leads to", self.name)),
