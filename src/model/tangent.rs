@@ -28,7 +28,8 @@ impl Model {
         Ok(Tangent { bodies, cache, in_time: false })
     }
 
-    /// Returns the time derivative under the present inputs and their first derivatives.
+    /// Returns the time derivative under the present inputs and their first derivatives. Bodies that receive through
+    /// links have none: only the means of these transfers over the last step are known.
     pub fn time_tangent(&self, state: &State, cache: &mut Cache) -> Result<Tangent, ModelError> {
         let held = vec![0.0; state.inputs.len()];
         let mut tangent = self.input_tangent(state, state.derivatives.first().unwrap_or(&held))?;
@@ -37,15 +38,15 @@ impl Model {
         let path = InputPath::new(&state.inputs, &[]);
         let joints = self.through_joints(&state.bodies, cache, &path)?;
         for (place, body) in self.bodies.iter().enumerate() {
-            let Some(linear) = body.linear() else { continue };
+            let Some(linear) = body.linear().filter(|_| !self.has_links_to(place)) else {
+                continue;
+            };
             let change = tangent.cache.memo(place);
             let through = Exchange::with(&joints, place);
             tangent.bodies[place] = match through.is_empty() {
                 true => linear.rates(&state.bodies[place], cache.memo(place), change),
                 false => {
-                    let links = self.through_links(state);
-                    let received = [Exchange::with(&links, place), through].concat();
-                    let now = body.memo(&state.inputs, &received);
+                    let now = body.memo(&state.inputs, &through);
                     linear.rates(&state.bodies[place], &now, change)
                 }
             };
@@ -53,8 +54,24 @@ impl Model {
         Ok(tangent)
     }
 
+    /// Returns true if other bodies transfer heat or force to a body through links.
+    fn has_links_to(&self, place: usize) -> bool {
+        self.links.iter().any(|link| link.to == place)
+    }
+
+    /// Returns true if an output follows inputs at once though its declared dependencies lack them: a running maximum
+    /// or a risk equals the present value until it is noted.
+    pub fn follows_undeclared(&self, state: &State, output: &Output) -> bool {
+        match output.reading {
+            Reading::Error => false,
+            Reading::Peak { which, .. } => self.noted_peak(state, (output.body, which)).is_none(),
+            _ => self.bodies[output.body].follows_at_once(&output.reading),
+        }
+    }
+
     /// Returns the change of an output, see [`Linear::read_rate`](crate::body::Linear::read_rate). Between steps a body
-    /// that is not linear follows no input. Its outputs and running maxima have no time derivative.
+    /// that is not linear follows no input. Its outputs, those of bodies that receive through links, and running maxima
+    /// have no time derivative.
     pub fn output_rate(
         &self,
         state: &State,
@@ -67,12 +84,15 @@ impl Model {
         if output.reading == Reading::Error {
             return Ok(0.0);
         }
-        if matches!(output.reading, Reading::Peak { .. }) {
-            match (*in_time, state.peaks.is_empty()) {
+        if *in_time && self.has_links_to(place) {
+            return Err(BodyError::NoRate.into());
+        }
+        if let Reading::Peak { which, .. } = output.reading {
+            match (*in_time, self.noted_peak(state, (place, which))) {
                 (true, _) => return Err(BodyError::NoRate.into()),
                 // A noted maximum follows no input.
-                (false, false) => return Ok(0.0),
-                (false, true) => {}
+                (false, Some(_)) => return Ok(0.0),
+                (false, None) => {}
             }
         }
         let rate = match self.bodies[place].linear() {

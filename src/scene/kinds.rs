@@ -195,6 +195,11 @@ impl Scene {
         self.has_drops()
     }
 
+    /// Returns true if a body that falls or is laid transfers heat or force to a solid below.
+    pub fn has_links(&self) -> bool {
+        self.coupling.iter().any(|coupling| coupling.solid().is_some())
+    }
+
     /// Returns true if drops are repeated from records or closed forms.
     pub fn has_replayed_drops(&self) -> bool {
         self.droplets().any(|(_, droplet)| droplet.is_replayed())

@@ -1,6 +1,6 @@
 //! Inputs that an output follows without delay.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use super::registry::{Causality, Output, Registry, Slot};
@@ -39,6 +39,24 @@ impl Registry {
             .filter(|&i| matches!(self.variables[i].slot, Slot::Input(at) if direct[at]))
             .collect()
     }
+}
+
+/// Returns, for each input by its place in a state, whether any of these outputs follows it without delay. Tunable
+/// parameters count as inputs.
+pub fn followed_inputs(scene: &Scene, outputs: &[&Output]) -> Vec<bool> {
+    let layout = InputLayout::of(scene);
+    let reaches: BTreeSet<Reach> = outputs.iter().map(|output| Reach::of(scene, output)).collect();
+    let mut followed = vec![false; layout.len];
+    for reach in reaches {
+        let direct = direct_inputs(scene, &layout, reach);
+        followed.iter_mut().zip(direct).for_each(|(any, direct)| *any |= direct);
+    }
+    followed
+}
+
+/// Returns true if an output is declared to follow no input without delay.
+pub fn follows_nothing(scene: &Scene, output: &Output) -> bool {
+    Reach::of(scene, output).direct == Direct::Nothing
 }
 
 /// All data that determine which inputs an output follows without delay.

@@ -17,5 +17,6 @@ pub use crate::laws::MaterialConstant;
 pub use crate::quantity::{DisplayUnit, Quantity};
 pub use arrays::{ArrayRegistry, ArrayVariable, Content};
 pub use cells::CellFamily;
+pub use dependencies::{followed_inputs, follows_nothing};
 pub use parameter::Parameter;
 pub use registry::{Causality, Output, Registry, Slot, Value, Variable};

@@ -13,9 +13,10 @@ use crate::model::{BodyError, Cache, HIGHEST_INPUT_DERIVATIVE, ModelError, State
 use crate::scene::Scene;
 use crate::variables::{Output, Parameter, Registry, Slot, Variable};
 
-/// Highest order of output derivatives, as declared in the XML: steps of particles have none.
+/// Highest order of output derivatives, as declared in the XML. Steps of particles have none, nor have solids on which
+/// other bodies fall or are laid.
 pub fn highest_output_derivative(scene: &Scene) -> usize {
-    if scene.has_drops() { 0 } else { 1 }
+    if scene.has_drops() || scene.has_links() { 0 } else { 1 }
 }
 
 /// Variables by which outputs may be differentiated.
