@@ -69,6 +69,12 @@ impl InputPath {
         sum
     }
 
+    /// Sizes of the terms whose sums are the inputs at `s` [s] into the step.
+    pub fn sizes(&self, s: f64) -> Vec<f64> {
+        let size = |list: &Vec<f64>| list.iter().map(|value| value.abs()).collect();
+        Self { derivatives: self.derivatives.iter().map(size).collect() }.at(0, s)
+    }
+
     /// Remainder of the path from `s` [s] on.
     pub fn from(&self, s: f64) -> Self {
         Self { derivatives: (0..self.derivatives.len()).map(|order| self.at(order, s)).collect() }

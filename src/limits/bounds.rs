@@ -57,6 +57,17 @@ impl Bounds {
         self.side(value).is_none()
     }
 
+    /// Returns the included end that a value exceeds by no more than `slack`, or else the value.
+    pub fn rounded(&self, value: f64, slack: f64) -> f64 {
+        let end = match self.side(value) {
+            Some(Side::Below) => self.low,
+            Some(Side::Above) => self.high,
+            None => None,
+        };
+        let near = end.filter(|end| end.is_included && (value - end.value).abs() <= slack);
+        near.map_or(value, |end| end.value)
+    }
+
     /// Length of the interval; infinite without both ends.
     pub fn span(&self) -> f64 {
         match (self.low, self.high) {

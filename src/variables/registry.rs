@@ -68,6 +68,9 @@ pub struct Output {
     pub reading: Reading,
 }
 
+/// Part of the terms of a sum by which it may be off.
+const ROUNDING: f64 = 1e-9;
+
 impl Variable {
     pub fn causality(&self) -> Causality {
         match self.slot {
@@ -101,6 +104,23 @@ impl Variable {
         }
         let required = self.bounds.requirement(self.bounds.side(value)?);
         Some(format!("{required} (allowed: {}{})", self.bounds, self.unit_after()))
+    }
+
+    /// Returns the end of the bounds that an input exceeds by rounding alone, or else the value. `size` is that of the
+    /// terms of which the value is the sum. Counts have no rounding.
+    pub fn rounded(&self, value: f64, size: f64) -> f64 {
+        match (&self.slot, self.quantity) {
+            (Slot::Input(_), Some(quantity)) if quantity != Quantity::Count => {
+                self.bounds.rounded(value, ROUNDING * size)
+            }
+            _ => value,
+        }
+    }
+
+    /// Returns the value that a host may set for an input that it has computed, see [`rounded`](Self::rounded).
+    pub fn rounded_alone(&self, value: f64) -> f64 {
+        let nominal = self.quantity.map_or(0.0, Quantity::nominal);
+        self.rounded(value, nominal.max(value.abs()))
     }
 
     /// Returns why a time derivative of the variable cannot have a value: the variable would cross its whole range

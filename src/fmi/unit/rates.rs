@@ -186,7 +186,7 @@ impl Unit {
     }
 }
 
-/// Refuses a step of `dt` [s] over which an input leaves its bounds.
+/// Refuses a step of `dt` [s] over which an input leaves its bounds by more than rounding.
 pub(in crate::fmi) fn check_path(
     registry: &Registry,
     state: &State,
@@ -197,10 +197,10 @@ pub(in crate::fmi) fn check_path(
         return Ok(());
     }
     for after in path.turns(dt).into_iter().chain([dt]) {
-        let inputs = path.at(0, after);
+        let (inputs, sizes) = (path.at(0, after), path.sizes(after));
         for variable in &registry.variables {
             let Slot::Input(index) = variable.slot else { continue };
-            let value = inputs[index];
+            let value = variable.rounded(inputs[index], sizes[index]);
             if let Some(why) = variable.objection(value) {
                 let message = format!("{value:?}: {why}");
                 return Err(BodyError::Underway { index, message, after }.into());
@@ -208,6 +208,15 @@ pub(in crate::fmi) fn check_path(
         }
     }
     Ok(())
+}
+
+/// Sets inputs that have ended a step beyond their bounds by rounding to the ends of these.
+pub(in crate::fmi) fn keep_within_bounds(registry: &Registry, state: &mut State) {
+    for variable in &registry.variables {
+        let Slot::Input(index) = variable.slot else { continue };
+        let input = &mut state.inputs[index];
+        *input = variable.rounded(*input, f64::MAX);
+    }
 }
 
 pub(in crate::fmi) fn outputs<'a>(
@@ -251,5 +260,85 @@ pub(in crate::fmi) fn check_finite(name: &str, value: f64) -> Answer<()> {
     match value.is_finite() {
         true => Ok(()),
         false => Err(Refusal::error(format!("{name} = {value}: must be finite"))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Model;
+    use crate::scene;
+
+    const STRAND: &str = include_str!("../../../tests/scenes/filament.toml");
+
+    fn strand() -> Scene {
+        scene::parse(STRAND, "strand.toml").unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    #[test]
+    fn solids_below_a_filament_have_no_time_derivatives() {
+        let scene = strand();
+        assert_eq!(highest_output_derivative(&scene), 0);
+        let model = Model::build(&scene, 1).unwrap_or_else(|error| panic!("{error}"));
+        let (state, mut cache) = (model.initial_state(), Cache::default());
+        let mut tangent = model.time_tangent(&state, &mut cache).unwrap();
+        let registry = Registry::of(&scene);
+        let Slot::Output(heat) =
+            &registry.variables[registry.find("plate.heat_stored").unwrap()].slot
+        else {
+            panic!("an output")
+        };
+        let rate = model.output_rate(&state, &mut cache, &mut tangent, heat);
+        assert!(matches!(rate, Err(ModelError::Body(BodyError::NoRate))));
+        // Inputs act on the plate as on any other.
+        let none = vec![0.0; state.inputs.len()];
+        let mut tangent = model.input_tangent(&state, &none).unwrap();
+        let rate = model.output_rate(&state, &mut cache, &mut tangent, heat);
+        assert_eq!(rate.unwrap(), 0.0);
+    }
+
+    #[test]
+    fn solids_without_others_on_them_have_time_derivatives() {
+        assert_eq!(highest_output_derivative(&Unit::for_tests().scene), 1);
+    }
+
+    /// A flow that falls to zero over a step ends at −1.7e-24 m³/s by rounding.
+    #[test]
+    fn flows_may_end_below_zero_by_rounding() {
+        let Unit { registry, mut state, .. } = Unit::of_scene_for_tests(STRAND);
+        let Slot::Input(flow) = registry.variables[registry.find("ink.flow").unwrap()].slot else {
+            panic!("an input")
+        };
+        let dt = 0.035;
+        state.inputs[flow] = 9.4e-9;
+        state.derivatives = vec![vec![0.0; state.inputs.len()]];
+        state.derivatives[0][flow] = -9.4e-9 / dt;
+        check_path(&registry, &state, dt).unwrap();
+        let mut end = state.clone();
+        end.inputs = InputPath::new(&state.inputs, &state.derivatives).at(0, dt);
+        assert!(end.inputs[flow] < 0.0);
+        keep_within_bounds(&registry, &mut end);
+        assert_eq!(end.inputs[flow], 0.0);
+        state.derivatives[0][flow] *= 1.0 + 1e-6;
+        assert!(check_path(&registry, &state, dt).is_err());
+    }
+
+    /// A radius that grows to the end of its range exceeds it by rounding, and so does one that a host computes.
+    #[test]
+    fn radii_may_exceed_their_range_by_rounding() {
+        let mut unit = Unit::for_tests();
+        let radius = [unit.registry.find("spot.radius").unwrap() as Reference];
+        unit.enter_initialization().unwrap();
+        unit.set_reals(&radius, &[4e-5]).unwrap();
+        unit.finish_initialization().unwrap();
+        let dt = 81.0 * 1e-9;
+        let slope = (9e-5 - 4e-5) / dt;
+        assert!(4e-5 + dt * slope > 9e-5);
+        unit.set_input_derivatives(&radius, &[1], &[slope]).unwrap();
+        unit.step(0.0, dt).unwrap();
+        assert_eq!(unit.reals(&radius).unwrap(), [9e-5]);
+        unit.set_reals(&radius, &[9e-5_f64.next_up()]).unwrap();
+        assert_eq!(unit.reals(&radius).unwrap(), [9e-5]);
+        assert!(unit.set_reals(&radius, &[9.0001e-5]).is_err());
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::Unit;
 use super::built::explain;
-use super::rates::check_path;
+use super::rates::{check_path, keep_within_bounds};
 use crate::fmi::gate::answer::{Answer, Refusal, Status};
 use crate::fmi::table::Phase;
 use crate::model::check_step_length;
@@ -53,6 +53,9 @@ impl Unit {
                 return Err(refusal);
             }
         };
+        if !state.derivatives.is_empty() {
+            keep_within_bounds(&registry, state);
+        }
         run.tangent = None;
         run.checked &= !has_set;
         let warnings = run.model.warnings(state);

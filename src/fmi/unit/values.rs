@@ -100,17 +100,20 @@ impl Unit {
         }
     }
 
-    /// Sets Real variables, all or none.
+    /// Sets Real variables, all or none. Inputs that exceed their bounds by rounding get the ends of these.
     pub fn set_reals(&mut self, references: &[Reference], values: &[f64]) -> Answer {
         let registry = Arc::clone(&self.registry);
         let variables = find(&registry, references, Kind::Real)?;
+        let mut rounded = Vec::with_capacity(values.len());
         for (variable, &value) in variables.iter().zip(values) {
             self.check_settable(variable)?;
+            let value = variable.rounded_alone(value);
             check_bounds(variable, value)?;
+            rounded.push(value);
         }
         let mut scene = None;
         let mut has_changed = false;
-        for (variable, &value) in variables.iter().zip(values) {
+        for (variable, value) in variables.iter().zip(rounded) {
             match &variable.slot {
                 Slot::Parameter(parameter) => {
                     parameter.set(scene.get_or_insert_with(|| self.scene.clone()), value);
