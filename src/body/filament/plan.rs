@@ -102,7 +102,7 @@ pub fn target_of(scene: &Scene, name: &str) -> Option<Target> {
 /// effusivities e of the solid's top and e_f of the fluid. The error that cells beside the edge of the strand cause is
 /// in proportion to it (`tests/verification/strands.py`).
 pub fn share_of_rise(filament: &Filament, solid: &Solid) -> f64 {
-    let top = solid.strata().last().map_or(f64::INFINITY, |layer| layer.constants.effusivity());
+    let top = solid.strata().first().map_or(f64::INFINITY, |layer| layer.constants.effusivity());
     let own = filament.fluid.effusivity();
     if own > 0.0 { own / (own + top) } else { 0.0 }
 }
@@ -134,4 +134,39 @@ pub fn refinement(scene: &Scene, (coupling, filament): (&Coupling, &Filament)) -
     let share = solid.map_or(1.0, |solid| share_of_rise(filament, solid));
     let feature = filament.nozzle.diameter / (1.0 + share);
     Refinement { x, y, top: true, feature, heats: true, edges: [None; 2] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WAX: &str =
+        "{ density = 780.0, viscosity = 4e-3, specific_heat = 2.2e3, conductivity = 0.15 }";
+    const GLASS: &str =
+        "{ model = \"thermoelastic\", density = 2.5e3, specific_heat = 800.0, conductivity = 1.0 }";
+    const COPPER: &str = "{ model = \"thermoelastic\", density = 8.9e3, specific_heat = 385.0, conductivity = 400.0 }";
+
+    /// Share of the rise on a plate that consists of some keys.
+    fn share_on(plate: &str) -> f64 {
+        let text = format!(
+            "name = \"Lay\"\nstop_time = 1.0\nstep = 0.1\n[material]\nglass = {GLASS}\ncopper = {COPPER}\n[body.ink]\nkind = \"filament\"\nfluid = {WAX}\nnozzle = {{ \
+             diameter = 1e-3, height = 1e-3, temperature = 340.0 }}\npath = \"input\"\nmost = 1e-8\n[body.plate]\nkind = \
+             \"solid\"\nshape = {{ box = [40e-3, 30e-3, 2e-3] }}\n{plate}\ninitial_temperature = 293.15\n[[coupling]]\n\
+             from = \"ink\"\nto = \"plate.top\"\ntraction = false\n"
+        );
+        let (scene, _) = crate::advice::parse_with_warnings(&text, "scene.toml").unwrap();
+        share_of_rise(scene.filament("ink").unwrap(), scene.solid("plate").unwrap())
+    }
+
+    /// A strand warms the layer on which it lies, whatever is below that.
+    #[test]
+    fn layered_plates_are_warmed_as_their_top_layer_is() {
+        for (top, bottom) in [("glass", "copper"), ("copper", "glass")] {
+            let layers = format!(
+                "layers = [{{ material = \"{top}\", thickness = 1e-3 }}, {{ material = \"{bottom}\", thickness = 1e-3 }}]"
+            );
+            assert_eq!(share_on(&layers), share_on(&format!("material = \"{top}\"")));
+        }
+        assert!(share_on("material = \"glass\"") > 10.0 * share_on("material = \"copper\""));
+    }
 }
