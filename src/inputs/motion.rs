@@ -41,10 +41,25 @@ impl Motion {
 
     /// Least flow within the duration [m³/s].
     pub fn least_flow(&self) -> f64 {
-        let [_, slope, bend] = self.flow;
+        self.least(self.flow)
+    }
+
+    /// Least temperature of the fluid within the duration [K].
+    pub fn least_temperature(&self) -> f64 {
+        self.least(self.temperature)
+    }
+
+    /// Least height of the outlet within the duration [m].
+    pub fn least_height(&self) -> f64 {
+        self.least(self.place.map(|derivative| derivative[2]))
+    }
+
+    /// Least value of a polynomial within the duration, at an end or where it turns.
+    fn least(&self, polynomial: [f64; 3]) -> f64 {
+        let [_, slope, bend] = polynomial;
         let turn = if bend > 0.0 { (-slope / bend).clamp(0.0, self.duration) } else { 0.0 };
-        let flows = [0.0, turn, self.duration].map(|s| at(self.flow, s));
-        flows.into_iter().fold(f64::INFINITY, f64::min)
+        let values = [0.0, turn, self.duration].map(|s| at(polynomial, s));
+        values.into_iter().fold(f64::INFINITY, f64::min)
     }
 
     /// Flow that is rounding of an input that falls to zero within the duration [m³/s].
@@ -61,5 +76,26 @@ impl Motion {
             *(if self.volume(middle) < volume { &mut low } else { &mut high }) = middle;
         }
         high
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `(s − 1)²` is least at its turning point if the motion reaches it, and at its end otherwise; `−s²` at its end.
+    #[test]
+    fn least_values_are_at_ends_or_turning_points() {
+        let parabola = [1.0, -2.0, 2.0];
+        let of = |polynomial: [f64; 3], duration: f64| {
+            let place = polynomial.map(|derivative| [9.0, 9.0, derivative]);
+            let motion = Motion { duration, place, flow: polynomial, temperature: polynomial };
+            let least = motion.least_flow();
+            assert_eq!([motion.least_temperature(), motion.least_height()], [least; 2]);
+            least
+        };
+        assert_eq!([of(parabola, 3.0), of(parabola, 0.5)], [0.0, 0.25]);
+        assert_eq!(of([0.0, 0.0, -2.0], 3.0), -9.0);
+        assert_eq!(of([2.0, 1.0, 0.0], 3.0), 2.0);
     }
 }

@@ -77,26 +77,13 @@ impl ParticleFilament {
         }
     }
 
-    /// Refuses motions that lay more than may come, or with the outlet lower than a distance of particles above the
-    /// plate.
+    /// Refuses motions that lay more than may come, that have fluid at or below its freezing point at any time, or the
+    /// outlet lower than a distance of particles above the plate.
     fn check_motions(&self, mut came: f64, motions: &[Motion]) -> Result<(), Failure> {
         for motion in motions {
             guard(motion, came, self.most)?;
             came += motion.volume(motion.duration);
-            let temperature = motion.temperature_at(0.5 * motion.duration);
-            if temperature <= 0.0 {
-                return Err(Failure::BelowAbsoluteZero { temperature });
-            }
-            if let Some(Melting { liquidus, .. }) = self.melting()
-                && temperature <= liquidus
-            {
-                return Err(Failure::Frozen { temperature, liquidus });
-            }
-            let ends = [0.0, motion.duration].map(|s| motion.outlet(s)[2]);
-            let (height, least) = (ends[0].min(ends[1]), self.slicing.layer);
-            if height < least {
-                return Err(Failure::NozzleInPlate { height, least, when: "with fluid in it" });
-            }
+            check_motion(motion, self.melting(), self.slicing.layer)?;
         }
         Ok(())
     }
@@ -153,6 +140,24 @@ impl ParticleFilament {
     fn expected_steps(&self, dt: f64) -> (f64, usize) {
         let (particles, time_step) = self.sph.expected();
         (dt / time_step, particles)
+    }
+}
+
+/// Refuses a motion that has fluid at or below its freezing point at any time, or the outlet lower than a height [m].
+fn check_motion(motion: &Motion, melting: Option<Melting>, least: f64) -> Result<(), Failure> {
+    let temperature = motion.least_temperature();
+    if temperature <= 0.0 {
+        return Err(Failure::BelowAbsoluteZero { temperature });
+    }
+    if let Some(Melting { liquidus, .. }) = melting
+        && temperature <= liquidus
+    {
+        return Err(Failure::Frozen { temperature, liquidus });
+    }
+    let height = motion.least_height();
+    match height < least {
+        true => Err(Failure::NozzleInPlate { height, least, when: "with fluid in it" }),
+        false => Ok(()),
     }
 }
 
@@ -301,5 +306,36 @@ impl Resources for ParticleFilament {
 
     fn steps_are_deep(&self) -> bool {
         true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Fluid that freezes, or an outlet that dips into the plate, at one time of a motion alone.
+    #[test]
+    fn motions_are_refused_for_any_of_their_times() {
+        let melting = Some(Melting { solidus: 331.0, liquidus: 333.0, latent_heat: 2e5 });
+        let motion = |temperature: [f64; 3], height: [f64; 3]| Motion {
+            duration: 2.0,
+            place: height.map(|derivative| [0.0, 0.0, derivative]),
+            temperature,
+            ..Motion::default()
+        };
+        let (warm, high) = ([336.0, 0.0, 0.0], [2e-3, 0.0, 0.0]);
+        let refusal =
+            |temperature, height| check_motion(&motion(temperature, height), melting, 1e-3).err();
+        assert_eq!(refusal(warm, high), None);
+        // Over the liquidus in the middle, and below it at the end.
+        let cooling = refusal([336.0, -2.5, 0.0], high);
+        assert!(matches!(cooling, Some(Failure::Frozen { temperature: 331.0, .. })), "{cooling:?}");
+        // Low in the middle, and high at both ends.
+        let dipping = refusal(warm, [2e-3, -3e-3, 3e-3]);
+        let is_dip = |height: f64| (height - 0.5e-3).abs() < 1e-12;
+        assert!(
+            matches!(dipping, Some(Failure::NozzleInPlate { height, .. }) if is_dip(height)),
+            "{dipping:?}"
+        );
     }
 }
