@@ -40,7 +40,7 @@ pub struct Seen {
     pub segments: usize,
     /// Place of touchdown [m].
     pub touch: [f64; 2],
-    /// Impulse given to what lies below [N s].
+    /// Impulse given to what lies below, also beyond the edge of a solid [N s].
     pub impulse: [f64; 3],
     /// Heat as the fluid came, given to what lies below and to the air [J].
     pub supplied: f64,

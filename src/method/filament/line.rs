@@ -67,6 +67,8 @@ const LEAST_APART: f64 = 0.1;
 const ASLEEP: f64 = 1e-2;
 /// Conductance of fluids that do not conduct, so that temperatures below still have a mean [W/K].
 const LEAST_CONDUCTANCE: f64 = 1e-200;
+/// Part of the lower side of a segment beyond the edge of the plate that is worth a warning.
+const BEYOND_EDGE: f64 = 1e-6;
 /// Relative error of the heat balance of a state that runs never reach.
 const BALANCE: f64 = 1e-6;
 
@@ -333,11 +335,10 @@ impl Line {
         (rise > CLEARANCE * self.plan.diameter).then_some(rise)
     }
 
-    /// Returns true if part of the last segment lies beyond the edge of the plate.
+    /// Returns true if part of a segment lies beyond the edge of the plate.
     pub fn reaches_beyond(&self, strand: &Strand) -> bool {
-        let last = strand.segments().next_back();
-        let cells = self.plan.cells.as_ref();
-        last.zip(cells).is_some_and(|(last, cells)| Footprint::of(&last, cells).outside > 1e-6)
+        let feet = self.footprints.of(strand, self.plan.cells.as_ref());
+        feet.iter().any(|foot| foot.outside > BEYOND_EDGE)
     }
 
     /// Refuses a state that no run produces, with the reason.

@@ -19,7 +19,7 @@ pub struct Strand {
     /// Heat that has passed to the plate and to the air [J].
     pub given: f64,
     pub lost: f64,
-    /// Impulse that has passed to the plate [N s].
+    /// Impulse that has passed to the plate and, beyond its edge, to what would be there [N s].
     pub impulse: [f64; 3],
     /// Place of the nozzle's outlet, and that at which the strand touches down [m].
     pub nozzle: [f64; 3],

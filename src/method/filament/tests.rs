@@ -382,6 +382,32 @@ fn impulse_balances() {
     assert!((-z / (weight + mass * 0.1) - 1.0).abs() < 1e-9, "{z} {weight}");
 }
 
+/// Segments beyond the edge are found wherever they are in the strand, laid there or spread to there later.
+#[test]
+fn strands_beyond_the_edge_are_found() {
+    let honey = "density = 1e3\nviscosity = 100.0\nspecific_heat = 2e3\nconductivity = 0.0";
+    let is_beyond = |edges: [f64; 2], rest: f64| {
+        let cells = WallCells::Tiles { count: [24, 24], size: edges.map(|edge| 2.0 * edge) };
+        let line = Line::new(LinePlan { cells: Some(cells), ..plan(honey, 0.02) });
+        let flow = 0.1 * line.plan().outlet();
+        let around = Around { surface: &still(340.0, 576), air: 340.0 };
+        let mut strand = line.start([-0.04, 0.015, 0.012]);
+        let mut first = along(0.8, (-0.04, 0.012), 0.1, flow);
+        first.place[0][1] = 0.015;
+        let pause =
+            |duration: f64| Motion { flow: [0.0; 3], ..along(duration, (-0.02, 0.012), 0.0, 0.0) };
+        let motions = [first, pause(0.1), along(0.4, (-0.02, 0.012), 0.1, flow)];
+        line.advance(&mut strand, &motions, &around).unwrap();
+        line.advance(&mut strand, &[pause(rest)], &around).unwrap();
+        let last = strand.segments().next_back().unwrap();
+        assert!(last.end[0] < edges[0] && last.half_width < edges[1], "{last:?}");
+        line.reaches_beyond(&strand)
+    };
+    assert!(!is_beyond([0.1, 0.04], 0.1), "within the edges");
+    assert!(is_beyond([0.03, 0.04], 0.1), "laid beyond an edge on the way");
+    assert!(is_beyond([0.1, 0.04], 30.0), "spread over an edge at rest");
+}
+
 /// The first drop of fluid is small however short the steps, and no width remains from it.
 #[test]
 fn width_does_not_follow_the_step() {
