@@ -120,8 +120,11 @@ impl Structured for FilamentBody {
         acts: &Acts,
         allowance: &Allowance,
     ) -> Result<Option<Given>, BodyError> {
-        let spent = allowance.spend(1.0, ROUNDS, WORK * state.len());
-        spent.map_err(|halt| BodyError::Halted { body: self.name.clone(), halt })?;
+        let spend = |rounds: f64, segments: usize| {
+            let spent = allowance.spend(rounds, ROUNDS, WORK * segments);
+            spent.map_err(|halt| BodyError::Halted { body: self.name.clone(), halt })
+        };
+        spend(1.0, state.len())?;
         let motions = self.nozzle.motions(acts.path, state.time, acts.duration);
         let nothing = Surface::default();
         let around = Around {
@@ -129,7 +132,10 @@ impl Structured for FilamentBody {
             air: self.nozzle.air(acts.path, acts.duration, self.line.plan().reference),
         };
         let advanced = self.line.advance(state, &motions, &around);
-        advanced.map_err(|failure| self.error(failure))?;
+        let parts = advanced.map_err(|failure| self.error(failure))?;
+        if parts > 1 {
+            spend((parts - 1) as f64, state.len())?;
+        }
         Ok(self.given_of(state))
     }
 
@@ -271,7 +277,8 @@ const ALONG: f64 = 3e-3;
 /// an exchange the surface responds as a half space does. So the heat that spreads along it, with the diffusivity a,
 /// stays small there, the more so the smaller the rise `e_f/(e + e_f)` of its temperature is. D is the diameter of the
 /// nozzle, e and e_f are the effusivities of solid and fluid; of layers, the largest a and the smallest e. With
-/// c = 0.003 the heat of wax and solder on glass, copper and FR4 is accurate to 3 % in steps of any length.
+/// c = 0.003 the heat of strands of wax and solder on glass, copper and FR4 is accurate to 3 % in steps of any length.
+/// Segments that lie on others exchange heat with these in parts of that time.
 ///
 /// Particles exchange as often as the nozzle passes one of them, too.
 pub fn interval(scene: &Scene, coupling: &Coupling, (filament, plan): (&Filament, &Plan)) -> f64 {

@@ -2,11 +2,13 @@
 
 use std::sync::Arc;
 
+use super::carriers::MOST_CARRIERS;
 use super::cooling::{Column, Heat, LAYERS, SHARES, Surroundings};
 use super::footprint::{Footprint, Footprints};
 use super::laying::Arrival;
 use super::sections::CLEARANCE;
 use super::spreading::{PACKED, Spreading};
+use super::stacks::{TOP, shortest_part, stacked};
 use super::{Failure, LinePlan, Segment, Strand};
 use crate::inputs::Motion;
 use crate::port::{Domain, Surface};
@@ -113,13 +115,14 @@ impl Line {
         self.heat.contents(&segment.heats, segment.volume)
     }
 
-    /// Advances a strand through motions of the nozzle, one after the other.
+    /// Advances a strand through motions of the nozzle, one after the other; returns the number of parts in which its
+    /// segments exchanged heat.
     pub fn advance(
         &self,
         strand: &mut Strand,
         motions: &[Motion],
         around: &Around,
-    ) -> Result<(), Failure> {
+    ) -> Result<usize, Failure> {
         let begin = strand.time;
         let mut arrivals = Vec::new();
         for motion in motions {
@@ -130,92 +133,147 @@ impl Line {
         strand.cell_heat.fill(0.0);
         strand.cell_impulse.fill([0.0; 3]);
         let feet = self.footprints.of(strand, self.plan.cells.as_ref());
-        self.exchange_heat(strand, (begin, duration), around, &feet);
+        let parts = self.exchange_heat(strand, (begin, duration), around, &feet);
         self.exchange_impulse(strand, &arrivals, (begin, duration), &feet);
-        Ok(())
+        Ok(parts)
     }
 
+    /// Exchanges heat over a step; returns the number of parts in which stacked segments do, 1 without any.
     fn exchange_heat(
         &self,
         strand: &mut Strand,
         (begin, duration): (f64, f64),
         around: &Around,
         feet: &[Arc<Footprint>],
-    ) {
+    ) -> usize {
         let free = match self.areas.is_empty() || duration == 0.0 {
             true => [Vec::new(), Vec::new()],
             false => [0.0, 1.0].map(|part| around.surface.free(part, duration)),
         };
-        let [on_plate, on_top] = self.coverage(strand, feet);
-        for n in 0..strand.len() {
-            let mut segment = strand.segment(n);
+        let covered = self.covered_cells(strand, feet);
+        let of_segment = |(n, segment): (usize, Segment)| {
             let from = segment.born.max(begin);
-            let time = strand.time - from;
-            if time <= 0.0 {
+            let below = match segment.below.is_empty() && from < strand.time {
+                true => {
+                    let parts = [(from - begin) / duration, 1.0];
+                    let foot = (&*feet[n], segment.area());
+                    self.below_on_plate((around.surface, &free), foot, &covered, parts)
+                }
+                false => Below::Nothing,
+            };
+            let whole = (strand.time - segment.born) - (from - segment.born);
+            Exchange { below, from, now: from, whole, given: 0.0 }
+        };
+        let mut exchanges: Vec<Exchange> = strand.segments().enumerate().map(of_segment).collect();
+        let stacked = stacked(strand);
+        let is_stacked = |n: usize| stacked.get(n).is_some_and(|&own| own);
+        for (n, exchange) in exchanges.iter_mut().enumerate().filter(|(n, _)| !is_stacked(*n)) {
+            let (end, alone) = (strand.time, Stacked::default());
+            self.exchange_of((&mut *strand, n), exchange, end, (alone, around.air));
+        }
+        let parts = match stacked.is_empty() {
+            true => 1,
+            false => self.exchange_in_stacks(strand, (begin, &stacked), &mut exchanges, around.air),
+        };
+        for (n, exchange) in exchanges.iter().enumerate() {
+            let segment = strand.segment(n);
+            let time = strand.time - exchange.from;
+            if !segment.below.is_empty() || time <= 0.0 {
                 continue;
             }
-            let below = if segment.below.is_empty() {
-                let parts = [(from - begin) / duration, 1.0];
-                let foot = (&*feet[n], segment.area());
-                self.below_on_plate((around.surface, &free), foot, &on_plate, parts)
-            } else {
-                let carriers = segment.below.iter();
-                Below::Segments(
-                    carriers.map(|(lower, share)| (strand.segment(lower), share)).collect(),
-                )
-            };
-            let step = SegmentStep {
-                line: self,
-                below: &below,
-                ages: [from - segment.born, strand.time - segment.born],
-                covered: on_top[n].min(1.0),
-                air: around.air,
-            };
-            let [given, lost] = step.advance(&mut segment);
-            strand.set(n, &segment);
-            strand.lost += lost;
-            if segment.below.is_empty() {
-                strand.given += given;
-                let inside = feet[n].inside();
-                let [_, free] = &free;
-                let mean = feet[n].mean(|cell| free[cell]).unwrap_or(0.0);
-                let conductance = step.conductance(&segment, time);
-                for &(cell, weight) in &feet[n].cells {
-                    // Warm cells take less than cold ones below the same segment.
-                    let more = conductance * time * (mean - free[cell]);
-                    strand.cell_heat[cell] += (given + more) * weight / inside;
-                }
-            } else {
-                let links = step.links(segment.area(), time);
-                let (mean, all) = joined(&links);
-                for ((lower, _), link) in segment.below.iter().zip(&links) {
-                    // As much as parallel links take from one temperature above them.
-                    let part = link.conductance / all;
-                    let more = link.conductance * time * (mean - link.below);
-                    let mut carrier = strand.segment(lower);
-                    carrier.heats[LAYERS - 1] += given * part + more;
-                    strand.set(lower, &carrier);
-                }
+            strand.given += exchange.given;
+            let inside = feet[n].inside();
+            let [_, free] = &free;
+            let mean = feet[n].mean(|cell| free[cell]).unwrap_or(0.0);
+            let step = SegmentStep::over(self, exchange, &segment, [exchange.from, strand.time]);
+            let conductance = step.conductance(&segment, time);
+            for &(cell, weight) in &feet[n].cells {
+                // Warm cells take less than cold ones below the same segment.
+                let more = conductance * time * (mean - free[cell]);
+                strand.cell_heat[cell] += (exchange.given + more) * weight / inside;
             }
         }
+        parts
     }
 
-    /// Covered part of each cell of the plate, and of the upper side of each segment.
-    fn coverage(&self, strand: &Strand, feet: &[Arc<Footprint>]) -> [Vec<f64>; 2] {
-        let mut on_plate = vec![0.0; self.areas.len()];
-        let mut on_top = vec![0.0; strand.len()];
-        for (segment, foot) in strand.segments().zip(feet) {
-            let area = segment.area();
-            for (lower, share) in segment.below.iter() {
-                on_top[lower] += share * area / strand.segment(lower).area();
-            }
-            if segment.below.is_empty() {
-                for &(cell, weight) in &foot.cells {
-                    on_plate[cell] += weight * area / self.areas[cell];
+    /// Exchanges heat of the segments that lie on others or carry them, part by part, those below first; returns the
+    /// number of parts.
+    fn exchange_in_stacks(
+        &self,
+        strand: &mut Strand,
+        (begin, stacked): (f64, &[bool]),
+        exchanges: &mut [Exchange],
+        air: f64,
+    ) -> usize {
+        let (mut now, end, mut parts) = (begin, strand.time, 0);
+        while now < end {
+            let part = self.heat.next_part(strand, (stacked, now, end), shortest_part(end - begin));
+            let mut all = vec![Stacked::default(); strand.len()];
+            let times = exchanges.iter().map(|exchange| part.end - exchange.now);
+            let times: Vec<f64> = times.map(|time| time.max(0.0)).collect();
+            cover(strand, &mut all, |n| (times[n] / (part.end - now)).min(1.0));
+            for n in (0..strand.len()).filter(|&n| part.steps[n] && times[n] > 0.0) {
+                let segment = strand.segment(n);
+                all[n].expected = self.heat.expected(strand, (&segment, times[n]), &part.steps);
+                for ((lower, _), heat) in segment.below.iter().zip(all[n].expected) {
+                    all[lower].received += heat;
                 }
             }
+            for n in (0..strand.len()).filter(|&n| part.steps[n]) {
+                self.exchange_of((&mut *strand, n), &mut exchanges[n], part.end, (all[n], air));
+            }
+            (now, parts) = (part.end, parts + 1);
         }
-        [on_plate, on_top]
+        parts.max(1)
+    }
+
+    /// Exchanges heat of a segment up to a time [s], as it lies in a stack and in air of a temperature [K].
+    fn exchange_of(
+        &self,
+        (strand, n): (&mut Strand, usize),
+        exchange: &mut Exchange,
+        to: f64,
+        (Stacked { covered, received, expected }, air): (Stacked, f64),
+    ) {
+        let mut segment = strand.segment(n);
+        let time = to - exchange.now;
+        if time <= 0.0 {
+            segment.heats[TOP] += received;
+            strand.set(n, &segment);
+            return;
+        }
+        let carriers = segment.below.iter().zip(expected);
+        let carriers =
+            carriers.map(|((lower, share), expected)| (strand.segment(lower), share, expected));
+        let on_segments = Below::Segments(carriers.collect());
+        let step = SegmentStep::over(self, exchange, &segment, [exchange.now, to]);
+        let below = if segment.below.is_empty() { step.below } else { &on_segments };
+        let step = SegmentStep { below, covered: covered.min(1.0), received, air, ..step };
+        let [given, lost] = step.advance(&mut segment);
+        strand.set(n, &segment);
+        strand.lost += lost;
+        let links = step.links(segment.area(), (time, 1.0));
+        let (mean, all) = joined(&links);
+        for (((lower, _), link), expected) in segment.below.iter().zip(&links).zip(expected) {
+            // As much as parallel links take from one temperature above them.
+            let part = link.conductance / all;
+            let more = link.conductance * time * (mean - link.below);
+            let mut carrier = strand.segment(lower);
+            carrier.heats[TOP] += given * part + more - expected;
+            strand.set(lower, &carrier);
+        }
+        (exchange.given, exchange.now) = (exchange.given + given, to);
+    }
+
+    /// Covered part of each cell of the plate.
+    fn covered_cells(&self, strand: &Strand, feet: &[Arc<Footprint>]) -> Vec<f64> {
+        let mut covered = vec![0.0; self.areas.len()];
+        for (segment, foot) in strand.segments().zip(feet).filter(|(own, _)| own.below.is_empty()) {
+            for &(cell, weight) in &foot.cells {
+                covered[cell] += weight * segment.area() / self.areas[cell];
+            }
+        }
+        covered
     }
 
     fn below_on_plate<'a>(
@@ -377,8 +435,33 @@ enum Below<'a> {
         /// Part of the segment above the plate.
         inside: f64,
     },
-    /// Segments that carry it, with their shares of its lower side.
-    Segments(Vec<(Segment, f64)>),
+    /// Segments that carry it, with their shares of its lower side and the heat that they have received from it in
+    /// advance [J].
+    Segments(Vec<(Segment, f64, f64)>),
+}
+
+/// Place of a segment between others in a step.
+#[derive(Debug, Clone, Copy, Default)]
+struct Stacked {
+    /// Part of its upper side on which others lie.
+    covered: f64,
+    /// Heat expected from these [J].
+    received: f64,
+    /// Heat that each of its carriers expects from it [J].
+    expected: [f64; MOST_CARRIERS],
+}
+
+/// The exchange of heat of a segment in a step.
+struct Exchange<'a> {
+    /// The plate below it, or nothing.
+    below: Below<'a>,
+    /// The time at which it begins [s], and that to which it has come.
+    from: f64,
+    now: f64,
+    /// Its duration [s].
+    whole: f64,
+    /// Heat that has passed down [J].
+    given: f64,
 }
 
 /// A step of one segment.
@@ -387,13 +470,40 @@ struct SegmentStep<'a> {
     below: &'a Below<'a>,
     /// Ages of the segment at its beginning and end [s].
     ages: [f64; 2],
+    /// Age at which the exchange began of which this is a part, and its duration [s].
+    began: f64,
+    whole: f64,
+    /// Heat that has passed down since then [J].
+    before: f64,
+    /// Heat that segments above transfer to its highest layer [J].
+    received: f64,
     /// Part of its upper side on which other segments lie.
     covered: f64,
     /// [K]
     air: f64,
 }
 
-impl SegmentStep<'_> {
+impl<'a> SegmentStep<'a> {
+    /// A step of a segment between two times of an exchange [s], without segments or air above it.
+    fn over(
+        line: &'a Line,
+        exchange: &'a Exchange<'a>,
+        segment: &Segment,
+        times: [f64; 2],
+    ) -> Self {
+        Self {
+            line,
+            below: &exchange.below,
+            ages: times.map(|time| time - segment.born),
+            began: exchange.from - segment.born,
+            whole: exchange.whole,
+            before: exchange.given,
+            received: 0.0,
+            covered: 0.0,
+            air: line.plan.reference,
+        }
+    }
+
     /// Advances the segment; returns the heat that passed down and to the air [J].
     fn advance(&self, segment: &mut Segment) -> [f64; 2] {
         let [first, last] = self.ages;
@@ -411,6 +521,10 @@ impl SegmentStep<'_> {
             let ages = [age(n), age(n + 1)];
             if ages[1] <= ages[0] {
                 continue;
+            }
+            if self.received != 0.0 {
+                let part = (ages[1] - ages[0]) / (self.ages[1] - self.ages[0]);
+                segment.heats[TOP] += part * self.received;
             }
             if conducts {
                 let column = Column { volume: segment.volume, height: segment.height() };
@@ -510,16 +624,16 @@ impl SegmentStep<'_> {
         match self.below {
             Below::Nothing => (self.air, f64::INFINITY),
             Below::Plate { surface, ends, flux, .. } => {
-                let part = (ages[1] - self.ages[0]) / (self.ages[1] - self.ages[0]);
-                let free = ends[0] + part * (ends[1] - ends[0]);
-                let elapsed = ages[1] - self.ages[0];
+                let elapsed = ages[1] - self.began;
+                let free = ends[0] + elapsed / self.whole * (ends[1] - ends[0]);
                 let rise = flux * surface.response.of_held_flux(elapsed) / elapsed;
                 let area = self.contact(segment);
                 let contact = self.line.plan.conductance.map_or(0.0, |value| 1.0 / (value * area));
-                (free + rise * before, contact + rise * duration)
+                (free + rise * (self.before + before), contact + rise * duration)
             }
             Below::Segments(_) => {
-                let mut links = self.links(segment.area(), duration);
+                let part = (ages[1] - self.ages[0]) / (self.ages[1] - self.ages[0]);
+                let mut links = self.links(segment.area(), (duration, part));
                 let (_, all) = joined(&links);
                 for link in &mut links {
                     link.below += before * link.conductance / all / link.capacity;
@@ -531,18 +645,17 @@ impl SegmentStep<'_> {
     }
 
     /// Links to the highest layers of the segments that carry an area of this one [m²], whose temperatures follow the
-    /// heat of an inner step.
-    fn links(&self, area: f64, duration: f64) -> Vec<Link> {
+    /// heat of an inner step of a duration [s], as if they had received none in advance for a part of this step.
+    fn links(&self, area: f64, (duration, part): (f64, f64)) -> Vec<Link> {
         let Below::Segments(carriers) = self.below else { return Vec::new() };
         let heat = &self.line.heat;
-        let link = |(lower, share): &(Segment, f64)| {
-            let top = LAYERS - 1;
-            let content = self.line.contents(lower)[top];
-            let least = heat.phases.map_or(1.0, |phases| phases.heat.min(1.0));
-            let capacity = least * SHARES[top] * heat.capacity(lower.volume);
-            let own = heat.half_resistance(top, lower.height(), content) / (share * area);
+        let link = |(lower, share, expected): &(Segment, f64, f64)| {
+            let content = self.line.contents(lower)[TOP];
+            let capacity = heat.top_capacity(lower);
+            let own = heat.half_resistance(TOP, lower.height(), content) / (share * area);
             let conductance = (1.0 / (own + duration / capacity)).max(LEAST_CONDUCTANCE);
-            Link { below: heat.temperature(content), capacity, conductance }
+            let below = heat.temperature(content) - part * expected / capacity;
+            Link { below, capacity, conductance }
         };
         carriers.iter().map(link).collect()
     }
@@ -563,6 +676,16 @@ fn joined(links: &[Link]) -> (f64, f64) {
     let conductance = links.iter().map(|link| link.conductance).sum::<f64>();
     let weighted = links.iter().map(|link| link.conductance * link.below);
     (weighted.sum::<f64>() / conductance, conductance)
+}
+
+/// Covers the upper sides of segments by those above, each by the part of a step in which it is in contact.
+fn cover(strand: &Strand, all: &mut [Stacked], part: impl Fn(usize) -> f64) {
+    for (n, segment) in strand.segments().enumerate() {
+        for (lower, share) in segment.below.iter() {
+            let area = part(n) * share * segment.area();
+            all[lower].covered += area / strand.segment(lower).area();
+        }
+    }
 }
 
 /// Mean over the volume of a segment.

@@ -3,7 +3,7 @@
 //! A segment is a piece of the strand of about a nozzle's volume: `π/4 D²` times the length of a cell. Its volume and
 //! heat content balance exactly; its cross-section has one width and one temperature. `laying` makes segments from the
 //! motion of the nozzle, `sections` has their sections and widths, `beneath` finds what they lie on (their `carriers`),
-//! `spreading` has the law of their width, `cooling` that of their heat, `footprint` their place on the cells of the
+//! `stacks` cuts the exchange of heat of these into parts, `spreading` has the law of their width, `cooling` that of their heat, `footprint` their place on the cells of the
 //! plate; `target` measures the distance of the centre line from a wanted line.
 
 mod beneath;
@@ -18,6 +18,7 @@ mod sections;
 mod segment;
 mod slices;
 mod spreading;
+mod stacks;
 mod strand;
 mod target;
 #[cfg(test)]

@@ -8,6 +8,7 @@ use crate::laws::Fluid;
 use crate::port::{Surface, SurfaceResponse, WallCells};
 
 mod slow;
+mod stacks;
 
 const WAX: &str = "density = 780.0\nviscosity = 4e-3\nspecific_heat = 2.2e3\nconductivity = 0.15\nmelting = { solidus = \
                    309.0, liquidus = 309.7, latent_heat = 2.47e5 }\nfrozen = { specific_heat = 1.9e3, conductivity = \
