@@ -107,10 +107,12 @@ impl Variable {
     }
 
     /// Returns the end of the bounds that an input exceeds by rounding alone, or else the value. `size` is that of the
-    /// terms of which the value is the sum. Counts have no rounding.
+    /// terms of which the value is the sum. Counts have no rounding, nor has what is not finite.
     pub fn rounded(&self, value: f64, size: f64) -> f64 {
         match (&self.slot, self.quantity) {
-            (Slot::Input(_), Some(quantity)) if quantity != Quantity::Count => {
+            (Slot::Input(_), Some(quantity))
+                if quantity != Quantity::Count && value.is_finite() =>
+            {
                 self.bounds.rounded(value, ROUNDING * size)
             }
             _ => value,

@@ -138,7 +138,7 @@ fn quarter_cracks_as_the_whole_does() {
         found
     };
     let (whole, quarter) = (run("none"), run("quarter"));
-    assert!(whole[2][0] > 0.8, "{whole:?}");
+    assert!(whole[2][0] > 0.6, "{whole:?}");
     for (one, other) in whole.iter().flatten().zip(quarter.iter().flatten()) {
         assert!((one - other).abs() <= 2e-3 * one.abs(), "{whole:?} {quarter:?}");
     }
