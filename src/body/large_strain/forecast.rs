@@ -559,7 +559,7 @@ mod tests {
             let strand =
                 "strand = { path = [[0, 0, 0], [2e-2, 0, 0], [2e-2, 1e-2, 0]], radius = 2e-3 }";
             for (shape, dimension, spacing) in
-                [(block, 2, 1.4e-3), (block, 3, 2.8e-3), (ball, 3, 2e-3), (strand, 3, 1.6e-3)]
+                [(block, 2, 1e-3), (block, 3, 2e-3), (ball, 3, 1.5e-3), (strand, 3, 1.2e-3)]
             {
                 let faces = if shape == ball { "" } else { "faces.left = { clamped = true }" };
                 let text = format!(

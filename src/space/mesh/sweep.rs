@@ -287,7 +287,7 @@ mod tests {
             let path = path(form);
             let sweep = Sweep::new(form, &path, 0.5);
             assert_eq!(sweep.fault(), None);
-            for spacing in [0.2, 0.1] {
+            for spacing in if form == Form::Solid { vec![0.1] } else { vec![0.1, 0.05] } {
                 let mesh = sweep.mesh(spacing);
                 let space = finite_elements(&mesh);
                 assert!(space.volume.weights.iter().all(|&w| w > 0.0));
