@@ -134,6 +134,43 @@ most = 1e-3
     assert!((1..=most).contains(&subjects.len()), "{subjects:?}");
 }
 
+/// Two lines of wax on each other give the plate almost the heat of short intervals at the default one.
+#[test]
+fn frozen_stacks_depend_little_on_the_interval() {
+    let run = |interval: &str| {
+        let text = format!(
+            r#"
+name = "Stack"
+stop_time = 8.0
+step = 1.0
+[body.ink]
+kind = "filament"
+fluid = {WAX}
+nozzle = {{ diameter = 0.8e-3, height = 0.4e-3, temperature = 333.0, flow = 0.0 }}
+path = {{ time = [0.0, 2.0, 2.5, 4.5], x = [-5e-3, 5e-3, 5e-3, -5e-3], y = [0.0, 0.0, 0.0, 0.0], z = [0.4e-3, 0.4e-3, 0.8e-3, 0.8e-3], flow = [2e-9, 0.0, 2e-9, 0.0] }}
+most = 1e-7
+[body.plate]
+kind = "solid"
+shape = {{ box = [14e-3, 6e-3, 1.5e-3] }}
+material = "soda-lime-glass"
+initial_temperature = 293.15
+mesh = {{ spacing = 0.4e-3 }}
+[[coupling]]
+from = "ink"
+to = "plate.top"
+traction = false
+{interval}
+"#
+        );
+        let mut trial = Trial::new(&text);
+        (0..8).for_each(|_| trial.step(1.0));
+        trial.get("ink.heat")
+    };
+    let [usual, short] = ["", "interval = 10e-3"].map(run);
+    println!("{usual} J at the default interval, {short} J at 10 ms");
+    assert!(usual > 1.0 && (usual / short - 1.0).abs() < 0.05, "{usual} {short}");
+}
+
 /// A strand of a slow nozzle holds the flow over the speed, heat balances, and its width and heat hardly follow the
 /// communication step; fluid that rises around the nozzle is warned of.
 #[test]

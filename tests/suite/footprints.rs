@@ -184,3 +184,78 @@ fn a_chosen_mesh_sees_the_hole_of_a_ring() {
         assert!((found - wanted).abs() < 0.02 * under, "{shape}: {found}, not {wanted} of {under}");
     }
 }
+
+/// A scene of 1 ms of a body below a Gaussian spot of 1 W with these keys, with probes at places along x.
+fn below_a_spot(body: &str, spot: &str, places: &[f64]) -> String {
+    let probes: String = places
+        .iter()
+        .enumerate()
+        .map(|(n, x)| {
+            format!(
+                "[[probe]]\nname = \"at{n}\"\nin = \"body\"\nat = [{x}, 0.0, 0.0]\ngives = [\"temperature\"]\n"
+            )
+        })
+        .collect();
+    format!(
+        "name = \"Spot\"\nstop_time = 1e-3\nstep = 1e-3\n[body.body]\nkind = \"solid\"\n{body}\n\
+         initial_temperature = 293.15\nmaterial = {{ model = \"thermoelastic\", density = 3950.0, \
+         specific_heat = 900.0, conductivity = 10.0 }}\n[[load]]\nname = \"spot\"\non = \"body.top\"\n\
+         carries = [\"power\"]\n{spot}\n{probes}"
+    )
+}
+
+/// Rises at these places after 1 ms in equal steps, while an input of the spot changes at a rate.
+fn rises(text: &str, places: &[f64], (input, rate): (&str, f64), steps: usize) -> Vec<f64> {
+    let mut trial = Trial::new(text);
+    trial.set_derivative(input, 1, rate);
+    (0..steps).for_each(|_| trial.step(1e-3 / steps as f64));
+    (0..places.len()).map(|n| trial.get(&format!("at{n}.temperature")) - 293.15).collect()
+}
+
+/// Bodies that touch exchange heat once a step, within which a footprint is sampled as on a body that touches nothing.
+#[test]
+fn footprints_move_on_bodies_in_contact_as_on_others() {
+    let places = [-0.3e-3, 0.4e-3];
+    let plate = below_a_spot(
+        "shape = { box = [2e-3, 0.5e-3, 0.2e-3] }\n\
+         mesh = { spacing = 50e-6, depth_spacing = 25e-6, growth = 1.0, order = 1 }",
+        "footprint = { gaussian = { radius = 80e-6 } }\nstart = { power = 1.0, x = -0.7e-3 }\n\
+         range = { x = [-0.7e-3, 0.7e-3] }",
+        &places,
+    );
+    let chuck = "[body.chuck]\nkind = \"reservoir\"\nheat_capacity = 400.0\ninitial_temperature = 293.15\n[[coupling]]\n\
+                 from = \"chuck.top\"\nto = \"body.bottom\"\nconductance = 1e-3\n";
+    for method in ["modal", "newton"] {
+        let run = |rest: &str, steps: usize| {
+            let text = format!("{plate}{rest}[solver]\nmethod = \"{method}\"\n");
+            rises(&text, &places, ("spot.x", 1.4), steps)
+        };
+        let alone = run("", 1);
+        assert!(alone.iter().all(|&rise| rise > 10.0), "{method} {alone:?}");
+        for steps in [1, 3] {
+            let touched = run(chuck, steps);
+            for (one, other) in alone.iter().zip(&touched) {
+                assert!(off(*other, *one) < 2e-3, "{method}, {steps}: {alone:?} {touched:?}");
+            }
+        }
+    }
+}
+
+/// A spot that shrinks to a tenth of its radius in one step, or grows from that, heats as it does in many.
+#[test]
+fn footprints_that_shrink_within_a_step_are_followed_to_their_least_size() {
+    for (start, rate) in [(300e-6, -0.27), (30e-6, 0.27)] {
+        let text = below_a_spot(
+            "shape = { disc = { radius = 1e-3, thickness = 0.2e-3 } }\n\
+             mesh = { spacing = 10e-6, depth_spacing = 5e-6, growth = 1.3 }",
+            &format!(
+                "footprint = {{ gaussian = {{ radius = 300e-6 }} }}\n\
+                 start = {{ power = 1.0, radius = {start} }}\nrange = {{ radius = [30e-6, 300e-6] }}"
+            ),
+            &[0.0],
+        );
+        let [once, often] =
+            [1, 300].map(|steps| rises(&text, &[0.0], ("spot.radius", rate), steps)[0]);
+        assert!(off(once, often) < 2e-4, "{rate}: {once} {often}");
+    }
+}

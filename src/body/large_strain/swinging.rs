@@ -14,7 +14,7 @@ use crate::body::{
     Acts, Advice, Approach, BodyError, Events, Given, Giver, Maxima, Occasion, Reading, Resources,
     Structured,
 };
-use crate::inputs::{InputLayout, InputPath};
+use crate::inputs::InputLayout;
 use crate::method::large_strain::{
     Course, Courses, Deformable, Drive, Failure, IMPLICIT_STEPS, IMPLICIT_WORK, ImplicitDynamics,
     Motion, through_mirror,
@@ -446,18 +446,8 @@ impl Events for SwingingBody {}
 impl Maxima for SwingingBody {}
 
 impl Approach for SwingingBody {
-    /// A part of a longer step moves faces by its share of the way to their inputs. A whole step takes all of the way.
-    fn approached(
-        &self,
-        state: &mut Vec<f64>,
-        path: &InputPath,
-        (dt, ahead): (f64, f64),
-    ) -> Vec<(usize, [f64; 2])> {
-        if dt == ahead {
-            return Vec::new();
-        }
-        let own = self.faces.displacing(&self.structure(state).motion.displacement);
-        own.into_iter().filter_map(|(input, from)| path.approach(input, from, ahead)).collect()
+    fn shared_by_parts(&self, state: &[f64]) -> Vec<(usize, f64)> {
+        self.faces.displacing(&self.structure(state).motion.displacement)
     }
 }
 

@@ -4,7 +4,7 @@ use crate::body::{
     Acts, Advice, Approach, BodyError, Events, Given, Giver, Maxima, Occasion, Reading, Resources,
     Structured,
 };
-use crate::inputs::{InputLayout, InputPath};
+use crate::inputs::InputLayout;
 use crate::method::lattice::{Lattice, LatticeState};
 use crate::method::sph::ParticleFields;
 use crate::quantity::percent;
@@ -132,18 +132,8 @@ impl Events for RestingLatticeBody {
 impl Maxima for RestingLatticeBody {}
 
 impl Approach for RestingLatticeBody {
-    /// A part of a longer step moves the load by its share of the way to the input. A whole step takes all of the way.
-    fn approached(
-        &self,
-        state: &mut Vec<f64>,
-        path: &InputPath,
-        (dt, ahead): (f64, f64),
-    ) -> Vec<(usize, [f64; 2])> {
-        if dt == ahead {
-            return Vec::new();
-        }
-        let from = self.structure(state).prescribed;
-        path.approach(self.input, from, ahead).into_iter().collect()
+    fn shared_by_parts(&self, state: &[f64]) -> Vec<(usize, f64)> {
+        vec![(self.input, self.structure(state).prescribed)]
     }
 }
 

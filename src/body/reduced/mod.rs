@@ -20,7 +20,7 @@ pub use totals::offered_totals;
 use std::any::Any;
 use std::sync::Arc;
 
-use super::solid::{BodyLoads, Measure, PARTS_OF_A_FOOTPRINT, plan};
+use super::solid::{BodyLoads, Measure, Sampling, plan};
 use super::{
     Acts, Body, BodyError, Direct, Fields, Given, Linear, Memo, Reading, Received, point_quantities,
 };
@@ -201,24 +201,24 @@ impl ReducedBody {
         (path, duration): (&InputPath, f64),
         allowance: &Allowance,
     ) -> Result<(), BodyError> {
-        let travel = self.loads.travel(path, duration);
-        let parts = (PARTS_OF_A_FOOTPRINT * travel).ceil().max(1.0);
+        let sampling = Sampling::of(&self.loads, path, duration);
         let halted = |halt| BodyError::Halted { body: self.name.clone(), halt };
-        allowance.foresee(parts, "samples of moving footprints", state.len()).map_err(halted)?;
+        let foreseen =
+            allowance.foresee(sampling.count(), "samples of moving footprints", state.len());
+        foreseen.map_err(halted)?;
         let [.., sizes] = self.places();
         for s in path.turns(duration) {
             note_sizes(&mut state[sizes..], &self.drives.values(&path.at(0, s)));
         }
-        let h = duration / parts;
         let at = |s: f64| {
             let inputs = path.at(0, s);
             self.check_inputs(&inputs).map_err(|error| error.underway(s))?;
             Ok::<_, BodyError>(self.drives.values(&inputs))
         };
         let mut first = at(0.0)?;
-        for part in 0..parts as usize {
-            let middle = at((part as f64 + 0.5) * h)?;
-            let last = at((part as f64 + 1.0) * h)?;
+        for part in sampling.parts() {
+            let h = part.duration;
+            let [middle, last] = [at(part.middle)?, at(part.end)?];
             let sum = |weights: [f64; 3]| -> Vec<f64> {
                 let samples = first.iter().zip(&middle).zip(&last);
                 samples

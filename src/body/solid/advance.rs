@@ -1,14 +1,11 @@
 //! Steps under inputs that are polynomials in time.
 
-use super::SolidBody;
 use super::memo::SolidMemo;
+use super::{Sampling, SolidBody};
 use crate::body::{Acts, BodyError};
 use crate::inputs::InputPath;
 use crate::method::fem::SolidLoads;
 use crate::runtime::allowance::Allowance;
-
-/// Number of parts of a step while a footprint moves or grows by its own size.
-pub const PARTS_OF_A_FOOTPRINT: f64 = 8.0;
 
 impl SolidBody {
     /// Advances a state; `memo` is that of the inputs at the beginning, unless these change.
@@ -43,19 +40,18 @@ impl SolidBody {
         allowance: &Allowance,
     ) -> Result<(), BodyError> {
         let Acts { path, duration, .. } = acts;
-        let travel = self.loads.travel(path, *duration);
-        let parts = (PARTS_OF_A_FOOTPRINT * travel).ceil().max(1.0);
-        let foreseen = allowance.foresee(parts, "samples of moving footprints", state.len());
+        let sampling = Sampling::of(&self.loads, path, *duration);
+        let foreseen =
+            allowance.foresee(sampling.count(), "samples of moving footprints", state.len());
         foreseen.map_err(|halt| self.error(halt.into()))?;
-        let h = duration / parts;
         let mut first = self.loads_at(path, 0.0)?;
-        for part in 0..parts as usize {
-            let at = |share: f64| (part as f64 + share) * h;
-            let [middle, last] = [self.loads_at(path, at(0.5))?, self.loads_at(path, at(1.0))?];
-            let loads = quadratic([&first, &middle, &last], h);
-            let begin = part as f64 * h;
-            let loads = self.with_received(&loads, acts, begin).unwrap_or_else(|| loads.to_vec());
-            let advanced = self.solid.advance(state, &loads, h, allowance);
+        for part in sampling.parts() {
+            let [middle, last] =
+                [self.loads_at(path, part.middle)?, self.loads_at(path, part.end)?];
+            let loads = quadratic([&first, &middle, &last], part.duration);
+            let received = self.with_received(&loads, acts, part.begin);
+            let loads = received.unwrap_or_else(|| loads.to_vec());
+            let advanced = self.solid.advance(state, &loads, part.duration, allowance);
             advanced.map_err(|failure| self.error(failure))?;
             first = last;
         }

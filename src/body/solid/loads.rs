@@ -111,8 +111,7 @@ impl BodyLoads {
 
     /// Largest distance, in units of its own least size, by which any footprint moves or grows in a time `dt` [s].
     pub fn travel(&self, path: &InputPath, dt: f64) -> f64 {
-        let turns: Vec<Vec<f64>> = path.turns(dt).into_iter().map(|s| path.at(0, s)).collect();
-        let ends = [path.at(0, 0.0), path.at(0, dt)];
+        let extremes = extremes(path, dt);
         let way = |at: usize| {
             let mut weight = 1.0;
             let parts = path.derivatives().iter().enumerate().skip(1).map(|(k, list)| {
@@ -123,14 +122,25 @@ impl BodyLoads {
         };
         let travel = |(load, places): &(Load, LoadInputs)| {
             let moved = [places.x, places.y, places.radius].into_iter().flatten();
-            let radii =
-                ends.iter().chain(&turns).map(|inputs| placement(load, places, inputs).radius);
             // A radius that is not positive is refused where loads are sampled.
-            let least = radii.filter(|&radius| radius > 0.0).fold(f64::INFINITY, f64::min);
+            let radii = radii(load, places, &extremes).filter(|&radius| radius > 0.0);
+            let least = radii.fold(f64::INFINITY, f64::min);
             let size = load.footprint.finest(least.is_finite().then_some(least));
             moved.map(way).sum::<f64>() / size
         };
         self.loads.iter().map(travel).fold(0.0, f64::max)
+    }
+
+    /// Largest ratio of two radii of any footprint within a time `dt` [s]. Those whose radius is not positive at some
+    /// time, which are refused where loads are sampled, do not count.
+    pub fn ratio_of_radii(&self, path: &InputPath, dt: f64) -> f64 {
+        let extremes = extremes(path, dt);
+        let ratio = |(load, places): &(Load, LoadInputs)| {
+            let least = radii(load, places, &extremes).fold(f64::INFINITY, f64::min);
+            let largest = radii(load, places, &extremes).fold(0.0, f64::max);
+            if least > 0.0 { largest / least } else { 1.0 }
+        };
+        self.loads.iter().map(ratio).fold(1.0, f64::max)
     }
 
     /// Adds the parts of all loads to the values of faces.
@@ -375,6 +385,17 @@ fn both(mut a: Vec<Vec<f64>>, b: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     a
 }
 
+/// Inputs at the beginning, the end and the extremes of a time `dt` [s].
+fn extremes(path: &InputPath, dt: f64) -> Vec<Vec<f64>> {
+    let times = [0.0, dt].into_iter().chain(path.turns(dt));
+    times.map(|s| path.at(0, s)).collect()
+}
+
+/// Radius of a footprint under each of these inputs [m].
+fn radii(load: &Load, places: &LoadInputs, inputs: &[Vec<f64>]) -> impl Iterator<Item = f64> {
+    inputs.iter().map(|inputs| placement(load, places, inputs).radius)
+}
+
 fn placement(load: &Load, places: &LoadInputs, inputs: &[f64]) -> Placement {
     let read = |at: Option<usize>, other: f64| at.map_or(other, |index| inputs[index]);
     Placement {
@@ -404,7 +425,7 @@ pub fn add(target: &mut Vec<f64>, vector: &[f64], sign: f64) {
 }
 
 #[cfg(test)]
-mod tests {
+pub mod tests {
     use super::*;
     use crate::body::solid::plan;
     use crate::inputs::InputLayout;
@@ -413,7 +434,7 @@ mod tests {
 
     const POWER: f64 = 3.0;
 
-    fn loads(shape: &str, footprint: &str, place: &str) -> (BodyLoads, Mesh) {
+    pub fn loads(shape: &str, footprint: &str, place: &str) -> (BodyLoads, Mesh) {
         let text = format!(
             "name = \"Loads\"\nstop_time = 1.0\nstep = 0.1\n[body.block]\nkind = \"solid\"\nshape = {{ {shape} }}\n\
              material = {{ model = \"thermoelastic\", density = 2.0, specific_heat = 3.0, conductivity = 5.0 }}\ninitial_temperature = 300.0\n\
@@ -427,7 +448,7 @@ mod tests {
         (BodyLoads::of(&scene, &layout, ("block", solid.shape), &plan), heat_mesh(&plan))
     }
 
-    const BOX: &str = "box = [2.0, 1.6, 0.5]";
+    pub const BOX: &str = "box = [2.0, 1.6, 0.5]";
     const ROUND: &str = "disc = { radius = 1.0, thickness = 0.5 }";
 
     fn cases() -> Vec<(BodyLoads, Mesh, Vec<f64>, Vec<f64>)> {

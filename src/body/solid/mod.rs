@@ -20,13 +20,13 @@ mod point;
 mod port;
 mod reader;
 mod rows;
+mod sampling;
 mod savings;
 mod shock;
 mod totals;
 mod warnings;
 mod yielding;
 
-pub(super) use advance::PARTS_OF_A_FOOTPRINT;
 pub use flaw_reading::flaw_quantities;
 pub use forecast::{
     BodyForecast, PRODUCT_RATE, ParticleForecast, exchanged_heat_time, forecast_solid,
@@ -38,6 +38,7 @@ pub use peaks::kept_peaks;
 pub use plan::plan;
 pub(super) use point::Measure;
 pub use point::{PointQuantity, point_quantities};
+pub(super) use sampling::{PARTS_OF_A_FOOTPRINT, Sampling};
 pub use totals::offered_totals;
 
 use std::sync::Arc;
