@@ -46,6 +46,17 @@ def scratches(count: int) -> str:
     )
 
 
+def median_of(unit: Unit, names: list[str], repeat: int) -> float:
+    """Median time of a reading of these names, each after a step [ms]."""
+    times = []
+    for _ in range(repeat + 1):
+        unit.step(STEP)
+        start = time.perf_counter()
+        unit.get(names)
+        times.append(time.perf_counter() - start)
+    return 1e3 * statistics.median(times[1:])
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--flaws", type=int, default=10_000)
@@ -56,13 +67,9 @@ def main():
         file = Path(folder) / "scratches.toml"
         file.write_text(PLATE + scratches(options.flaws))
         with Unit(file) as unit:
-            times = []
-            for _ in range(options.repeat + 1):
-                unit.step(STEP)
-                start = time.perf_counter()
-                unit.get(names)
-                times.append(time.perf_counter() - start)
-    print(f"{options.flaws} flaws: {1e3 * statistics.median(times[1:]):.1f} ms, median of readings")
+            one, every = (median_of(unit, own, options.repeat) for own in (names[-1:], names))
+    print(f"the stress of the plate, read at one flaw: {one:.1f} ms, median of readings")
+    print(f"{options.flaws} flaws: {every:.1f} ms, {every - one:.1f} ms beyond that stress")
 
 
 if __name__ == "__main__":

@@ -139,6 +139,21 @@ fn a_held_bar_relaxes_as_norton_says() {
     }
 }
 
+/// Flow in proportion to stress relaxes alike from any stress, however small.
+#[test]
+fn linear_creep_relaxes_alike_at_any_strain() {
+    let linear = || MATERIALS.iter().filter(|material| material.creep[1] == 1.0);
+    for material in linear() {
+        for strain in [1e-7, 1e-9] {
+            let faint = Material { strain, ..*material };
+            let mut trial = held(&faint, "", 1e-3);
+            trial.step(faint.time());
+            let ratio = trial.get("inside.stress_xx") / (faint.young * strain);
+            assert!((ratio - (-1.0_f64).exp()).abs() < 0.01, "{strain}: {ratio}");
+        }
+    }
+}
+
 #[test]
 fn the_error_of_creep_falls_with_its_tolerance() {
     // Errors of Euler steps go as the length of these, and that as the root of the tolerance.

@@ -168,7 +168,7 @@ traction = false
     };
     let [usual, short] = ["", "interval = 10e-3"].map(run);
     println!("{usual} J at the default interval, {short} J at 10 ms");
-    assert!(usual > 1.0 && (usual / short - 1.0).abs() < 0.05, "{usual} {short}");
+    assert!(usual > 1.0 && (usual / short - 1.0).abs() < 0.03, "{usual} {short}");
 }
 
 /// A strand of a slow nozzle holds the flow over the speed, heat balances, and its width and heat hardly follow the

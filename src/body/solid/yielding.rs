@@ -28,7 +28,7 @@ const MOST_HALVES: u32 = 8;
 /// Allowed error of a creep increment relative to the largest elastic strain, as a part of the tolerance of outputs.
 const PART_OF_STRAIN: f64 = 0.1;
 /// Sample times of temperatures within a step, as parts of it; the effect of a jump at its beginning is short.
-const LOOKS: [f64; 3] = [0.0625, 0.25, 0.5];
+const LOOKS: [f64; 5] = [0.0625, 0.25, 0.5, 0.75, 0.9];
 /// Part of a temperature change that replaces the rise to yield if the latter is smaller.
 const LEAST: f64 = 0.1;
 

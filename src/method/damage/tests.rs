@@ -89,15 +89,15 @@ fn bars_break_at_the_strength_of_their_model() {
             let strength = law.strength();
             let strain = strength / law.elastic.young;
             let mut bar = Bar::new(law, 60, weakness);
-            let last = if dissipation == Dissipation::At1 { 1.1 } else { 2.2 };
-            let steps = 40;
-            let stress = (1..=steps).map(|i| bar.draw(strain * last * i as f64 / steps as f64));
-            let peak = stress.fold(0.0, f64::max);
-            assert!(
-                (peak / strength - 1.0).abs() < 0.02,
-                "{dissipation:?} {split:?} {}",
-                peak / strength
-            );
+            // AT1 is elastic until then; AT2 is damaged from the first load on.
+            let parts: Vec<f64> = match dissipation {
+                Dissipation::At1 => (0..40).map(|i| 0.9 + 0.005 * f64::from(i)).collect(),
+                Dissipation::At2 => (1..=40).map(|i| 0.055 * f64::from(i)).collect(),
+            };
+            let peak = parts.iter().map(|part| bar.draw(part * strain)).fold(0.0, f64::max);
+            let ratio = peak / strength;
+            println!("{dissipation:?} {split:?}: {ratio:.4}");
+            assert!((ratio - 1.0).abs() < 0.01, "{dissipation:?} {split:?} {ratio}");
         }
     }
 }
@@ -113,7 +113,8 @@ fn broken_bar_has_dissipated_the_energy_of_a_crack() {
         assert!(force.abs() < 1e-3 * law.strength(), "{force}");
         let energies = bar.problem.energies(&bar.state);
         let part = energies.dissipated / (ENERGY * bar.height());
-        assert!((part - 1.0).abs() < 0.02, "{elements} {part}");
+        println!("{elements} elements: {part:.4}");
+        assert!((part - 1.0).abs() < 0.01, "{elements} {part}");
         // The profile beside the broken row of elements, whose length is corrected by `1 − 3h/(8ℓ)`.
         let h = LENGTH / elements as f64;
         let stretched = 1.0 - 3.0 * h / (8.0 * DAMAGE_LENGTH);
@@ -273,7 +274,7 @@ fn bar_in_space_breaks_at_its_strength_with_the_energy_of_its_section() {
     let strain = law.strength() / law.elastic.young;
     let none = (vec![0.0; nodes], vec![0.0; 3 * nodes]);
     let mut peak = 0.0_f64;
-    for part in (0..=12).map(|step| 0.96 + 0.01 * f64::from(step)).chain([1.5]) {
+    for part in (0..=16).map(|step| 0.97 + 0.0025 * f64::from(step)).chain([1.5]) {
         for node in (0..nodes).filter(|node| node % (count + 1) == count) {
             state.displacement[3 * node] = part * strain * LENGTH;
         }
@@ -282,9 +283,11 @@ fn bar_in_space_breaks_at_its_strength_with_the_energy_of_its_section() {
         let end = (0..nodes).filter(|node| node % (count + 1) == count);
         peak = peak.max(end.map(|node| forces[3 * node]).sum::<f64>() / (h * h));
     }
-    assert!((peak / law.strength() - 1.0).abs() < 0.02, "{}", peak / law.strength());
+    println!("in space: {:.4}", peak / law.strength());
+    assert!((peak / law.strength() - 1.0).abs() < 0.01, "{}", peak / law.strength());
     let part = problem.energies(&state).dissipated / (ENERGY * h * h);
-    assert!((part - 1.0).abs() < 0.02, "{part}");
+    println!("in space: {part:.4}");
+    assert!((part - 1.0).abs() < 0.01, "{part}");
 }
 
 /// Nodes that may be damaged have the damage of a minimum over all, from any margin around them on, with wide damage and

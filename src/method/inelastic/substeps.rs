@@ -29,8 +29,8 @@ pub struct Increment<'a> {
 const MOST_STEPS: usize = 2_000;
 /// Length of the shortest inner step, over the whole.
 const LEAST_PART: f64 = 1e-24;
-/// Lower bound of the elastic strain to which errors are compared [1].
-const LEAST_STRAIN: f64 = 1e-6;
+/// Lower bound of the elastic strain to which errors are compared [1], below that of any load.
+const LEAST_STRAIN: f64 = 1e-15;
 /// Bounds of the ratio of lengths of two steps, and a margin.
 const LEAST_RATIO: f64 = 0.1;
 const MOST_RATIO: f64 = 4.0;

@@ -78,6 +78,11 @@ fn overlap_with_sides(checker: &mut Checker, path: &Path, solid: &Solid, name: F
         let allowed = format!("a {kind} condition on `sides` or on its single faces");
         checker.require(fine, path, message, allowed);
     }
+    let radiates = [own, sides].map(|face| face.radiation.is_some());
+    let is_held = [own, sides].map(|face| face.temperature.is_some());
+    let fine = !(radiates[0] && is_held[1] || radiates[1] && is_held[0]);
+    let message = "a face of prescribed temperature has no other thermal condition, and `sides` is this face, too";
+    checker.require(fine, path, message, "`temperature` or `radiation`");
 }
 
 fn symmetry(checker: &mut Checker, path: &Path, solid: &Solid) {
