@@ -4,7 +4,7 @@ import warnings
 
 import numpy as np
 import pytest
-from impinge import Master, Study
+from impinge import Function, Master, Study
 from impinge.jumps import Watched
 from impinge.master import Graded, MasterWarning
 from impinge.study import Table, over_time
@@ -94,6 +94,61 @@ def test_runs_that_stop_at_a_jump_go_on_behind_it(slab):
     expected = AREA * (7e3 * np.minimum(result.time, 0.5) + 1e3 * np.maximum(result.time - 0.5, 0))
     assert result["p.plate.heat_in"].values == pytest.approx(expected.values, rel=1e-7, abs=1e-15)
     assert result.attrs["steps"] == 10  # a jump at a communication point costs none
+
+
+def sum_up(v, state, step):
+    return state + v * step, state + v * step
+
+
+INTEGRAL = Function(
+    sum_up, {"v": "1"}, {"s": "1"}, state=0.0, start={"s": 0.0}, depends_on={"s": []}
+)
+
+
+@pytest.mark.parametrize("is_declared", [False, True])
+@pytest.mark.parametrize(
+    "options",
+    [
+        {},
+        {"order": 0},
+        {"order": 2},
+        {"scheme": "gauss-seidel"},
+        {"scheme": "jacobi", "extrapolation": 1},
+        {"adaptive": True},
+    ],
+    ids=str,
+)
+@pytest.mark.parametrize("at", [0.5, 0.53])
+def test_what_follows_a_jump_at_once_jumps_for_those_behind_it(at, options, is_declared):
+    with Master(
+        {"law": Function(lambda u: u, {"u": "1"}, {"y": "1"}), "integral": INTEGRAL},
+        [("law.y", "integral.v")],
+        inputs={"law.u": lambda t: float(t >= at)},
+        jumps=[at] if is_declared else [],
+        outputs=["integral.s"],
+        step=0.1,
+        **options,
+    ) as master:
+        result = master.run(1.0)
+    assert result["integral.s"].values[-1] == pytest.approx(1.0 - at, abs=1e-9)
+
+
+@pytest.mark.parametrize("has_state", [False, True])
+def test_sampled_functions_sample_what_an_input_is_just_after_a_jump(has_state):
+    def counted(u, state):
+        return u, state + 1
+
+    memory = {"state": 0} if has_state else {}
+    law = counted if has_state else lambda u: u
+    held = Function(law, {"u": "1"}, {"y": "1"}, sampled=True, **memory)
+    with Master(
+        {"held": held, "integral": INTEGRAL},
+        [("held.y", "integral.v")],
+        inputs={"held.u": lambda t: float(t >= 0.5)},
+        outputs=["integral.s"],
+        step=0.1,
+    ) as master:
+        assert master.run(1.0)["integral.s"].values[-1] == pytest.approx(0.5, rel=1e-12)
 
 
 def test_units_with_steps_of_one_length_get_the_mean_and_it_is_said_once(tmp_path):

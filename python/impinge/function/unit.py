@@ -275,7 +275,7 @@ class FunctionUnit:
 
     def cross_jump(self) -> None:
         """Goes over to what a function of time is just after a jump."""
-        if TIME in self.function.takes and not self.function.has_state:
+        if self.ends_at_jump and TIME in self.function.takes and not self.function.has_state:
             self._is_new = self.begins_at_jump = True
         self.ends_at_jump = False
 

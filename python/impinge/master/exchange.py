@@ -48,16 +48,16 @@ class Exchange:
 
     def __call__(self, inputs: np.ndarray, tolerance: float) -> None:
         """Brings `inputs` to what outputs say now, and sets them."""
+        # What follows inputs at once must see those that no connection sets.
+        for participant in self._participants.values():
+            if participant.is_direct:
+                participant.write(inputs[participant.place])
         if self._is_simple:
             for group in self._groups:
                 self._pass(group, inputs)
             for participant in self._participants.values():
                 participant.write(inputs[participant.place])
             return
-        # What follows inputs at once must see those that no connection sets.
-        for participant in self._participants.values():
-            if participant.is_direct:
-                participant.write(inputs[participant.place])
         for group, is_loop in zip(self._groups, self._is_loop, strict=True):
             if is_loop:
                 self._solve(group, inputs, tolerance)

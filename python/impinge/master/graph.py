@@ -75,11 +75,14 @@ def follows_at_once(units: Mapping[str, AnyUnit], first: Link, second: Link) -> 
     """Whether the second's source follows the first's target at once, as its unit declares."""
     if first.target_unit != second.source_unit:
         return False
-    unit = units[first.target_unit]
-    source = unit.variable(second.source)
-    if source.causality != "output":
+    return follows(units[first.target_unit], first.target, second.source)
+
+
+def follows(unit: AnyUnit, target: str, source: str) -> bool:
+    """Whether a source follows an input of its unit at once, as the unit declares."""
+    if unit.variable(source).causality != "output":
         return True  # of locals nothing is declared
-    return stem_of_family(unit, first.target) in unit.depends_on(second.source)
+    return stem_of_family(unit, target) in unit.depends_on(source)
 
 
 def stem_of_family(unit: AnyUnit, name: str) -> str:

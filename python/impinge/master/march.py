@@ -163,12 +163,18 @@ class March:
         ):
             return False
         engine.inputs[:] = new
-        self.exchange(engine.inputs, self.iteration_tolerance)
-        engine.begin(self.time)
-        self.watch.jump()
+        self._go_over()
         if self.adaptive or self.schedule.graded:
             self.schedule.restart(self.time)
         return True
+
+    def _go_over(self) -> None:
+        """Goes on from the present inputs, just after a jump."""
+        for function in self.functions:
+            function.cross_jump()
+        self.exchange(self.engine.inputs, self.iteration_tolerance)
+        self.engine.begin(self.time)
+        self.watch.jump()
 
     def _save(self) -> None:
         for component in self.components:
@@ -226,11 +232,7 @@ class March:
         self.time = end
         self.steps += 1
         self.most_iterations = max(self.most_iterations, engine.last_iterations)
-        if is_jump:
-            engine.drive_after(engine.inputs, end, size)
-            for function in self.functions:
-                function.cross_jump()
-        if is_jump or any(c.has_guesses_left for c in self.components):
+        if any(c.has_guesses_left for c in self.components):
             self.exchange(engine.inputs, self.iteration_tolerance)
             engine.history.nodes[-1] = (end, engine.inputs.copy())
         if is_jump or is_stale:
@@ -240,7 +242,8 @@ class March:
                 error = engine.mean_error(course.link, earlier, end, size)
                 course.add(earlier[-1][1], engine.inputs, error)
         if is_jump:
-            engine.begin(end)
+            engine.drive_after(engine.inputs, end, size)
+            self._go_over()
             self.schedule.restart(end)
         self._settle()
         self.record.add(end, self.balances)
