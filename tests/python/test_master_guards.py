@@ -211,6 +211,63 @@ def test_what_is_computed_in_steps_is_still_known_for_that(folder):
     assert result["l.y"].values[1:] == pytest.approx(np.full(10, 2.0), rel=1e-4)
 
 
+@pytest.mark.parametrize("is_connected", [False, True])
+@pytest.mark.parametrize("is_late", [False, True])
+def test_outputs_that_follow_driven_inputs_belong_to_the_ends_of_steps(
+    folder, is_late, is_connected
+):
+    """y = u/2 + 1 of an input 2t, at once or computed in steps, for the record and for others."""
+    if is_late:
+        unit = python_unit(folder, "Late", LATE)
+    else:
+        unit = make(folder, "half", d=0.5, e=1.0, interpolates=False)
+    units, connections = {"h": unit}, []
+    if is_connected:
+        units["count"] = make(folder, "sum", [0.0], [1.0], [1.0], x=[0.0])
+        connections = [("h.y", "count.u")]
+    with Master(
+        units,
+        connections,
+        inputs={"h.u": lambda time: 2.0 * time},
+        outputs=["h.y", "count.y"] if is_connected else ["h.y"],
+        step=0.1,
+    ) as master:
+        result = master.run(1.0)
+        assert master.participants["h"].held == ("end" if is_late else "mean")
+    assert result.attrs["held_inputs"] == "h"
+    assert result["h.y"].values[1:] == pytest.approx(1.0 + result.time.values[1:], rel=1e-12)
+    if is_connected:
+        # Nobody knows the first answer of what is computed in steps before the first step.
+        expected = 1.5 + (0.5 * 0.1**2 if is_late else 0.0)
+        assert result["count.y"].values[-1] == pytest.approx(expected, rel=1e-9)
+
+
+def test_states_under_driven_inputs_follow_their_means(folder):
+    """T' = q/C under a ramp, of a unit that declares nothing: exact, and known for a state."""
+    body = python_unit(folder, "Body", BODY)
+    with Master(
+        {"b": body}, inputs={"b.q": lambda time: 6.0 * time}, outputs=["b.T"], step=0.1
+    ) as master:
+        result = master.run(1.0)
+        assert master.notes == []
+    assert result["b.T"].values == pytest.approx(300.0 + 0.3 * result.time.values**2, rel=1e-12)
+
+
+def test_what_is_held_at_ends_of_steps_of_one_length_gets_means_of_jumps(folder):
+    """x' = u counts u = 1 from 0.53 s on: 0.47, though y follows u, too."""
+    unit = make(
+        folder, "mixed", [0.0], [1.0], [1.0], d=1.0, x=[0.0], variable=False, interpolates=False
+    )
+    with Master(
+        {"m": unit}, inputs={"m.u": lambda time: float(time >= 0.53)}, outputs=["m.y"], step=0.1
+    ) as master:
+        master.run(0.1)
+        master.participants["m"].held = "end"  # as of a unit that could not be asked
+        with pytest.warns(MasterWarning, match="its mean over the step is held"):
+            result = master.run(1.0)
+    assert result["m.y"].values[-1] == pytest.approx(0.47 + 1.0, rel=1e-12)
+
+
 @pytest.mark.parametrize("acceleration", ["none", "aitken", "anderson", "iqn-ils"])
 def test_whole_numbers_arrive_in_rings_that_iterate(folder, acceleration):
     """A unit that counts its steps for itself: each step heats by 10 W more, 0.5 W/K get lost."""

@@ -29,9 +29,17 @@ def join(
     inputs: Mapping[str, Any],
     memoryless: Collection[str],
     order: int,
+    recorded: Sequence[str] = (),
 ) -> tuple[dict[str, Participant], list[Drive]]:
-    """Makes the participants and gives each input its place; also returns the driven inputs."""
-    participants = {name: _participant(name, unit) for name, unit in units.items()}
+    """Makes the participants and gives each input its place; also returns the driven inputs.
+
+    recorded: outputs beside the sources of links that are to belong to inputs at the ends of steps.
+    """
+    told: dict[str, list[str]] = {name: [] for name in units}
+    for each in recorded:
+        name, variable = split(each, units)
+        told[name].append(variable)
+    participants = {name: _participant(name, unit, told[name]) for name, unit in units.items()}
     for link in links:
         participants[link.source_unit].links_out.append(link)
         participants[link.target_unit].links_in.append(link)
@@ -109,9 +117,9 @@ def components(
     return found
 
 
-def _participant(name: str, unit: AnyUnit) -> Participant:
+def _participant(name: str, unit: AnyUnit, recorded: Sequence[str]) -> Participant:
     kind = FunctionParticipant if isinstance(unit, FunctionUnit) else Participant
-    return kind(name, unit)
+    return kind(name, unit, recorded)
 
 
 def _function(name: str, value: Any, shape: tuple[int, ...]) -> Watched:

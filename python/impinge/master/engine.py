@@ -164,7 +164,8 @@ class Engine:
             place = participant.place
             if participant.writer is not None:
                 path = self._path(place, time, end, middle)
-                self.arrived[place] = participant.write_path(*path, self.guess[place], size)
+                last = self._last(place)
+                self.arrived[place] = participant.write_path(*path, last, size)
             participant.step_to(end)
             if participant.is_direct and participant.held != "end":
                 participant.write(self.guess[place])
@@ -176,6 +177,12 @@ class Engine:
                 self.true[link.place] = new
                 if link not in component.guessed:
                     self.guess[link.place] = new
+
+    def _last(self, place: slice) -> np.ndarray:
+        """What some inputs are as the step ends, or their means over it where these are held."""
+        if self.means is None:
+            return self.guess[place]
+        return np.where(np.isfinite(self.means[place]), self.means[place], self.guess[place])
 
     def _path(
         self, place: slice, time: float, end: float, middle: np.ndarray | None

@@ -122,7 +122,7 @@ class Master:
             self.links = links(connections, self.units, inputs or {})
             check_memoryless(memoryless, self.units)
             self.participants, drives = join(
-                self.units, self.links, inputs or {}, memoryless, order
+                self.units, self.links, inputs or {}, memoryless, order, outputs
             )
             self.components = components(
                 self.participants, self.links, scheme, acceleration, relaxation, reuse

@@ -11,19 +11,22 @@ from impinge.function.unit import FunctionState
 from impinge.master import waveform
 from impinge.master.any_unit import AnyUnit
 from impinge.master.connection import Link
-from impinge.master.graph import follows_at_once
+from impinge.master.graph import follows
 from impinge.unit import State
+
+_TOLD = ("output", "local")  # causalities of what may follow inputs
 
 
 class Participant:
-    """A unit, the inputs that the master sets, and the outputs that others take.
+    """A unit, the inputs that the master sets, and the outputs that others take or that are
+    recorded beside these (`recorded`).
 
     `place` is where its inputs stand among all of them. `held` says what a unit gets that cannot
     follow polynomials over a step: "mean", or "end" where its outputs come from its step alone.
     """
 
-    def __init__(self, name: str, unit: AnyUnit):
-        self.name, self.unit = name, unit
+    def __init__(self, name: str, unit: AnyUnit, recorded: Sequence[str] = ()):
+        self.name, self.unit, self.recorded = name, unit, recorded
         self.place = slice(0, 0)
         self.links_in: list[Link] = []
         self.links_out: list[Link] = []
@@ -43,10 +46,14 @@ class Participant:
         if self.order:
             self._connect_paths(names)
         self._connect_outputs()
-        units = {self.name: self.unit}
-        self.is_direct = any(
-            follows_at_once(units, one, other) for one in self.links_in for other in self.links_out
-        )
+        told = [each for each in self._told() if any(follows(self.unit, n, each) for n in names)]
+        self.is_direct = bool(told)
+        self._probed = self.unit.reader(dict.fromkeys([*self.sources, *told])) if told else None
+
+    def _told(self) -> list[str]:
+        """What it says to others or to the record."""
+        found = dict.fromkeys([*(link.source for link in self.links_out), *self.recorded])
+        return [name for name in found if self.unit.variable(name).causality in _TOLD]
 
     def _connect_outputs(self) -> None:
         sources: dict[str, slice] = {}
@@ -150,7 +157,7 @@ class Participant:
         far below `step` [s] tell one from the other, if the unit can go back; returns what remains
         unknown.
         """
-        if not self.is_direct or self.path_writer is not None or self.writer is None:
+        if self._probed is None or self.path_writer is not None or self.writer is None:
             return None
         nudge = np.where(self._paths, 1e-3 * np.abs(values) + 1e-6 / weight, 0.0)
         self.answers_late = not self._responds(values, nudge)
@@ -167,9 +174,9 @@ class Participant:
 
     def _responds(self, values: np.ndarray, nudge: np.ndarray) -> bool:
         self.write(values)
-        before = self.read().copy()
+        before = self._probed().copy()
         self.write(values + nudge)
-        after = self.read().copy()
+        after = self._probed().copy()
         self.write(values)
         return not np.array_equal(before, after)
 
@@ -186,7 +193,7 @@ class Participant:
                     for given in (values, values + nudge):
                         self.write(given)
                         self.unit.step(length)
-                        ends.append(self.read().copy())
+                        ends.append(self._probed().copy())
                         self.unit.restore(state)
                     size = np.abs(ends[0])
                     responses.append(np.abs(ends[1] - ends[0]))
