@@ -133,6 +133,62 @@ def test_what_follows_a_jump_at_once_jumps_for_those_behind_it(at, options, is_d
     assert result["integral.s"].values[-1] == pytest.approx(1.0 - at, abs=1e-9)
 
 
+def by_ends(u, state, step):
+    return state + u * step, state + u * step
+
+
+def by_both_ends(u, before, state, step):
+    total = state + (before["u"] + u) / 2 * step
+    return total, total
+
+
+def by_time(u, time, state):
+    total = state[1] + u * (time - state[0])
+    return total, (time, total)
+
+
+@pytest.mark.parametrize("is_declared", [False, True])
+@pytest.mark.parametrize(
+    "options",
+    [{}, {"scheme": "jacobi", "extrapolation": 1}, {"adaptive": True, "least_step": 1e-9}],
+    ids=str,
+)
+@pytest.mark.parametrize(
+    ("law", "first"), [(by_ends, 0.0), (by_both_ends, 0.0), (by_time, (0.0, 0.0))]
+)
+def test_memories_that_follow_inputs_count_jumps_from_then_on(law, first, options, is_declared):
+    law = Function(law, {"u": "1"}, {"y": "1"}, state=first, start={"y": 0.0})
+    same = Function(lambda u: u, {"u": "1"}, {"y": "1"})
+    with Master(
+        {"law": law, "same": same},
+        [("law.y", "same.u")],
+        inputs={"law.u": lambda t: 1.0 if t < 0.3 else float(t >= 0.5)},
+        jumps=[0.3, 0.5] if is_declared else [],
+        step=0.1,
+        **options,
+    ) as master:
+        result = master.run(1.0)
+    times = result.time.values
+    exact = np.minimum(times, 0.3) + np.maximum(times - 0.5, 0.0)
+    assert result["law.y"].values == pytest.approx(exact, abs=1e-9)
+
+
+def test_what_cannot_bear_a_step_of_zero_length_goes_on_as_before_a_jump():
+    def slope(u, state, step):
+        return {"y": (u - state) / step, "all": state}, u
+
+    law = Function(
+        slope, {"u": "1"}, {"y": "1", "all": "1"}, state=0.0, start={"y": 0.0, "all": 0.0}
+    )
+    with Master(
+        {"law": law}, inputs={"law.u": lambda t: float(t >= 0.5)}, outputs=["law.y"], step=0.1
+    ) as master:
+        result = master.run(1.0)
+    expected = np.zeros(11)
+    expected[6] = 10.0
+    assert result["law.y"].values == pytest.approx(expected, abs=1e-12)
+
+
 @pytest.mark.parametrize("has_state", [False, True])
 def test_sampled_functions_sample_what_an_input_is_just_after_a_jump(has_state):
     def counted(u, state):

@@ -29,7 +29,7 @@ class Function:
     start: start values of inputs, and of outputs where f cannot give them at the start.
     state: the memory of a function that has a parameter `state`, at the start: any object. It then
         returns a pair (outputs, new state). It gets the length of the `step` [s] that ends at
-        `time`, if it has this parameter, 0 at the start.
+        `time`, if it has this parameter, 0 at the start and where an input has just jumped.
     depends_on: by output, the inputs that it follows at once: all if left out.
     rollback: whether `state` is all that f remembers, so that a step can be taken again from a copy
         of it. If not, f is called once a step, which iterations and `adaptive` refuse.

@@ -274,10 +274,28 @@ class FunctionUnit:
             self.settle()  # inputs that are set from now on are of the next step
 
     def cross_jump(self) -> None:
-        """Goes over to what a function of time is just after a jump."""
-        if self.ends_at_jump and TIME in self.function.takes and not self.function.has_state:
+        """Goes over to what a function of time is just after a jump, and to inputs that jump.
+
+        A function with a state ends its step with the inputs of before; new ones are a step of
+        zero length. What is sampled takes the sample of this time with them instead.
+        """
+        function = self.function
+        if self.ends_at_jump and TIME in function.takes and not function.has_state:
             self._is_new = self.begins_at_jump = True
         self.ends_at_jump = False
+        if self._follows_jumps and self._has_begun:
+            self.settle()
+            self._memory, self._size = self._next_memory, 0.0
+
+    @property
+    def _follows_jumps(self) -> bool:
+        function = self.function
+        return (
+            function.has_state
+            and function.follows_inputs
+            and function.rollback
+            and not function.sampled
+        )
 
     # States
 
@@ -313,9 +331,19 @@ class FunctionUnit:
         elif self._changed.any() and self.function.rollback and self.function.follows_inputs:
             rows = self._follows[:, self._changed].any(axis=1)
             if rows.any() or self.function.has_state or self._is_to_be_checked():
-                self._evaluate(rows)
+                self._follow_changes(rows)
         self._is_new = False
         self._changed[:] = False
+
+    def _follow_changes(self, rows: np.ndarray) -> None:
+        """Calls the function for other inputs at the same time. One that cannot bear a step of zero
+        length goes on with what it gave before the jump."""
+        try:
+            self._evaluate(rows)
+        except FunctionError as error:
+            is_behind_jump = self._follows_jumps and self._has_begun and not self._size
+            if not (is_behind_jump and error.is_refusal):
+                raise
 
     def _evaluate(self, rows: np.ndarray) -> None:
         """Calls the function for the values in these rows; others do not follow what changed."""
@@ -420,7 +448,7 @@ class FunctionUnit:
         if STEP in taken:
             arguments[STEP] = self._size
         if BEFORE in taken:
-            arguments[BEFORE] = self._named(self._before if self._has_begun else inputs)
+            arguments[BEFORE] = self._named(self._before if self._size else inputs)
         return arguments
 
     def _seen_time(self) -> float:
