@@ -73,6 +73,22 @@ def test_runs_without_convergence_go_on_from_what_units_have_borne(folder):
     assert result.attrs["unconverged"] == 1
 
 
+@pytest.mark.parametrize("most", [1, 5])
+def test_units_behind_a_ring_without_convergence_take_their_steps(folder, most):
+    """Behind two rings that diverge, an integral counts what the first one gives."""
+    options = {"acceleration": "none", "max_iterations": most, "strict": False, "order": 0}
+    rings = lumps(folder, 1.0, 10.0)
+    units = {**rings, "c": rings["a"], "d": rings["b"]}
+    units["sum"] = make(folder, "sum", [0.0], [1.0], [1.0], x=[0.0])
+    links = [*RING, ("c.y", "d.u"), ("d.y", "c.u"), ("a.y", "sum.u")]
+    with Master(units, links, step=4.0, outputs=["sum.y"], **options) as master:
+        with pytest.warns(MasterWarning, match=r"does not converge: .* iterations; the residual"):
+            result = master.run(8.0)
+        assert {unit.time for unit in master.units.values()} == {8.0}
+    assert result.attrs["unconverged"] == 2
+    assert result["sum.y"].values[-1] == pytest.approx(4.0 * result["a.y"].values[1:].sum())
+
+
 def test_columns_of_earlier_steps_save_iterations(folder):
     counts = []
     for reuse in (0, 8):

@@ -41,7 +41,11 @@ class Component:
 
 
 class NoConvergence(Exception):
-    """A step whose iterations found no end."""
+    """A step whose iterations found no end. `is_final` if nothing can go on from what they left."""
+
+    def __init__(self, what: str, is_final: bool = False):
+        super().__init__(what)
+        self.is_final = is_final
 
 
 class Engine:
@@ -123,12 +127,12 @@ class Engine:
 
     # A step
 
-    def advance(self, time: float, end: float, tolerance: float) -> None:
+    def advance(self, time: float, end: float, tolerance: float, is_strict: bool = True) -> None:
         """Takes all units from `time` to `end`; what they then are is not yet accepted.
 
         Functions of time are evaluated just before the end. Afterwards `guess` holds the inputs
         that paths end at, `true` those that outputs say, `arrived` the means of what targets
-        followed.
+        followed. `NoConvergence` that is not strict, nor final, leaves all units at the end, too.
         """
         size = end - time
         self.guess = self._extrapolate(end)
@@ -141,12 +145,20 @@ class Engine:
             middle = np.zeros_like(self.inputs)
             for place, function in self.drives:
                 middle[place] = function((time + end) / 2)
+        unsettled: list[NoConvergence] = []
         for component in self.components:
-            if component.iterates:
-                self._iterate(component, time, end, size, tolerance, middle)
-            else:
+            if not component.iterates:
                 self._sweep(component, time, end, size, middle)
+                continue
+            try:
+                self._iterate(component, time, end, size, tolerance, middle)
+            except NoConvergence as error:
+                if is_strict or error.is_final:
+                    raise
+                unsettled.append(error)
         self.iterations += self.last_iterations
+        if unsettled:
+            raise NoConvergence("; ".join(map(str, unsettled)))
 
     def _extrapolate(self, end: float) -> np.ndarray:
         nodes = self.history.last(max(self.extrapolation, self.order) + 1)
@@ -173,7 +185,8 @@ class Engine:
             for link in participant.links_out:
                 new = link.transfer(values[participant.sources[link.source]])
                 if not (component.iterates or np.isfinite(new).all()):
-                    raise NoConvergence(f"values of {link.connection.source} are not finite")
+                    source = link.connection.source
+                    raise NoConvergence(f"values of {source} are not finite", is_final=True)
                 self.true[link.place] = new
                 if link not in component.guessed:
                     self.guess[link.place] = new
@@ -232,7 +245,7 @@ class Engine:
             x = self._bear(step, last)
             g = self.true[places]
             if not np.isfinite(g).all():
-                raise NoConvergence("values are not finite")
+                raise NoConvergence("values are not finite", is_final=True)
             weight = self.weights(self.true)[iterated]
             residual = np.abs(g - x)[real] * weight
             if (residual <= tolerance).all():

@@ -112,7 +112,8 @@ class March:
             function.ends_at_jump = is_jump
         self._save()
         try:
-            self.engine.advance(self.time, end, self.iteration_tolerance)
+            is_strict = self.strict or self.adaptive
+            self.engine.advance(self.time, end, self.iteration_tolerance, is_strict)
         except (NoConvergence, UnitError) as error:
             if not self._may_go_on(error, size):
                 return False
@@ -190,7 +191,7 @@ class March:
             return False
         if isinstance(error, NoConvergence):
             where = f"the step of {size:.6g} s from {self.time:.6g} s"
-            if self.strict or "finite" in str(error):
+            if self.strict or error.is_final:
                 raise MasterError(f"{where} does not converge: {error}") from None
             self.unconverged += 1
             self.notes.add(f"{where} does not converge: {error}", kind="unconverged")
