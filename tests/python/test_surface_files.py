@@ -12,7 +12,7 @@ import meshio
 import numpy as np
 import pytest
 from impinge import Unit
-from impinge.adapt import read_picture
+from impinge.adapt import cfd_frames, read_picture
 from impinge.surface import Placement, Surface, SurfaceError
 from impinge.surface.families import from_cells
 from scipy.spatial import Delaunay
@@ -121,6 +121,33 @@ def test_hdf5_series_are_read(tmp_path):
         file["odd"] = np.zeros(7)
     with pytest.raises(SurfaceError, match="`odd` of shape .* fits neither points nor cells"):
         Surface.read(path)
+
+
+def test_fields_of_as_many_cells_as_points_need_to_be_told(tmp_path):
+    """A ring of eight parts, cut into triangles: 16 points, 16 cells."""
+    turn = np.exp(2j * np.pi * np.arange(8) / 8)
+    points = np.concatenate([turn, 2 * turn])
+    here = np.arange(8)
+    after = (here + 1) % 8
+    inner, outer = np.stack([here, after + 8, after]), np.stack([here, here + 8, after + 8])
+    path = tmp_path / "a.h5"
+    with h5py.File(path, "w") as file:
+        file["points"] = np.column_stack([points.real, points.imag])
+        file["cells"] = np.hstack([inner, outer]).T
+        file["q"] = np.arange(16.0)
+    for values in ("cells", "points"):
+        surface = Surface.read(path, values=values)
+        assert (surface.location, surface.shape) == (values, (16,))
+        assert surface.data["q"].tolist() == list(range(16))
+    with pytest.raises(SurfaceError, match="`q` has 16 rows, and there are as many points as"):
+        Surface.read(path)
+    target = Surface.ring_edges([0.0, 2.0])
+    frames = [cfd_frames(path, target, "q", values=values) for values in ("cells", "points")]
+    exact = Surface.read(path, values="cells")
+    assert target.integral(frames[0].values)[0] == pytest.approx(exact.integral(np.arange(16.0)))
+    assert frames[1].values[0] != pytest.approx(frames[0].values[0])
+    with pytest.raises(SurfaceError, match="--values"):
+        cfd_frames(path, target, "q")
 
 
 def test_series_of_files_are_read(tmp_path):

@@ -61,7 +61,5 @@ def _location(
     tolerance: float | None,
 ) -> Literal["cells", "points"]:
     """Where a field stands: in cells, if there is one of that name, else at points."""
-    _, series = Surface.read_series(
-        path, placement, values="cells", face=target.z, tolerance=tolerance
-    )
-    return "cells" if name in series else "points"
+    surface, series = Surface.read_series(path, placement, face=target.z, tolerance=tolerance)
+    return "cells" if name in series and surface.location == "cells" else "points"

@@ -101,6 +101,11 @@ def _parser() -> argparse.ArgumentParser:
         help="keeps integrals, or values [default: integrals of fluxes and tractions]",
     )
     cfd.add_argument("--weight", metavar="FIELD", help="means weighted by this field")
+    cfd.add_argument(
+        "--values",
+        choices=["cells", "points"],
+        help="where the field stands [default: in cells, if there is one of its name]",
+    )
     cfd.set_defaults(run=_cfd)
 
     for command in (laser, spray, cfd):
@@ -216,7 +221,8 @@ def _cfd(options: argparse.Namespace) -> None:
     keeps = "conservative" if options.variable in FLUXES else "consistent"
     frames = cfd_frames(
         options.files[0], target, options.data,
-        kind=options.kind or keeps, weight=options.weight, placement=_placement(options),
+        kind=options.kind or keeps, weight=options.weight, values=options.values,
+        placement=_placement(options),
         outside=options.outside, tolerance=options.tolerance,
     )  # fmt: skip
     if options.variable == "coefficient":

@@ -45,7 +45,7 @@ def read(
     .csv, .txt                    columns x, y (and z) and fields: scattered points; numbers
                                   under a unit, ``q [kW/m2]``, become those of SI
     .h5, .hdf5                    ``points`` (n, 2 or 3), ``cells`` (m, 3 or 4) unless scattered,
-                                  fields of n or m rows
+                                  fields of n or m rows; where n = m, `values` says which
     .vtp, .vts, .vtr              VTK's XML of polygons and of grids that are flat
     .vtu, .vtk, .msh, .stl, …     formats of meshio: triangles and quadrilaterals
     ============================  ==============================================================
@@ -252,7 +252,14 @@ def _read_hdf5(path: Path, make: _Maker) -> tuple[Surface, dict[str, Series]]:
             raise SurfaceError(
                 f"{path}: `{name}` of shape {content[name].shape} fits neither points nor cells"
             )
-    at_points = {n: f for n, f in fields.items() if len(f) == len(points)}
+    is_open = cells is not None and len(cells) == len(points)
+    if is_open and fields and make.values is None:
+        raise SurfaceError(
+            f"{path}: `{next(iter(fields))}` has {len(points)} rows, and there are as many points"
+            ' as cells; values="cells" or "points" says whose they are (--values)'
+        )
+    of_cells = make.values == "cells" if is_open else None
+    at_points = {n: f for n, f in fields.items() if len(f) == len(points) and not of_cells}
     at_cells = {n: f for n, f in fields.items() if n not in at_points}
     surface = make(points, cells, at_points, at_cells)
     series = {
