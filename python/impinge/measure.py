@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from typing import NamedTuple
+from decimal import Decimal
+from typing import Any, NamedTuple
 
 from impinge.proposal import proposal
 
@@ -81,6 +82,12 @@ _RADIANS = 0.017453292519943295
 _PLAIN = {
     "kg": _of(kg=1),
     "t": _of(1e3, kg=1),
+    "in": _of(0.0254, m=1),
+    "ft": _of(0.3048, m=1),
+    "mil": _of(2.54e-5, m=1),
+    "micron": _of(1e-6, m=1),
+    "microns": _of(1e-6, m=1),
+    "Å": _of(1e-10, m=1),
     "%": _of(1e-2),
     "min": _of(60.0, s=1),
     "h": _of(3600.0, s=1),
@@ -92,6 +99,7 @@ _PLAIN = {
     "degF": _of(5.0 / 9.0, 459.67 * 5.0 / 9.0, K=1),
     "°F": _of(5.0 / 9.0, 459.67 * 5.0 / 9.0, K=1),
 }
+_QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\D.*?)\s*")
 _TOKEN = re.compile(
     r"\s*(?:(?P<symbol>[^\W\d_]+|[°%][CF]?)(?:\s*(?:\^|\*\*)\s*|)(?P<power>[-+]?\d+|)"
     r"|(?P<one>1)(?![\d.])|(?P<open>\()|(?P<close>\))|(?P<times>[.*·])|(?P<over>/))"
@@ -108,6 +116,22 @@ def parse(text: str) -> Measure:
         raise ValueError(f"{text!r} is no unit of measurement (allowed: a text such as 'W/(m2.K)')")
     found, _ = _product(_tokens(text), text)
     return found
+
+
+def metres(value: Any) -> float | None:
+    """Returns a length of a scene, a number in m or a text such as `8 mm`; None if it is none."""
+    if isinstance(value, int | float):
+        return float(value)
+    parts = _QUANTITY.fullmatch(value.replace("−", "-")) if isinstance(value, str) else None
+    if parts is None:
+        return None
+    try:
+        measure = parse(parts[2])
+    except ValueError:
+        return None
+    if measure.exponents != _PREFIXED["m"].exponents:
+        return None
+    return float(Decimal(parts[1]) * Decimal(repr(measure.factor)))  # to the bit
 
 
 def _tokens(text: str) -> list[re.Match[str]]:

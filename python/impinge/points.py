@@ -9,7 +9,6 @@ half its radius changes the rise by 7 % with linear elements and 0.3 % with quad
 from __future__ import annotations
 
 import logging
-import re
 import tomllib
 import warnings
 from collections.abc import Collection, Iterable, Iterator, Mapping
@@ -17,13 +16,12 @@ from dataclasses import dataclass
 from math import hypot
 from typing import Any
 
-from impinge import measure
 from impinge.errors import StudyWarning, UnitError
+from impinge.measure import metres
 from impinge.unit import Package
 
 _LOGGER = logging.getLogger("impinge")
 _SAME = 1e-3  # of a load's radius: a point nearer to its axis lies on it
-_QUANTITY = re.compile(r"\s*([-+]?[\d.]+(?:e[-+]?\d+)?)\s*(\D.*?)?\s*", re.I)
 
 
 @dataclass(frozen=True)
@@ -129,7 +127,7 @@ def _mean_of(package: Package, scene: Mapping[str, Any], spot: Spot, quantity: s
         footprint = field.get("footprint") or {}
         if field.get("on") != spot.face or not {"disc", "gaussian", "rings"} & footprint.keys():
             continue
-        centre = [_metres(x) for x in field.get("at", [0.0, 0.0])]
+        centre = [metres(x) for x in field.get("at", [0.0, 0.0])]
         if None in centre or not _is_at(centre, spot):
             continue
         name = f"{field.get('name')}.{quantity}" + ("[1]" if "rings" in footprint else "")
@@ -144,7 +142,7 @@ def _spot_above(
     scene: Mapping[str, Any], probe: Mapping[str, Any], moved: Collection[str]
 ) -> Spot | None:
     """The drop or spot whose axis a probe lies on, on the face that it loads."""
-    at = [_metres(x) for x in probe.get("at", [])]
+    at = [metres(x) for x in probe.get("at", [])]
     if len(at) != 3 or None in at:
         return None
     body = scene.get("body", {}).get(probe.get("in"), {})
@@ -161,13 +159,13 @@ def _drops(scene: Mapping[str, Any]) -> Iterator[Spot]:
     for coupling in scene.get("coupling", []):
         name = coupling.get("from")
         drop = scene.get("body", {}).get(name, {})
-        diameter = _metres(drop.get("diameter"))
+        diameter = metres(drop.get("diameter"))
         if drop.get("kind") != "droplet" or diameter is None:
             continue
         has_particles = drop.get("method", "sph") == "sph"
         depends = "particles and mesh" if has_particles else "the mesh"
         for arrival in drop.get("arrivals", [{}]):
-            centre = [_metres(arrival.get(key, 0.0)) for key in ("x", "y")]
+            centre = [metres(arrival.get(key, 0.0)) for key in ("x", "y")]
             x, y = centre
             if x is not None and y is not None:
                 face = str(coupling.get("to"))
@@ -180,8 +178,8 @@ def _spots(scene: Mapping[str, Any], moved: Collection[str]) -> Iterator[Spot]:
         if any(f"{key}.{axis}" in moved for key in (name, f"load.{name}.start") for axis in "xy"):
             continue
         start = load.get("start", {})
-        x, y = (_metres(start.get(key, 0.0)) for key in ("x", "y"))
-        radius = _metres((load.get("footprint", {}).get("gaussian") or {}).get("radius"))
+        x, y = (metres(start.get(key, 0.0)) for key in ("x", "y"))
+        radius = metres((load.get("footprint", {}).get("gaussian") or {}).get("radius"))
         if x is not None and y is not None and radius is not None:
             yield Spot(name, False, "the mesh", str(load.get("on")), (x, y), radius, "gaussian")
 
@@ -195,18 +193,5 @@ def _thickness(body: Mapping[str, Any]) -> float | None:
     """Extent of a solid along z [m], where its shape says it."""
     shape = body.get("shape", {})
     if isinstance(box := shape.get("box"), list) and len(box) == 3:
-        return _metres(box[2])
-    return _metres((shape.get("disc") or {}).get("thickness"))
-
-
-def _metres(value: Any) -> float | None:
-    """A length of a scene: a number in m, or a text with a unit."""
-    if isinstance(value, int | float):
-        return float(value)
-    parts = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
-    if not parts:
-        return None
-    try:
-        return float(parts[1]) * (measure.parse(parts[2]).factor if parts[2] else 1.0)
-    except ValueError:
-        return None
+        return metres(box[2])
+    return metres((shape.get("disc") or {}).get("thickness"))

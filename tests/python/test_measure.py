@@ -23,6 +23,9 @@ from impinge.measure import BASE, conversion, parse
         ("kJ/(kg K)", {"m": 2, "s": -2, "K": -1}, 1e3, 0.0),
         ("V.A", {"kg": 1, "m": 2, "s": -3}, 1.0, 0.0),
         ("deg/s", {"rad": 1, "s": -1}, 0.017453292519943295, 0.0),
+        ("in", {"m": 1}, 0.0254, 0.0),
+        ("1/ft2", {"m": -2}, 0.3048**-2, 0.0),
+        ("microns", {"m": 1}, 1e-6, 0.0),
     ],
 )
 def test_texts_mean_what_si_defines(text, exponents, factor, offset):

@@ -304,6 +304,65 @@ def test_fields_of_scenes_lie_where_they_lie_in_the_unit(tmp_path, scene, keys):
     assert of_scene.areas == pytest.approx(of_unit.areas, rel=1e-9)
 
 
+def scene_of_texts(scene):
+    """A small scene whose lengths are texts, and the name of its body."""
+    text = (SCENES / f"{scene}.toml").read_text()
+    body = re.search(r"\[body\.(\w+)\]", text)[1]
+    for old, new in (
+        ("shape = { disc = { radius = 3e-4, thick", "shape = { disc = { radius = '300 um', thick"),
+        ("thickness = 1e-4", "thickness = '.1mm'"),
+        ("box = [4e-4, 4e-4, 1e-4]", "box = ['0.4 mm', 4e-4, '1e-1 mm']"),
+    ):
+        text = text.replace(old, new)
+    assert "mm'" in text
+    return text, body
+
+
+@pytest.mark.parametrize(
+    ("scene", "keys"),
+    [
+        ("tiles", "footprint = { tiles = { count = [2, 3], size = ['110 µm', '3.5 mil'] } }"),
+        ("tiles", "footprint = { rings = { count = 3, radius = '.06mm' } }"),
+        ("tiles", "footprint = { ring = { inner = '2e-5 m', outer = '60 micron' } }"),
+        ("tiles", "footprint = { disc = { radius = '+1e-1 mm' } }"),
+        ("tiles", "grid = [3, 5]\nsize = ['0.2 mm', '1500000 Å']"),
+        ("tiles", "grid = [3, 5]"),
+        ("rings", "grid = [3, 5]"),
+    ],
+)
+def test_lengths_of_scenes_may_be_texts(tmp_path, scene, keys):
+    """Fields lie where the unit of the same scene has them."""
+    text, body = scene_of_texts(scene)
+    at = "" if "grid" in keys else "\nat = ['5e-2 mm', -2e-5]"
+    field = f'\n[[field]]\nname = "f"\non = "{body}.top"\n{keys}{at}\ngives = ["temperature"]\n'
+    path = tmp_path / "scene.toml"
+    path.write_text(text + field)
+    of_scene = Surface.of(path, "f")
+    with Unit(path) as unit:
+        of_unit = Surface.of(unit, "f")
+    assert of_scene.coordinates == pytest.approx(of_unit.coordinates, abs=1e-15)
+    assert of_scene.areas == pytest.approx(of_unit.areas, rel=1e-9)
+
+
+@pytest.mark.parametrize(("scene", "area"), [("tiles", 1.6e-7), ("rings", np.pi * 9e-8)])
+def test_faces_of_bodies_may_have_texts_as_lengths(tmp_path, scene, area):
+    text, body = scene_of_texts(scene)
+    path = tmp_path / "scene.toml"
+    path.write_text(text)
+    surface = Surface.of(path, f"{body}.bottom")
+    assert surface.areas.sum() == pytest.approx(area, rel=1e-12)
+    assert surface.z == -1e-4
+
+
+@pytest.mark.parametrize("text", ["8", "8 s", "8,5 mm", "wide"])
+def test_texts_that_are_no_lengths_are_refused(tmp_path, text):
+    path = tmp_path / "scene.toml"
+    given = (SCENES / "tiles.toml").read_text()
+    path.write_text(given.replace("size = [1.1e-4, 0.9e-4]", f'size = [1.1e-4, "{text}"]'))
+    with pytest.raises(SurfaceError, match=f"scene.toml: '{text}' is no length"):
+        Surface.of(path, "patch")
+
+
 def test_points_of_a_field_are_where_the_unit_says():
     with Unit(SCENES / "plate.toml", fmi=3) as unit:
         surface = Surface.of(unit, "surface")

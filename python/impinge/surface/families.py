@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import UnitError
+from ..measure import metres
 from ..reading import LARGEST_JSON, LARGEST_SCENE, read_bytes, reading
 from ..unit.archive import open_archive
 from ..unit.cells import PLACE, parse_cells
@@ -153,31 +154,39 @@ def _of_scene(path: Path, name: str) -> Surface:
         return Surface.grid(entry["grid"], _size(scene, entry, path, name), z=z)
     match footprint:
         case {"rings": {"count": count, "radius": radius}}:
-            return Surface.rings(count, radius, at, z=z)
+            return Surface.rings(count, *_metres(radius), at, z=z)
         case {"tiles": {"count": count, "size": size}}:
-            return Surface.tiles(count, size, at, z=z)
+            return Surface.tiles(count, _metres(*size), at, z=z)
         case {"disc": {"radius": radius}}:
-            return Surface.rings(1, radius, at, z=z)
+            return Surface.rings(1, *_metres(radius), at, z=z)
         case {"ring": {"inner": inner, "outer": outer}}:
-            return Surface.ring_edges([inner, outer], at, z=z)
+            return Surface.ring_edges(_metres(inner, outer), at, z=z)
     raise SurfaceError(
         f"{path}: `{name}` has no rings, tiles, disc or grid to map to, but {footprint or entry}"
     )
 
 
-def _middle(entry: dict[str, Any]) -> tuple[float, float]:
+def _metres(*given: Any) -> tuple[float, ...]:
+    """Lengths of a scene, numbers or texts with a unit [m]."""
+    found = []
+    for value in given:
+        length = metres(value)
+        if length is None:
+            raise SurfaceError(f'{value!r} is no length (allowed: metres, or a text as in "8 mm")')
+        found.append(length)
+    return tuple(found)
+
+
+def _middle(entry: dict[str, Any]) -> tuple[float, ...]:
     """Returns the middle of the footprint of a field, or of a load at the start [m]."""
     start = entry.get("start", {})
-    x, y = entry.get("at", (start.get("x", 0.0), start.get("y", 0.0)))
-    return float(x), float(y)
+    return _metres(*entry.get("at", (start.get("x", 0.0), start.get("y", 0.0))))
 
 
-def _size(
-    scene: dict[str, Any], entry: dict[str, Any], path: Path, name: str
-) -> tuple[float, float]:
+def _size(scene: dict[str, Any], entry: dict[str, Any], path: Path, name: str) -> tuple[float, ...]:
     """Extents of a grid [m]: its own, or those of the face; of the inscribed square of a disc."""
     if "size" in entry:
-        return tuple(entry["size"])
+        return _metres(*entry["size"])
     x, y, _ = _extent(scene, entry, path, name)
     is_round = "disc" in scene["body"][entry["on"].partition(".")[0]]["shape"]
     return (x / math.sqrt(2.0), y / math.sqrt(2.0)) if is_round else (x, y)
@@ -206,11 +215,12 @@ def _height(scene: dict[str, Any], entry: dict[str, Any], path: Path, name: str)
 
 def _extent(
     scene: dict[str, Any], entry: dict[str, Any], path: Path, name: str
-) -> tuple[float, float, float]:
+) -> tuple[float, ...]:
     body = entry["on"].partition(".")[0]
     match scene.get("body", {}).get(body, {}).get("shape", {}):
         case {"box": [x, y, z]}:
-            return float(x), float(y), float(z)
-        case {"disc": {"radius": radius, "thickness": thickness}}:
+            return _metres(x, y, z)
+        case {"disc": {"radius": r, "thickness": z}}:
+            radius, thickness = _metres(r, z)
             return 2 * radius, 2 * radius, thickness
     raise SurfaceError(f"{path}: `{name}`: body `{body}` has no box or disc")
