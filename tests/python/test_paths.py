@@ -356,6 +356,36 @@ def test_what_makes_no_sense_is_refused(scene, tmp_path):
             gcode.write(tmp_path / "a.gcode", *wrong)
 
 
+@pytest.mark.parametrize("volume", [1e-9, 1e-15, 1e-20])
+def test_strands_of_any_size_keep_their_flow_and_speed(tmp_path, volume):
+    """Equal volumes on 2000 pieces of 1 µm, which take 100 s each."""
+    places = np.c_[1e-6 * np.arange(2001), np.zeros((2001, 2))]
+    file = tmp_path / "a.gcode"
+    gcode.write(file, places, 100.0 * np.arange(2001), np.full(2001, volume))
+    moves = [line.split() for line in file.read_text().splitlines() if line.startswith("G1")]
+    fed = np.array([float(words[4][1:]) for words in moves])
+    comes = 1e-3 * np.diff(fed, prepend=0.0) * 0.25 * np.pi * 1.75e-3**2
+    assert comes == pytest.approx(np.full(2000, volume), rel=2e-6)
+    assert {words[5] for words in moves} == {"F0.0006000000"}
+
+
+def test_a_path_that_begins_late_waits_and_none_begins_before_zero(scene, tmp_path):
+    places = np.array([[0.0, 0.0, 4.5e-3], [2e-3, 0.0, 4.5e-3]])
+    gcode.write(tmp_path / "late.gcode", places, np.array([0.3, 0.5]), np.array([0.0, 2e-9]))
+    assert "\nG4 P300.000000\nG1" in (tmp_path / "late.gcode").read_text()
+    text = scene.read_text().replace('path = "input"', 'path = { file = "late.gcode" }')
+    late = tmp_path / "late.toml"
+    late.write_text(text.replace(", flow = 7.7e-9", ""))
+    with Unit(late) as unit:
+        volumes = []
+        for _ in range(6):
+            unit.step(0.1)
+            volumes.append(unit["ink.volume"])
+    assert np.allclose(volumes, [0.0, 0.0, 0.0, 1e-9, 2e-9, 2e-9], rtol=1e-6, atol=1e-18)
+    with pytest.raises(ValueError, match=r"times begin at -0.1 s \(allowed: 0 s and later\)"):
+        gcode.write(tmp_path / "a.gcode", places, np.array([-0.1, 0.5]), np.zeros(2))
+
+
 def test_a_wait_is_written_where_places_differ_by_rounding_alone(tmp_path):
     places = np.array([[0.0, 0.0, 0.0], [0.1 + 0.2, 0.0, 0.0], [0.3, -1e-17, 0.0]])
     gcode.write(tmp_path / "a.gcode", places, np.arange(3.0), np.zeros(3))
