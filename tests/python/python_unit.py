@@ -97,10 +97,11 @@ class Stages(Base):
 """
 
 
-def python_unit(folder, name, code, *, states=True, declared=False):
+def python_unit(folder, name, code, *, states=True, declared=False, variable=True):
     """Packs the class `name` of this code into `name.fmu`; made once for a folder.
 
     declared: whether its outputs are declared to follow no input at once, in place of nothing.
+    variable: whether it takes steps of any length.
     """
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
@@ -112,17 +113,20 @@ def python_unit(folder, name, code, *, states=True, declared=False):
     more = ["--handle-state"] if states else []
     subprocess.run([*command, *more], cwd=folder, check=True, capture_output=True)
     if declared:
-        _declare(unit)
+        _edit(unit, rb'<Unknown index="(\d+)"\s*/>', rb'<Unknown index="\1" dependencies=""/>')
+    if not variable:
+        can = rb'canHandleVariableCommunicationStepSize="%s"'
+        _edit(unit, can % b"true", can % b"false")
     return unit
 
 
-def _declare(unit):
+def _edit(unit, old_text, new_text):
     part = unit.with_suffix(".part")
     with zipfile.ZipFile(unit) as old, zipfile.ZipFile(part, "w") as new:
         for name in old.namelist():
             content = old.read(name)
             if name == "modelDescription.xml":
-                known = rb'<Unknown index="\1" dependencies=""/>'
-                content = re.sub(rb'<Unknown index="(\d+)"\s*/>', known, content)
+                content, count = re.subn(old_text, new_text, content)
+                assert count
             new.writestr(name, content)
     part.rename(unit)

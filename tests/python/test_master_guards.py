@@ -268,6 +268,22 @@ def test_what_is_held_at_ends_of_steps_of_one_length_gets_means_of_jumps(folder)
     assert result["m.y"].values[-1] == pytest.approx(0.47 + 1.0, rel=1e-12)
 
 
+@pytest.mark.parametrize("order", [0, 1, 2])
+def test_whole_numbers_that_jump_within_steps_of_one_length_stay_whole(folder, order):
+    """y = 10 n of an n that is 3 until 0.17 s, then 7: held at 3 until 0.2 s."""
+    unit = python_unit(folder / "fixed", "Stages", STAGES, variable=False)
+    with Master(
+        {"s": unit},
+        inputs={"s.n": lambda time: 3 if time < 0.17 else 7},
+        outputs=["s.y"],
+        step=0.1,
+        order=order,
+    ) as master:
+        with pytest.warns(MasterWarning, match="0.17 s, .* what it was before is held"):
+            result = master.run(0.4)
+    assert result["s.y"].values.tolist() == [0.0, 30.0, 30.0, 70.0, 70.0]
+
+
 @pytest.mark.parametrize("acceleration", ["none", "aitken", "anderson", "iqn-ils"])
 def test_whole_numbers_arrive_in_rings_that_iterate(folder, acceleration):
     """A unit that counts its steps for itself: each step heats by 10 W more, 0.5 W/K get lost."""

@@ -80,11 +80,16 @@ class Engine:
         self._driven = np.zeros(count, bool)
         for place, _ in drives:
             self._driven[place] = True
+        self.paths = np.zeros(count, bool)  # inputs that may follow polynomials
+        for participant in participants:
+            self.paths[participant.place] = participant.paths
         guessed = [k for c in components if not c.iterates for k in c.guessed]
         self._extrapolated = self._mask(guessed)
         self._whole = self._mask([k for k in links if k.is_mean])
         self._stale = np.zeros(count, bool)
         self._discrete = self._mask([k for k in links if not k.is_real])
+        self._discrete |= self._driven & ~self.paths
+        self._driven &= self.paths
 
     def _mask(self, links: Sequence[Link]) -> np.ndarray:
         mask = np.zeros(len(self.inputs), bool)

@@ -21,7 +21,7 @@ class FunctionParticipant(Participant):
         self.names = list(names)
         self.writer = self.unit.writer(names) if names else None
         self.order = min(order, self.unit.can.interpolates)
-        self._paths, self._places = paths, self.unit.places(names)
+        self.paths, self._places = paths, self.unit.places(names)
         self.path_writer = None
         self._connect_outputs()
         self.is_direct = self.unit.function.follows_inputs
@@ -31,8 +31,8 @@ class FunctionParticipant(Participant):
     ) -> np.ndarray:
         """Sets its inputs over the next step: whole numbers and the like are what they are at its
         beginning. Returns the means of what it follows."""
-        last = np.where(self._paths, waveform.at(a, b, c, size), a)
-        means = np.where(self._paths, waveform.mean(a, b, c, size), a)
+        last = np.where(self.paths, waveform.at(a, b, c, size), a)
+        means = np.where(self.paths, waveform.mean(a, b, c, size), a)
         self.unit.follow(self._places, a, last, means)
         return last if self.unit.takes_ends else means
 

@@ -124,7 +124,8 @@ class March:
 
     def _cut(self, end: float) -> float:
         """The end of the step, or where before that an input jumps. Where a unit takes steps of one
-        length alone, the mean of that input is held over the step."""
+        length alone, the mean of that input is held over the step; of whole numbers and the like
+        what they are at its beginning."""
         self.engine.means = None
         found = [(place, f, f.jumps(self.time, end)) for place, f in self.drives]
         jumping = [each for each in found if each[2]]
@@ -142,11 +143,13 @@ class March:
             return min(at[0] for _, _, at in jumping)
         self.engine.means = means = np.full(len(self.engine.inputs), np.nan)
         for place, function, _ in jumping:
-            means[place] = function.mean(self.time, end)
-        _, function, at = jumping[0]
+            if self.engine.paths[place].all():
+                means[place] = function.mean(self.time, end)
+        place, function, at = jumping[0]
+        held = "its mean over the step" if self.engine.paths[place].all() else "what it was before"
         self.notes.add(
             f"{function.name} jumps at {at[0]:.6g} s, within a step, and units take steps of"
-            " one length: its mean over the step is held",
+            f" one length: {held} is held",
             kind="jump",
         )
         return end

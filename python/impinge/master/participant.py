@@ -41,7 +41,7 @@ class Participant:
         self.names = list(names)
         self.writer = self.unit.writer(names) if names else None
         self.order = min(order, self.unit.can.interpolates) if paths.any() else 0
-        self._paths = paths
+        self.paths = paths
         self.path_writer, self._rest = None, None
         if self.order:
             self._connect_paths(names)
@@ -70,7 +70,7 @@ class Participant:
         """Inputs that follow paths are set apart from whole numbers and the like."""
         sizes = [self.unit.variable(name).size for name in names]
         begins = np.cumsum([0, *sizes[:-1]])
-        follows = [bool(self._paths[begin]) for begin in begins]
+        follows = [bool(self.paths[begin]) for begin in begins]
         chosen = [name for name, does in zip(names, follows, strict=True) if does]
         others = [name for name, does in zip(names, follows, strict=True) if not does]
         self.path_writer = self.unit.path_writer(chosen, self.order)
@@ -122,15 +122,15 @@ class Participant:
             return a
         if self.path_writer is None:
             held = end if self.held == "end" else waveform.mean(a, b, c, size)
-            self.writer.values[:] = np.where(self._paths, held, a)
+            self.writer.values[:] = np.where(self.paths, held, a)
             self.writer()
             return self.writer.values
         means = waveform.mean(a, b, c, size)
         if self._rest is not None:
-            self._rest.values[:] = a[~self._paths]
+            self._rest.values[:] = a[~self.paths]
             self._rest()
-            means = np.where(self._paths, means, a)
-            a, b, c = a[self._paths], b[self._paths], c[self._paths]
+            means = np.where(self.paths, means, a)
+            a, b, c = a[self.paths], b[self.paths], c[self.paths]
         writer = self.path_writer
         writer.values[:] = a
         if writer.second is not None:
@@ -159,11 +159,11 @@ class Participant:
         """
         if self._probed is None or self.path_writer is not None or self.writer is None:
             return None
-        nudge = np.where(self._paths, 1e-3 * np.abs(values) + 1e-6 / weight, 0.0)
+        nudge = np.where(self.paths, 1e-3 * np.abs(values) + 1e-6 / weight, 0.0)
         self.answers_late = not self._responds(values, nudge)
         unknown = None
         if self.answers_late and not self.memoryless:
-            nudge = np.where(self._paths, 1e-3 * (np.abs(values) + 1 / weight), 0.0)
+            nudge = np.where(self.paths, 1e-3 * (np.abs(values) + 1 / weight), 0.0)
             try:
                 self.answers_late = self._computes_in_steps(values, nudge, step)
             except _Unknown as reason:
