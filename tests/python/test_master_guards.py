@@ -253,6 +253,25 @@ def test_states_under_driven_inputs_follow_their_means(folder):
     assert result["b.T"].values == pytest.approx(300.0 + 0.3 * result.time.values**2, rel=1e-12)
 
 
+def test_units_that_cannot_be_asked_are_not_asked_for_constants(folder):
+    """T' = q/C of a unit that cannot go back, and y = u/2 + 1, of constants."""
+    body = python_unit(folder / "stuck", "Body", BODY, states=False)
+    half = make(folder, "half", d=0.5, e=1.0, interpolates=False)
+    store = make(folder, "sum", [0.0], [1.0], [1.0], x=[0.0])
+    same = make(folder, "same", d=1.0, interpolates=False)
+    with Master(
+        {"b": body, "h": half, "same": same, "sum": store},
+        [("h.y", "same.u"), ("same.y", "sum.u")],
+        inputs={"b.q": 6.0, "h.u": 4.0},
+        outputs=["b.T", "sum.y"],
+        step=0.1,
+    ) as master:
+        result = master.run(1.0)
+        assert master.notes == [] and master.participants["b"].held == "mean"
+    assert result["b.T"].values == pytest.approx(300.0 + 0.6 * result.time.values, rel=1e-12)
+    assert result["sum.y"].values == pytest.approx(3.0 * result.time.values, abs=1e-12)
+
+
 def test_what_is_held_at_ends_of_steps_of_one_length_gets_means_of_jumps(folder):
     """x' = u counts u = 1 from 0.53 s on: 0.47, though y follows u, too."""
     unit = make(

@@ -58,7 +58,10 @@ def join(
             target = units[name].variable(variable)
             place = slice(count, count + target.size)
             count += target.size
-            drives.append((place, _function(f"{name}.{variable}", value, target.shape)))
+            function = _function(f"{name}.{variable}", value, target.shape)
+            drives.append((place, function))
+            if function.is_constant:
+                participant.constants.add(variable)
             names.append(variable)
             real = target.is_real and target.variability == "continuous"
             paths.append(np.full(target.size, real))

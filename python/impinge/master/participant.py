@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
 
@@ -30,6 +30,7 @@ class Participant:
         self.place = slice(0, 0)
         self.links_in: list[Link] = []
         self.links_out: list[Link] = []
+        self.constants: set[str] = set()  # inputs that stay what they are
         self.held = "mean"
         self.steps = 0
         self.answers_late = False  # outputs follow inputs, but not before the next step
@@ -46,14 +47,26 @@ class Participant:
         if self.order:
             self._connect_paths(names)
         self._connect_outputs()
-        told = [each for each in self._told() if any(follows(self.unit, n, each) for n in names)]
-        self.is_direct = bool(told)
+        self.is_direct = bool(self._followers(names))
+        moving = [name for name in names if name not in self.constants]
+        told = self._followers(moving)
         self._probed = self.unit.reader(dict.fromkeys([*self.sources, *told])) if told else None
+        self._moves = self.paths & ~self._of(self.constants)
 
-    def _told(self) -> list[str]:
-        """What it says to others or to the record."""
-        found = dict.fromkeys([*(link.source for link in self.links_out), *self.recorded])
-        return [name for name in found if self.unit.variable(name).causality in _TOLD]
+    def _followers(self, names: Sequence[str]) -> list[str]:
+        """What it says to others or to the record and follows one of these inputs at once."""
+        told = dict.fromkeys([*(link.source for link in self.links_out), *self.recorded])
+        return [
+            each
+            for each in told
+            if self.unit.variable(each).causality in _TOLD
+            and any(follows(self.unit, name, each) for name in names)
+        ]
+
+    def _of(self, names: Collection[str]) -> np.ndarray:
+        """True where its values are those of these inputs."""
+        masks = [np.full(self.unit.variable(name).size, name in names) for name in self.names]
+        return np.concatenate(masks) if masks else np.zeros(0, bool)
 
     def _connect_outputs(self) -> None:
         sources: dict[str, slice] = {}
@@ -157,13 +170,13 @@ class Participant:
         far below `step` [s] tell one from the other, if the unit can go back; returns what remains
         unknown.
         """
-        if self._probed is None or self.path_writer is not None or self.writer is None:
+        if self._probed is None or self.path_writer is not None or not self._moves.any():
             return None
-        nudge = np.where(self.paths, 1e-3 * np.abs(values) + 1e-6 / weight, 0.0)
+        nudge = np.where(self._moves, 1e-3 * np.abs(values) + 1e-6 / weight, 0.0)
         self.answers_late = not self._responds(values, nudge)
         unknown = None
         if self.answers_late and not self.memoryless:
-            nudge = np.where(self.paths, 1e-3 * (np.abs(values) + 1 / weight), 0.0)
+            nudge = np.where(self._moves, 1e-3 * (np.abs(values) + 1 / weight), 0.0)
             try:
                 self.answers_late = self._computes_in_steps(values, nudge, step)
             except _Unknown as reason:
