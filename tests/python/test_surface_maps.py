@@ -244,6 +244,20 @@ def test_points_bring_their_amounts_to_the_cells_they_lie_in():
         drops.map_to(small, quantity="extensive")(amounts)
 
 
+@pytest.mark.parametrize("radius", [1.0, 3.0])
+def test_points_beside_rings_by_less_than_the_tolerance_lie_in_them(radius):
+    """On the inner and the outer edge of a ring, to rounding or to what is asked for."""
+    turn = np.exp(1j * np.linspace(0.0, 6.0, 50))
+    ring = Surface.ring_edges([1.0, 2.0, 3.0])
+    for beside, options in ((1e-12, {}), (1e-3, {"tolerance": 2e-3})):
+        places = (radius + (beside if radius > 1.0 else -beside)) * turn
+        drops = Surface.points(np.column_stack([places.real, places.imag]))
+        given = drops.map_to(ring, quantity="extensive", **options)(np.ones(50))
+        assert given.tolist() == ([0.0, 50.0] if radius > 1.0 else [50.0, 0.0])
+    with pytest.raises(SurfaceError, match="lies off the target"):
+        drops.map_to(ring, quantity="extensive")(np.ones(50))
+
+
 @pytest.mark.parametrize("smoothness", [2, 4, 6])
 @pytest.mark.parametrize("degree", [1, 3])
 def test_radial_functions_keep_linear_fields(smoothness, degree):

@@ -46,9 +46,12 @@ class Rings:
     def box(self) -> np.ndarray:
         return np.stack([self.centre - self.edges[-1], self.centre + self.edges[-1]])
 
-    def contains(self, points: np.ndarray) -> np.ndarray:
-        """Ring of each point, −1 where there is none; the inner one where two meet."""
+    def contains(self, points: np.ndarray, tolerance: float = 0.0) -> np.ndarray:
+        """Ring of each point, −1 where there is none within `tolerance` [m]; the inner one where
+        two meet."""
         r = np.hypot(*(points - self.centre).T)
+        within = np.clip(r, self.edges[0], self.edges[-1])
+        r = np.where(np.abs(r - within) <= tolerance, within, r)
         index = np.searchsorted(self.edges, r, side="left") - 1
         index[(r == self.edges[0])] = 0
         return np.where(index < len(self.edges) - 1, index, -1)

@@ -130,7 +130,7 @@ def _amounts(source: Surface, target: Surface, shared: csr_matrix, outside: str)
 def _points_in_cells(source: Surface, target: Surface, tolerance: float) -> csr_matrix:
     places = source.cells.places[:, :2]
     if isinstance(target.cells, Rings):
-        cell = target.cells.contains(places)
+        cell = target.cells.contains(places, tolerance)
     else:
         cell, _ = in_cells(target.cells, places, tolerance)
     on = np.flatnonzero(cell >= 0)

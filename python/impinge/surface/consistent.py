@@ -54,15 +54,12 @@ def interpolate(
         columns, weights, off = on_grid(source.cells, points, tolerance, nearest)
         return _rows(columns, weights, shape), off
     if isinstance(source.cells, Rings):
-        cell = source.cells.contains(points)
+        cell = source.cells.contains(points, tolerance)
         off = cell < 0
         r = np.hypot(*(points - source.cells.centre).T)
-        snap = off & (
-            np.abs(r - np.clip(r, source.cells.edges[0], source.cells.edges[-1])) <= tolerance
-        )
         last = len(source.cells.edges) - 2
         cell = np.where(off, np.where(r > source.cells.edges[-1], last, 0), cell)
-        return _rows(cell[:, None], np.ones((len(points), 1)), shape), off & ~snap
+        return _rows(cell[:, None], np.ones((len(points), 1)), shape), off
     cell, weights = in_cells(source.cells, points, tolerance)
     off = cell < 0
     at_nodes = source.location == "points"
