@@ -135,6 +135,31 @@ def test_frames_of_maps_keep_each_ones_power(tmp_path):
     assert power / power[0] == pytest.approx(frames.sum(axis=(1, 2)) / frames[0].sum())
 
 
+def test_maps_of_several_files_have_the_times_of_these(tmp_path):
+    frames = np.random.default_rng(1).uniform(0, 1, (3, 6, 7))
+
+    def written(name, part, times):
+        with h5py.File(tmp_path / name, "w") as file:
+            file["intensity"], file["time"] = frames[part], times
+        return tmp_path / name
+
+    whole = written("whole.h5", slice(0, 3), [0.0, 1e-5, 4e-5])
+    parts = [written("a.h5", slice(0, 2), [0.0, 1e-5]), written("b.h5", 2, 4e-5)]
+    expected = laser_frames([whole], TILES, (2e-4, 1e-4), scale=1e6)
+    for interval in (None, 2e-5):
+        series = laser_frames(parts, TILES, (2e-4, 1e-4), scale=1e6, interval=interval)
+        assert series.times.tolist() == [0.0, 1e-5, 4e-5]
+        assert np.array_equal(series.values, expected.values)
+    alike = [parts[0], written("c.h5", 2, 0.0)]
+    series = laser_frames(alike, TILES, (2e-4, 1e-4), scale=1e6, interval=2e-5)
+    assert series.times.tolist() == [0.0, 2e-5, 4e-5]
+    with pytest.raises(SurfaceError, match="does not ascend"):
+        laser_frames(alike, TILES, (2e-4, 1e-4), scale=1e6)
+    with pytest.raises(SurfaceError, match="interval"):
+        np.save(tmp_path / "d.npy", frames[2])
+        laser_frames([parts[0], tmp_path / "d.npy"], TILES, (2e-4, 1e-4), scale=1e6)
+
+
 @pytest.mark.parametrize(
     ("text", "options", "words"),
     [

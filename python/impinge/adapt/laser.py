@@ -124,7 +124,7 @@ def laser_frames(
     scale
         Instead of `power`: W/m2 of an intensity of 1.
     interval
-        Time between maps [s], where the file has no times.
+        Time between maps [s], where a file has no times, or those of several do not ascend.
     pulse
         With a single map: a table with columns time [s] and power [W], in place of `power`. Before
         the first time and after the last a unit holds what it has then.
@@ -162,12 +162,19 @@ def laser_frames(
         if len(frames) > 1:
             raise SurfaceError(f"{pulse}: a pulse shapes a single map; there are {len(frames)}")
         return _shaped(Path(pulse), flux[0])
-    times = read[0][0] if len(read) == 1 else None
-    if times is None:
+    times = _times([times for times, _ in read])
+    is_restarted = len(read) > 1 and times is not None and not (np.diff(times) > 0).all()
+    if times is None or (is_restarted and interval):
         if len(flux) > 1 and not interval:
             raise SurfaceError("the time between maps (interval) is needed")
         times = np.arange(len(flux)) * (interval or 0.0)
     return Series(times, flux)
+
+
+def _times(found: Sequence[np.ndarray | None]) -> np.ndarray | None:
+    """Times of all maps, if all files have some."""
+    known = [np.atleast_1d(times) for times in found if times is not None]
+    return np.concatenate(known) if len(known) == len(found) else None
 
 
 def _shaped(path: Path, flux: np.ndarray) -> Series:
