@@ -281,6 +281,17 @@ def test_units_and_scenes_tell_the_same_cells(scene, name, shape, location):
             assert surface.areas == pytest.approx(of_scene.areas, rel=1e-12)
 
 
+def check_field(tmp_path, text, keys):
+    """A field with these keys lies where the unit of the scene has it."""
+    path = tmp_path / "scene.toml"
+    path.write_text(f'{text}\n[[field]]\nname = "f"\n{keys}\ngives = ["temperature"]\n')
+    of_scene = Surface.of(path, "f")
+    with Unit(path) as unit:
+        of_unit = Surface.of(unit, "f")
+    assert of_scene.coordinates == pytest.approx(of_unit.coordinates, abs=1e-15)
+    assert of_scene.areas == pytest.approx(of_unit.areas, rel=1e-9)
+
+
 @pytest.mark.parametrize(
     ("scene", "keys"),
     [
@@ -294,14 +305,7 @@ def test_fields_of_scenes_lie_where_they_lie_in_the_unit(tmp_path, scene, keys):
     text = (SCENES / f"{scene}.toml").read_text()
     body = re.search(r"\[body\.(\w+)\]", text)[1]
     at = "" if "grid" in keys else "\nat = [5e-5, -2e-5]"
-    field = f'\n[[field]]\nname = "f"\non = "{body}.top"\n{keys}{at}\ngives = ["temperature"]\n'
-    path = tmp_path / "scene.toml"
-    path.write_text(text + field)
-    of_scene = Surface.of(path, "f")
-    with Unit(path) as unit:
-        of_unit = Surface.of(unit, "f")
-    assert of_scene.coordinates == pytest.approx(of_unit.coordinates, abs=1e-15)
-    assert of_scene.areas == pytest.approx(of_unit.areas, rel=1e-9)
+    check_field(tmp_path, text, f'on = "{body}.top"\n{keys}{at}')
 
 
 def scene_of_texts(scene):
@@ -334,14 +338,7 @@ def test_lengths_of_scenes_may_be_texts(tmp_path, scene, keys):
     """Fields lie where the unit of the same scene has them."""
     text, body = scene_of_texts(scene)
     at = "" if "grid" in keys else "\nat = ['5e-2 mm', -2e-5]"
-    field = f'\n[[field]]\nname = "f"\non = "{body}.top"\n{keys}{at}\ngives = ["temperature"]\n'
-    path = tmp_path / "scene.toml"
-    path.write_text(text + field)
-    of_scene = Surface.of(path, "f")
-    with Unit(path) as unit:
-        of_unit = Surface.of(unit, "f")
-    assert of_scene.coordinates == pytest.approx(of_unit.coordinates, abs=1e-15)
-    assert of_scene.areas == pytest.approx(of_unit.areas, rel=1e-9)
+    check_field(tmp_path, text, f'on = "{body}.top"\n{keys}{at}')
 
 
 @pytest.mark.parametrize(("scene", "area"), [("tiles", 1.6e-7), ("rings", np.pi * 9e-8)])
