@@ -144,6 +144,31 @@ fn uniform_tension_opens_cracks_from_every_face() {
     assert!(off(found, penny(1e-4, stress)) < 1e-6, "{found}");
 }
 
+/// Stress that decays within a fiftieth of a penny's radius has its mean along the front.
+#[test]
+fn pennies_beside_a_shocked_face_have_their_integral() {
+    let (radius, below) = (5e-4, 2e-5);
+    let time = (0.02_f64 * radius).powi(2) / DIFFUSIVITY;
+    let keys = format!(
+        "at = [0.0, 0.0, {:e}]\nnormal = [1.0, 0.0, 0.0]\ndepth = {radius:e}\nshape = \"penny\"",
+        -radius - below
+    );
+    let mesh = "mesh = { spacing = 1e-3, depth_spacing = 1e-6 }";
+    let mut trial = Trial::new(&plate(1.0, mesh, &flaw("p", &keys)));
+    trial.step(time);
+    let found = trial.get("p.stress_intensity");
+    let stress = |depth: f64| 36.9 * PER_KELVIN * libm::erfc(depth / (0.04 * radius));
+    let middle = |n: usize, count: usize| (n as f64 + 0.5) / count as f64;
+    let mean = |r: f64| {
+        let heights = (0..2000).map(|n| r * (PI * middle(n, 2000)).cos());
+        heights.map(|height| stress(radius + below - height)).sum::<f64>() / 2000.0
+    };
+    let parts = (0..500).map(|n| 0.5 * PI * middle(n, 500));
+    let sum: f64 = parts.map(|angle| mean(radius * angle.sin()) * angle.sin()).sum();
+    let wanted = 2.0 * (radius / PI).sqrt() * sum * 0.5 * PI / 500.0;
+    assert!(off(found, wanted) < 1e-2, "{found} {wanted}");
+}
+
 #[test]
 fn closed_cracks_have_no_intensity_and_are_safe() {
     let flaws = [scratch("some", "1e-4"), scratch("worst", "\"worst\"")].concat();

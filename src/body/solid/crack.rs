@@ -27,9 +27,12 @@ const SAFEST: f64 = 1e6;
 const ROUNDING: f64 = 1e-9;
 /// Gauss points between neighbouring element ends along an edge crack.
 const POINTS: usize = 16;
-/// Radii and angles of the points of a penny.
-const RADII: usize = 8;
-const ANGLES: usize = 16;
+/// Least and largest number of radii at which a penny has points, and radii for the root of its elements; there are
+/// twice as many angles. Stress that decays within a length δ from the rim varies over the part √(δ/a) of both angles.
+const RADII: [usize; 2] = [8, 64];
+const RADII_OF_ELEMENTS: f64 = 4.0;
+/// Points of the rim of a penny by which its elements are found.
+const RIM: usize = 16;
 /// Depths that are tried in an element.
 const TRIALS: usize = 4;
 /// Number of elements over the depth of a crack below which the mesh is too coarse for it.
@@ -209,7 +212,9 @@ impl Crack {
         let toughness = material.fracture.toughness.unwrap_or(0.0);
         let (points, extent, elements) = match flaw.shape {
             FlawShape::Penny => {
-                let (points, extent) = penny(flaw, flaw.depth.given()?);
+                let radius = flaw.depth.given()?;
+                let (points, extent) =
+                    penny(flaw, radius, radii_of_penny(&plan.mesh, flaw, radius));
                 (points, extent, None)
             }
             FlawShape::Edge => edge(flaw, solid, plan, flaw.face(&solid.shape)?),
@@ -410,13 +415,33 @@ fn elements_over(mesh: &Mesh, at: [f64; 3], inward: [f64; 3], depth: f64) -> f64
     complete as f64 + ends.get(complete).map_or(0.0, |next| (depth - last) / (next - last))
 }
 
-/// Points of a penny of a radius, and its extent.
-fn penny(flaw: &Flaw, radius: f64) -> (Vec<[f64; 3]>, Extent) {
+/// Number of radii at which a penny of a radius has points, by the finest elements that it crosses.
+fn radii_of_penny(mesh: &Mesh, flaw: &Flaw, radius: f64) -> usize {
+    let rim = (0..RIM).map(|turn| flaw.on_plane(radius, turn as f64 / RIM as f64));
+    let places: Vec<_> = rim.chain([flaw.at]).map(|point| mesh.locate(point).0).collect();
+    let elements_along = |axis: usize| {
+        let along = places.iter().map(|place| place[axis]);
+        let low = along.clone().fold(f64::INFINITY, f64::min);
+        let high = along.fold(f64::NEG_INFINITY, f64::max);
+        let own = &mesh.axes[axis];
+        let bounds = (0..own.elements()).map(|element| own.bounds(element));
+        let crossed = bounds.filter(|[from, to]| *from < high && *to > low);
+        let finest = crossed.map(|[from, to]| to - from).fold(f64::INFINITY, f64::min);
+        0.5 * (high - low) / finest
+    };
+    let elements = (0..3).map(elements_along).fold(0.0, f64::max);
+    let [least, most] = RADII;
+    ((RADII_OF_ELEMENTS * elements.sqrt()).ceil() as usize).clamp(least, most)
+}
+
+/// Points of a penny of a radius, at a number of radii, and its extent.
+fn penny(flaw: &Flaw, radius: f64, radii: usize) -> (Vec<[f64; 3]>, Extent) {
     let (mut points, mut weights) = (Vec::new(), Vec::new());
-    for (angle, part) in gauss_on(RADII, 0.0, FRAC_PI_2) {
-        let weight = 2.0 * (radius / PI).sqrt() * angle.sin() * part / ANGLES as f64;
-        for turn in 0..ANGLES {
-            let turn = (turn as f64 + 0.5) / ANGLES as f64;
+    let angles = 2 * radii;
+    for (angle, part) in gauss_on(radii, 0.0, FRAC_PI_2) {
+        let weight = 2.0 * (radius / PI).sqrt() * angle.sin() * part / angles as f64;
+        for turn in 0..angles {
+            let turn = (turn as f64 + 0.5) / angles as f64;
             points.push(flaw.on_plane(radius * angle.sin(), turn));
             weights.push(weight);
         }
