@@ -48,7 +48,8 @@ fn biaxial(modulus: u32, directions: &str) -> f64 {
 
 #[test]
 fn bent_plates_have_the_risk_of_linear_stress() {
-    for (shape, area, around) in [(BOX, 6e-6, 10e-3), (DISC, PI * 2.25e-6, 2.0 * PI * 1.5e-3)] {
+    // Planes on rollers beside a box are planes of symmetry, without flaws.
+    for (shape, area, around) in [(BOX, 6e-6, 0.0), (DISC, PI * 2.25e-6, 2.0 * PI * 1.5e-3)] {
         for (modulus, directions) in [(5, "independent"), (20, "normal")] {
             for free in [333.15, 413.15] {
                 let most = (free - 293.15) * PER_KELVIN / STRENGTH;
@@ -106,6 +107,34 @@ fn suddenly_cooled_half_spaces_have_their_risk() {
     }
 }
 
+/// A quarter between rollers has a quarter of the risk of the whole box, of flaws in the volume and on its faces.
+#[test]
+fn planes_on_rollers_have_no_flaws() {
+    let of = |keys: &str, size: &str, more: &str| {
+        let mut trial = Trial::new(&format!(
+            "name = \"Plate\"\nstop_time = 0.01\nstep = 0.01\n[body.plate]\nkind = \"solid\"\n\
+             shape = {{ box = [{size}, {size}, 1e-3] }}\n{}\ninitial_temperature = 400.0\n\
+             mesh = {{ spacing = 5e-4, depth_spacing = 1e-4 }}\n[body.plate.faces]\n\
+             top = {{ temperature = 300.0 }}\nbottom = {{ clamped = true }}\n{more}",
+            one(&flaws(2, keys)),
+        ));
+        trial.step(0.01);
+        trial
+    };
+    for (keys, gives, density) in [
+        ("volume = 1e-9", "failure_density", true),
+        ("area = 1e-6", "surface_failure_density", false),
+    ] {
+        let rollers = "left = { roller = true }\nfront = { roller = true }\n".to_owned();
+        let at_plane = probe("p", [-1e-3, 0.0, -1e-4], gives);
+        let mut quarter = of(keys, "2e-3", &(rollers + &at_plane));
+        let whole = of(keys, "4e-3", "").get("plate.failure_risk");
+        let found = 4.0 * quarter.get("plate.failure_risk");
+        assert!(off(found, whole) < 1e-2, "{keys}: {found} {whole}");
+        assert_eq!(quarter.get(&format!("p.{gives}")) > 0.0, density, "{keys}");
+    }
+}
+
 /// A probe of a plate, and what it gives.
 fn probe(name: &str, at: [f64; 3], gives: &str) -> String {
     format!("\n[[probe]]\nname = \"{name}\"\nin = \"plate\"\nat = {at:?}\ngives = [\"{gives}\"]\n")
@@ -124,11 +153,13 @@ fn densities_follow_the_stress_at_points() {
         ("volume = 2e-9, directions = \"normal\"", equibiaxial_ratio(10), "failure_density", 2e-9),
         ("area = 3e-6", 2.0, "surface_failure_density", 3e-6),
     ] {
-        let points = heights.iter().enumerate().map(|(n, &z)| {
-            // Points on a side are on a face, whatever their height.
-            probe(&format!("p{n}"), [-1.5e-3, 0.3e-3, z], gives)
-        });
-        let plate = held(BOX, &one(&flaws(10, keys)), [333.15, 333.15], [293.15, 393.15]);
+        // Points on the rim of a disc are on a face, whatever their height, those on rollers beside a box are not.
+        let is_on_face = gives == "surface_failure_density";
+        let (shape, x) = if is_on_face { (DISC, -1.5e-3) } else { (BOX, -1.5e-3) };
+        let y = if is_on_face { 0.0 } else { 0.3e-3 };
+        let points = heights.iter().enumerate();
+        let points = points.map(|(n, &z)| probe(&format!("p{n}"), [x, y, z], gives));
+        let plate = held(shape, &one(&flaws(10, keys)), [333.15, 333.15], [293.15, 393.15]);
         let mut trial = Trial::new(&(plate + &points.collect::<String>()));
         trial.step(1.0);
         for (n, z) in heights.iter().enumerate() {

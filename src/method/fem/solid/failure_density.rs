@@ -4,7 +4,6 @@
 use super::risk::Flaws;
 use super::{SolidFem, weighted};
 use crate::laws::{Extent, FlawStatistics};
-use crate::method::fem::free_faces::is_inside;
 use crate::method::mesh::Mesh;
 
 /// Place of the flaws that a density counts.
@@ -40,7 +39,7 @@ impl SolidFem {
         let (place, image) = self.mesh.locate(point);
         let statistics = flaws.of_layer(self.layer_at(place[2])).filter(|own| which.are_of(own));
         let Some(own) = statistics else { return 0.0 };
-        if which == FlawsIn::Faces && !is_on_face(&self.mesh, place) {
+        if which == FlawsIn::Faces && !is_on_face(&self.mesh, flaws, place) {
             return 0.0;
         }
         let weights = self.sided_weights(place);
@@ -57,13 +56,14 @@ impl SolidFem {
     }
 }
 
-/// Returns true if a place of the mesh is on an outer face.
-fn is_on_face(mesh: &Mesh, place: [f64; 3]) -> bool {
+/// Returns true if a place of the mesh is on a face on which flaws may be.
+fn is_on_face(mesh: &Mesh, flaws: &Flaws, place: [f64; 3]) -> bool {
     let is_on = |axis: usize| {
         let nodes = &mesh.axes[axis].nodes;
         let [Some(&low), Some(&high)] = [nodes.first(), nodes.last()] else { return false };
         let near = |end: f64| (place[axis] - end).abs() <= ON_FACE * (high - low);
-        high > low && (near(high) || near(low) && !is_inside(mesh, axis))
+        let on = |end: f64, is_high: bool| near(end) && flaws.may_be_on(axis, is_high);
+        high > low && (on(high, true) || on(low, false))
     };
     (0..3).any(is_on)
 }

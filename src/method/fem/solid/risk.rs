@@ -10,9 +10,10 @@ use super::{Deformation, Extreme, SolidFem, Temperatures};
 use crate::laws::{Extent, FlawStatistics};
 use crate::math::gauss::gauss_legendre;
 use crate::math::lagrange::shape;
+use crate::method::fem::elastic::Support;
 use crate::method::fem::free_faces::is_inside;
 use crate::method::fem::plan::Plan;
-use crate::method::mesh::{Axis, Mesh};
+use crate::method::mesh::{Axis, Geometry, Mesh, MeshFace};
 
 /// Flaws of a body.
 pub struct Flaws {
@@ -24,6 +25,8 @@ pub struct Flaws {
     patches: Vec<Patch>,
     /// Nodes of these.
     bears: Vec<bool>,
+    /// Ends of the axes that are faces on which flaws may be.
+    faces: [[bool; 2]; 3],
 }
 
 /// An element, or a part of a face, of a layer.
@@ -84,12 +87,14 @@ impl Flaws {
             gauss_legendre(count).into_iter().map(point).collect()
         };
         let mesh = &plan.mesh;
-        let patches = patches(mesh, &layers);
+        let faces = faces(plan);
+        let patches = patches(mesh, &layers, faces);
         let mut bears = vec![false; mesh.sided_nodes()];
         for patch in &patches {
             patch.for_nodes(mesh, |_, node| bears[node] = true);
         }
-        Some(Self { layers, rules: (1..=MOST_POINTS).map(rule).collect(), patches, bears })
+        let rules = (1..=MOST_POINTS).map(rule).collect();
+        Some(Self { layers, rules, patches, bears, faces })
     }
 
     /// Returns true if flaws of a layer grow slowly.
@@ -102,14 +107,32 @@ impl Flaws {
         self.layers.get(layer)?.as_ref()
     }
 
+    /// Returns true if the end of an axis is a face on which flaws may be.
+    pub(super) fn may_be_on(&self, axis: usize, high: bool) -> bool {
+        self.faces[axis][usize::from(high)]
+    }
+
     /// The distribution of a patch.
     fn of_patch(&self, patch: &Patch) -> &FlawStatistics {
         self.layers[patch.layer].as_ref().expect("patches are those of layers with flaws")
     }
 }
 
+/// Ends of the axes that are faces on which flaws may be. Lateral planes on rollers are planes of symmetry, which have
+/// none; a bottom on rollers stands on something, and the rim of a disc is no plane.
+fn faces(plan: &Plan) -> [[bool; 2]; 3] {
+    let mesh = &plan.mesh;
+    let is_face = |axis: usize, high: bool| {
+        let is_lateral_plane = axis < 2 && mesh.geometry == Geometry::Box;
+        let rollers = (MeshFace { axis, high }, Support::Roller);
+        let is_plane_of_symmetry = is_lateral_plane && plan.supports.contains(&rollers);
+        mesh.axes[axis].elements() > 0 && (high || !is_inside(mesh, axis)) && !is_plane_of_symmetry
+    };
+    [0, 1, 2].map(|axis| [false, true].map(|high| is_face(axis, high)))
+}
+
 /// Elements of the layers with flaws, or the parts of their faces.
-fn patches(mesh: &Mesh, layers: &[Option<FlawStatistics>]) -> Vec<Patch> {
+fn patches(mesh: &Mesh, layers: &[Option<FlawStatistics>], faces: [[bool; 2]; 3]) -> Vec<Patch> {
     let all = |axis: usize| -> Vec<Span> {
         let count = mesh.axes[axis].elements().max(1);
         (0..count).map(|element| Span::of(mesh, axis, element)).collect()
@@ -136,8 +159,7 @@ fn patches(mesh: &Mesh, layers: &[Option<FlawStatistics>]) -> Vec<Patch> {
             if layer == if high { top } else { 0 } {
                 add(layer, &xs, &ys, &[Span::end(mesh, 2, high)]);
             }
-            let is_face =
-                |axis: usize| mesh.axes[axis].elements() > 0 && (high || !is_inside(mesh, axis));
+            let is_face = |axis: usize| faces[axis][usize::from(high)];
             if is_face(0) {
                 add(layer, &[Span::end(mesh, 0, high)], &ys, &zs);
             }
