@@ -107,6 +107,34 @@ fn suddenly_cooled_half_spaces_have_their_risk() {
     }
 }
 
+/// A plate at 400 K, without stress then, between temperatures of its faces that follow each other, each for a second
+/// in which heat comes to rest; `keys` are of its mesh.
+fn turned(material: &str, keys: &str, faces: &[[f64; 2]]) -> Trial {
+    let text = held(BOX, material, [400.0, 400.0], [400.0, 400.0]);
+    let text = text.replace("initial_temperature", &format!("{keys}\ninitial_temperature"));
+    let mut trial = Trial::new(&text);
+    for [top, bottom] in faces {
+        trial.set("plate.top.temperature", *top);
+        trial.set("plate.bottom.temperature", *bottom);
+        trial.step(1.0);
+        trial.model.check_state(&trial.state).unwrap();
+    }
+    trial
+}
+
+const FIRST_ORDER: &str =
+    "mesh = { spacing = 1e-3, depth_spacing = 1e-3, growth = 1.0, order = 1 }";
+
+/// A unit loads what it has saved while compression grows beside tension.
+#[test]
+fn states_are_possible_while_compression_grows() {
+    for keys in ["volume = 1e-9", "area = 1e-6"] {
+        let faces = [[300.0, 401.0], [299.9, 900.0], [299.8, 401.0], [200.0, 900.0]];
+        turned(&one(&flaws(10, keys)), FIRST_ORDER, &faces);
+        turned(&one(&flaws(20, keys)), "", &faces);
+    }
+}
+
 /// A quarter between rollers has a quarter of the risk of the whole box, of flaws in the volume and on its faces.
 #[test]
 fn planes_on_rollers_have_no_flaws() {

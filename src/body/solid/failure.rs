@@ -16,8 +16,8 @@ use crate::state::{Field, Layout, Per};
 
 /// Value of a node before anything is noted [Pa].
 const NOTHING: f64 = f64::MIN;
-/// Largest risk so far over that of the largest stresses, which may fall a little between nodes.
-const MOST_OF_STRESS: f64 = 2.0;
+/// Share of a risk by which rounding may change it.
+const ROUNDING: f64 = 1e-9;
 
 /// Risk B of a body and the place of its largest failure density [m].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -152,9 +152,11 @@ impl SolidBody {
             None => state[place..] == self.nothing_noted()[..],
             Some(Noted { risk, stress }) => {
                 let is_known = |own: &f64| own.abs() <= LARGEST;
+                // Between nodes that keep their tension, the stress may have fallen.
                 let follows = || {
                     let least = self.solid.risk(flaws, stress).min(f64::MAX);
-                    risk.is_finite() && risk >= least && risk <= MOST_OF_STRESS * least
+                    let most = self.solid.largest_risk(flaws, stress) * (1.0 + ROUNDING);
+                    risk.is_finite() && risk >= least && risk <= most.max(least)
                 };
                 stress.iter().all(is_known) && self.growth_is_possible(state) && follows()
             }

@@ -515,6 +515,23 @@ impl SolidFem {
         total
     }
 
+    /// Bound of the risk of running maxima on all ways to them: each element bears its largest stress throughout, and
+    /// as much more as a parabola may exceed its nodes.
+    pub fn largest_risk(&self, flaws: &Flaws, equivalent: &[f64]) -> f64 {
+        let nodes = self.mesh.sided_nodes();
+        let of_patch = |image: &[f64], patch: &Patch| {
+            let own = flaws.of_patch(patch);
+            let local = Local::of(&self.mesh, patch, image, own.strength);
+            let axes = patch.spans.iter().filter(|span| span.count > 2).count();
+            // The sum of the positive shape functions is at most that.
+            let excess = 0.5 * (1.0 + 1.25_f64.powi(axes as i32));
+            let share = patch.measure(&self.mesh) / own.extent.size();
+            share * (excess * local.most.max(0.0)).powf(own.modulus)
+        };
+        let of_image = |image| flaws.patches.iter().map(|own| of_patch(image, own)).sum::<f64>();
+        equivalent.chunks_exact(nodes).map(of_image).sum()
+    }
+
     /// Rate of the risk B when the equivalent stress changes at a rate [1/s, or per unit of what changes].
     pub fn risk_rate(&self, flaws: &Flaws, equivalent: &[f64], rate: &[f64]) -> f64 {
         let nodes = self.mesh.sided_nodes();
