@@ -135,6 +135,52 @@ fn states_are_possible_while_compression_grows() {
     }
 }
 
+/// Where tension grows a little at one node of an element while others lose theirs, no stress is of two moments.
+#[test]
+fn tension_keeps_the_compression_of_its_moment() {
+    let material = one(&flaws(10, "volume = 1e-9"));
+    // Stress falls linearly from the top to where it turns to compression, almost at the bottom.
+    let wanted = 2.0 * (100.0 * PER_KELVIN / STRENGTH).powi(10) * 6.0 / 11.0 * 100.0 / 101.0;
+    for keys in ["", FIRST_ORDER] {
+        for bottom in [420.0, 450.0, 500.0, 900.0] {
+            let mut trial = turned(&material, keys, &[[300.0, 401.0], [299.9, bottom]]);
+            let found = trial.get("plate.failure_risk") / wanted;
+            assert!((0.999..1.02).contains(&found), "{keys} {bottom}: {found}");
+        }
+        // Tension that grows much is that of the new moment, with its compression.
+        let mut trial = turned(&material, keys, &[[300.0, 401.0], [250.0, 450.0]]);
+        let found = trial.get("plate.failure_risk") / trial.get("plate.present_failure_risk");
+        assert!((0.999..1.02).contains(&found), "{keys}: {found}");
+    }
+}
+
+/// Under a steady temperature of a face tension reaches deeper as the other face cools.
+#[test]
+fn tension_that_spreads_at_its_height_counts() {
+    let material = one(&flaws(10, "volume = 1e-9"));
+    for keys in ["", FIRST_ORDER] {
+        let mut trial = turned(&material, keys, &[[300.0, 900.0], [300.0, 600.0], [300.0, 450.0]]);
+        let found = trial.get("plate.failure_risk") / trial.get("plate.present_failure_risk");
+        assert!((0.999..1.02).contains(&found), "{keys}: {found}");
+    }
+}
+
+/// Flaws that grow slowly under a steady tension on one face, while the other is warmed, have the risk that a fine mesh
+/// gives them.
+#[test]
+fn slow_growth_beside_changing_compression_needs_no_fine_mesh() {
+    let keys = "volume = 1e-9, slow_growth = { exponent = 20.0, constant = 1e14 }";
+    let material = one(&flaws(10, keys));
+    let fine = "mesh = { spacing = 1e-3, depth_spacing = 2e-5, growth = 1.0 }";
+    let [coarse, fine] = ["", fine].map(|keys| {
+        let faces = [[300.0, 401.0], [300.0, 900.0], [300.0, 900.0], [300.0, 900.0]];
+        turned(&material, keys, &faces).get("plate.failure_risk")
+    });
+    // The power of the stress, averaged over 20 000 places through the thickness.
+    assert!(off(fine, 300.10) < 2e-3, "{fine}");
+    assert!((0.8..2.0).contains(&(coarse / fine)), "{coarse} {fine}");
+}
+
 /// A quarter between rollers has a quarter of the risk of the whole box, of flaws in the volume and on its faces.
 #[test]
 fn planes_on_rollers_have_no_flaws() {

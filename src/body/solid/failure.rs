@@ -114,7 +114,7 @@ impl SolidBody {
             }
             _ => Cow::Borrowed(memo.observed()),
         };
-        self.solid.note_largest(flaws, stress, &observed, NOTHING);
+        self.solid.note_largest(flaws, stress, [&observed, memo.observed()], NOTHING);
         drop(observed);
         // While stress grows, the present one is the largest so far.
         let found = match memo.known_risk().filter(|_| stress == memo.observed()) {
