@@ -1,13 +1,11 @@
 //! Running maxima of bodies, each with its time and place.
 //!
-//! They are noted only at communication points: when a step begins, under its first inputs, and when it ends. Parts of
-//! a step that are reported to a host count as steps.
+//! They are noted only at communication points: when a step begins, under its first inputs, and when it ends. What does
+//! not hold as a step begins is noted as it ends only, and once as the first begins, as it was before inputs acted.
+//! Parts of a step that are reported to a host count as steps.
 
 use super::{Cache, Model, ModelError, State};
 use crate::body::{BodyError, Extreme, PeakPart};
-
-/// Value of a maximum that is not noted yet.
-const UNNOTED: f64 = f64::MIN;
 
 /// Highest value of a body so far.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,15 +16,6 @@ pub struct Peak {
 }
 
 impl Peak {
-    /// Mark of a maximum that is not noted yet while others are.
-    fn unnoted(time: f64) -> Self {
-        Self { time, highest: Extreme { value: UNNOTED, at: [0.0; 3] } }
-    }
-
-    fn is_noted(&self) -> bool {
-        self.highest.value != UNNOTED
-    }
-
     /// Value, time, x, y and z.
     pub fn numbers(&self) -> [f64; 5] {
         let Extreme { value, at: [x, y, z] } = self.highest;
@@ -62,11 +51,11 @@ impl When {
         self != Self::Beginning
     }
 
-    /// Time since the last moment at which maxima were noted [s].
-    fn duration(self) -> f64 {
+    /// Duration of the step that ends [s].
+    fn duration(self) -> Option<f64> {
         match self {
-            Self::Beginning => 0.0,
-            Self::End { duration } => duration,
+            Self::Beginning => None,
+            Self::End { duration } => Some(duration),
         }
     }
 }
@@ -109,21 +98,18 @@ impl Model {
             let noted = self.noted_so_far(state, cache, number, when);
             noted.map_err(|error| (self.peaks[number].0, error))
         });
-        let mut peaks = noted.collect::<Result<Vec<_>, _>>()?;
-        if !peaks.iter().any(Peak::is_noted) {
-            peaks.clear();
-        }
+        let peaks = noted.collect::<Result<Vec<_>, _>>()?;
         let is_kept = |&place: &usize| {
-            let body = &self.bodies[place];
-            body.keeps_field() && (when.is_end() || body.field_holds_at_beginning())
+            let (body, unknowns) = (&self.bodies[place], &state.bodies[place]);
+            body.keeps_field() && (when.is_end() || body.field_holds_at_beginning(unknowns))
         };
-        let keep = || (0..self.bodies.len()).filter(is_kept);
-        for place in keep() {
+        let kept: Vec<usize> = (0..self.bodies.len()).filter(is_kept).collect();
+        for &place in &kept {
             let (unknowns, memo) = (&state.bodies[place], cache.memo(place));
-            let observed = self.bodies[place].observe_field(unknowns, memo);
+            let observed = self.bodies[place].observe_field(unknowns, memo, when.duration());
             observed.map_err(|error| (place, error))?;
         }
-        for place in keep() {
+        for place in kept {
             self.bodies[place].note_field(
                 &mut state.bodies[place],
                 cache.memo(place),
@@ -134,7 +120,7 @@ impl Model {
         Ok(())
     }
 
-    /// Returns a running maximum updated to the present value; an earlier or unnoted one where that does not hold yet.
+    /// Returns a running maximum updated to the present value; the earlier one where that does not hold yet.
     fn noted_so_far(
         &self,
         state: &State,
@@ -144,8 +130,9 @@ impl Model {
     ) -> Result<Peak, BodyError> {
         let (place, which) = self.peaks[number];
         let known = self.noted_peak(state, (place, which)).copied();
-        if !when.is_end() && !self.bodies[place].holds_at_beginning(which) {
-            return Ok(known.unwrap_or(Peak::unnoted(state.time)));
+        let holds = when.is_end() || self.bodies[place].holds_at_beginning(which);
+        if let Some(known) = known.filter(|_| !holds) {
+            return Ok(known);
         }
         let now = match when {
             When::Beginning => self.peak_at_beginning(state, cache, number, known)?,
@@ -161,7 +148,7 @@ impl Model {
         peak: (usize, usize),
     ) -> Option<&'s Peak> {
         let number = self.peaks.iter().position(|place| *place == peak)?;
-        state.peaks.get(number).filter(|peak| peak.is_noted())
+        state.peaks.get(number)
     }
 
     /// Returns true if a body has running maxima, of the whole body or of a field.
@@ -229,9 +216,7 @@ impl Model {
                     state.time
                 ));
             }
-            if peak.is_noted() || body.holds_at_beginning(which) {
-                body.check_peak(which, &peak.highest).or_else(refuse)?;
-            }
+            body.check_peak(which, &peak.highest).or_else(refuse)?;
         }
         Ok(())
     }
@@ -299,21 +284,32 @@ mod tests {
             assert_eq!(trial.get("a.peak_temperature"), 500.0);
             assert_eq!(trial.get("a.peak_temperature_time"), 0.0);
         }
-        let plain = plate("a", "peaks = [\"von_mises\"]", HELD);
-        let mut trial = Trial::of(&[plain]);
-        trial.model.note_peaks(&mut trial.state, &mut trial.cache).unwrap();
-        assert!(trial.state.peaks.is_empty());
     }
 
+    /// Before a prescribed temperature acts the body has the stress of its initial temperature.
     #[test]
-    fn unnoted_maxima_equal_the_present_value() {
-        let both = plate("a", "peaks = [\"temperature\", \"von_mises\"]", HELD);
-        let mut trial = Trial::of(&[both]);
-        trial.model.note_peaks(&mut trial.state, &mut trial.cache).unwrap();
-        assert!(trial.state.peaks[0].is_noted() && !trial.state.peaks[1].is_noted());
-        assert_eq!(trial.get("a.peak_von_mises"), trial.get("a.max_von_mises"));
+    fn stress_is_first_noted_as_it_was_before_faces_jumped() {
+        let keys = "peaks = [\"von_mises\", \"max_principal\"]\nstress_free_temperature = 600.0";
+        let names = ["a.max_von_mises", "a.max_principal"];
+        let at_rest = plate("a", keys, "bottom = { clamped = true }");
+        let mut trial = Trial::of(&[at_rest]);
+        let wanted = names.map(|name| trial.get(name));
+        for faces in [HELD, "bottom = { temperature = 600.0, clamped = true }"] {
+            let mut trial = Trial::of(&[plate("a", keys, faces)]);
+            trial.model.note_peaks(&mut trial.state, &mut trial.cache).unwrap();
+            trial.model.check_state(&trial.state).unwrap();
+            for (peak, wanted) in trial.state.peaks.iter().zip(wanted) {
+                assert!((peak.highest.value / wanted - 1.0).abs() < 1e-9, "{peak:?} {wanted}");
+            }
+            let first = trial.state.peaks.clone();
+            trial.step(1.0);
+            for (peak, first) in trial.state.peaks.iter().zip(first) {
+                assert!(peak.highest.value >= first.highest.value);
+            }
+        }
         let mut forged = trial.state.clone();
-        forged.peaks[0] = Peak::unnoted(0.0);
+        trial.model.note_peaks(&mut forged, &mut trial.cache).unwrap();
+        forged.peaks[1].highest.value = f64::MIN;
         assert!(trial.model.check_state(&forged).is_err());
     }
 

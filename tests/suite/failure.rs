@@ -181,6 +181,21 @@ fn slow_growth_beside_changing_compression_needs_no_fine_mesh() {
     assert!((0.8..2.0).contains(&(coarse / fine)), "{coarse} {fine}");
 }
 
+/// A body in tension at time zero keeps that, also where its faces are at once at the temperature without stress.
+#[test]
+fn stress_before_prescribed_temperatures_act_is_met() {
+    for keys in ["", ", slow_growth = { exponent = 20.0, constant = 1e14 }"] {
+        let material = one(&flaws(10, &format!("volume = 1e-9{keys}")));
+        let mut trial = Trial::new(&held(BOX, &material, [400.0, 500.0], [500.0, 500.0]));
+        trial.step(1.0);
+        trial.model.check_state(&trial.state).unwrap();
+        let wanted = 2.0 * (100.0 * PER_KELVIN / STRENGTH).powi(10) * 6.0;
+        let found = trial.get("plate.failure_risk");
+        assert!(off(found, wanted) < 1e-6, "{keys}: {found} {wanted}");
+        assert!(trial.get("plate.present_failure_risk") < 1e-9);
+    }
+}
+
 /// A quarter between rollers has a quarter of the risk of the whole box, of flaws in the volume and on its faces.
 #[test]
 fn planes_on_rollers_have_no_flaws() {

@@ -35,7 +35,7 @@ pub trait Maxima {
 
     /// Returns true if the quantity behind a running maximum is right when a step begins. Stress is not where
     /// temperatures have just been prescribed: only the nodes of the face have jumped, which strains those next to them
-    /// by what no body has.
+    /// by what no body has. As the first step begins, such a quantity is that before the jump.
     fn holds_at_beginning(&self, _which: usize) -> bool {
         true
     }
@@ -45,8 +45,8 @@ pub trait Maxima {
         false
     }
 
-    /// Returns true if that field is right when a step begins.
-    fn field_holds_at_beginning(&self) -> bool {
+    /// Returns true if that field is to be noted when a step begins.
+    fn field_holds_at_beginning(&self, _state: &[f64]) -> bool {
         true
     }
 
@@ -56,13 +56,19 @@ pub trait Maxima {
         false
     }
 
-    /// Computes the present values of that field and keeps them in the memo of the state and its loads.
-    fn observe_field(&self, _state: &[f64], _memo: &mut Memo) -> Result<(), BodyError> {
+    /// Computes the present values of that field and keeps them in the memo of the state and its loads, at the end of a
+    /// step of a duration [s], or as one begins.
+    fn observe_field(
+        &self,
+        _state: &[f64],
+        _memo: &mut Memo,
+        _duration: Option<f64>,
+    ) -> Result<(), BodyError> {
         Ok(())
     }
 
-    /// Updates the running maxima of that field to the values observed, a duration [s] after the last time.
-    fn note_field(&self, _state: &mut [f64], _memo: &mut Memo, _duration: f64) {}
+    /// Updates the running maxima of that field to the values observed then.
+    fn note_field(&self, _state: &mut [f64], _memo: &mut Memo, _duration: Option<f64>) {}
 
     /// Refuses a running maximum that no run of this body produces, with the reason.
     fn check_peak(&self, _which: usize, _peak: &Extreme) -> Result<(), String> {

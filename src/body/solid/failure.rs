@@ -99,17 +99,28 @@ impl SolidBody {
         wrong.map_or(Ok(()), |value| BodyError::unless_finite(value).map(|_| ()))
     }
 
-    /// Updates the running maxima to the observed values, a duration [s] after the last time. The risk follows from the
-    /// stresses; it is kept itself, so that it never falls where these change the interpolation between them.
-    pub(super) fn note_flaws(&self, state: &mut [f64], memo: &mut SolidMemo, duration: f64) {
+    /// Returns true if running maxima of a state are noted.
+    pub(super) fn has_noted_flaws(&self, state: &[f64]) -> bool {
+        self.noted(state).is_some()
+    }
+
+    /// Updates the running maxima to the observed values, a duration [s] after the last time; without one, no flaw grows
+    /// until the next. The risk follows from the stresses; it is kept itself, so that it never falls where these change
+    /// the interpolation between them.
+    pub(super) fn note_flaws(
+        &self,
+        state: &mut [f64],
+        memo: &mut SolidMemo,
+        duration: Option<f64>,
+    ) {
         let Some(flaws) = self.solid.flaws() else { return };
         memo.forget_risk();
         let place = self.place_of_noted(state);
         let count = self.solid.risk_points();
         let Some((risk, rest)) = state[place..].split_first_mut() else { return };
         let (stress, growth) = rest.split_at_mut(count);
-        let observed = match growth.split_at_mut_checked(count) {
-            Some((grown, last)) if flaws.grow() => {
+        let observed = match (growth.split_at_mut_checked(count), duration) {
+            (Some((grown, last)), Some(duration)) if flaws.grow() => {
                 self.note_growth(flaws, Growth { grown, last }, memo.observed(), duration)
             }
             _ => Cow::Borrowed(memo.observed()),
@@ -174,8 +185,11 @@ impl SolidBody {
         let count = self.solid.risk_points();
         let growth = &state[self.place_of_noted(state) + 1 + count..];
         let (grown, last) = growth.split_at(growth.len() / 2);
-        grown.iter().all(|own| own.is_finite() && *own >= 0.0)
-            && last.iter().all(|own| own.abs() <= LARGEST)
+        let is_start =
+            grown.iter().all(|own| *own == 0.0) && last.iter().all(|own| *own == NOTHING);
+        is_start
+            || grown.iter().all(|own| own.is_finite() && *own >= 0.0)
+                && last.iter().all(|own| own.abs() <= LARGEST)
     }
 }
 

@@ -205,25 +205,39 @@ impl SolidBody {
         Ok(())
     }
 
-    /// Lets flaws grow up to the observed stress, a duration [s] after the last time. Before the first note the stress
-    /// counts as if it had been there from the start.
-    pub(super) fn note_growth_of_flaws(&self, state: &mut [f64], memo: &SolidMemo, duration: f64) {
+    /// Returns true if the stress along flaws of a state is noted.
+    pub(super) fn has_noted_growth(&self, state: &[f64]) -> bool {
+        let [_, noted] = self.growth_of(state);
+        noted.first().is_some_and(|own| *own != NOTHING)
+    }
+
+    /// Lets flaws grow up to the observed stress, a duration [s] after the last time. Without one they run at once where
+    /// they do, and the stress is not noted. Before the first note the stress counts as if it had been there from the
+    /// start.
+    pub(super) fn note_growth_of_flaws(
+        &self,
+        state: &mut [f64],
+        memo: &SolidMemo,
+        duration: Option<f64>,
+    ) {
         let place = self.place_of_growth(state);
         let length = self.layout_of_growth().len();
         let (depths, noted) = state[place..][..length].split_at_mut(self.growing().count());
         let observed = memo.along_flaws();
-        if noted.first() == Some(&NOTHING) {
-            noted.copy_from_slice(observed);
-        }
+        let is_first = noted.first() == Some(&NOTHING);
+        let noted_before = if is_first { observed } else { &*noted };
         let mut first = 0;
         for ((_, own), depth) in self.growing().zip(depths) {
             let along = first..first + own.line.count();
             first = along.end;
-            let stress = [&noted[along.clone()], &observed[along]];
+            let stress = [&noted_before[along.clone()], &observed[along]];
             let Growing { line, trials, law, toughness, .. } = own;
+            let duration = duration.unwrap_or(0.0);
             *depth = Growth { line, trials, law, toughness, stress, duration }.grown(*depth);
         }
-        noted.copy_from_slice(observed);
+        if duration.is_some() {
+            noted.copy_from_slice(observed);
+        }
     }
 
     /// Refuses depths and stresses that no run produces.
@@ -232,9 +246,9 @@ impl SolidBody {
         let is_possible = |((_, own), depth): ((usize, Growing), &f64)| {
             (own.start..=own.line.end()).contains(depth)
         };
-        let is_start = self.start_of_growth() == [depths, noted].concat();
         let is_known = noted.iter().all(|own| own.abs() <= LARGEST);
-        match is_start || is_known && self.growing().zip(depths).all(is_possible) {
+        let is_start = noted.iter().all(|own| *own == NOTHING);
+        match (is_start || is_known) && self.growing().zip(depths).all(is_possible) {
             true => Ok(()),
             false => Err(format!("flaws of {} that no run leads to", self.name)),
         }

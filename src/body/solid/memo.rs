@@ -37,6 +37,8 @@ pub struct SolidMemo {
     along_flaws: Vec<f64>,
     /// Largest risk so far.
     risk_so_far: Option<Risk>,
+    /// Results of the same loads before prescribed temperatures act, at the uniform temperature of the start.
+    before_jump: Option<Box<Self>>,
     /// The last point that was read: its components are read one after another.
     stress: Option<([f64; 3], [f64; 6])>,
     /// For each symmetry class: whether heat drives it, and whether instantaneous loads do.
@@ -107,6 +109,14 @@ impl SolidMemo {
     /// All loads, to which transfers through ports are added.
     pub fn received(&mut self) -> &mut SolidLoads {
         self.with_received.get_or_insert_with(|| self.outside.clone())
+    }
+
+    /// Memo of the same loads while faces have the temperature of the start.
+    pub fn before_jump(&mut self) -> &mut Self {
+        let SolidLoads { heat, force, faces } = self.loads();
+        let faces = faces.iter().map(|own| vec![0.0; own.len()]).collect();
+        let loads = SolidLoads { heat: heat.clone(), force: force.clone(), faces };
+        self.before_jump.get_or_insert_with(|| Box::new(Self::new(loads)))
     }
 
     /// Nodal temperatures above the initial one.

@@ -371,8 +371,12 @@ impl Maxima for SolidBody {
         which: usize,
         so_far: Option<Extreme>,
     ) -> Result<Extreme, BodyError> {
+        if !self.holds_at_beginning(which) {
+            let memo = SolidMemo::of_mut(memo).before_jump();
+            return self.highest(&mut SolidReader { body: self, state, memo }, which);
+        }
         let now = self.observe(state, memo, which)?;
-        let jumps = self.prescribes_temperature && !self.is_stress_peak(which);
+        let jumps = self.prescribes_temperature;
         Ok(if jumps { self.possible_after_jump(now, (state, inputs), memo, so_far) } else { now })
     }
 
@@ -384,8 +388,8 @@ impl Maxima for SolidBody {
         self.solid.flaws().is_some() || self.has_growing_flaws()
     }
 
-    fn field_holds_at_beginning(&self) -> bool {
-        !self.prescribes_temperature
+    fn field_holds_at_beginning(&self, state: &[f64]) -> bool {
+        !self.prescribes_temperature || self.is_before_first_note(state)
     }
 
     fn is_of_field(&self, state: &[f64], at: usize) -> bool {
@@ -393,14 +397,22 @@ impl Maxima for SolidBody {
         at + length >= state.len()
     }
 
-    fn observe_field(&self, state: &[f64], memo: &mut Memo) -> Result<(), BodyError> {
-        let memo = SolidMemo::of_mut(memo);
+    fn observe_field(
+        &self,
+        state: &[f64],
+        memo: &mut Memo,
+        duration: Option<f64>,
+    ) -> Result<(), BodyError> {
+        let memo = self.memo_to_note(memo, duration);
         self.observe_growth(state, memo)?;
         self.observe_flaws(state, memo)
     }
 
-    fn note_field(&self, state: &mut [f64], memo: &mut Memo, duration: f64) {
-        let memo = SolidMemo::of_mut(memo);
+    fn note_field(&self, state: &mut [f64], memo: &mut Memo, duration: Option<f64>) {
+        SolidMemo::of_mut(memo).forget_risk();
+        let memo = self.memo_to_note(memo, duration);
+        let lasts = duration.is_some() || !self.prescribes_temperature;
+        let duration = lasts.then_some(duration.unwrap_or(0.0));
         self.note_growth_of_flaws(state, memo, duration);
         self.note_flaws(state, memo, duration);
     }
@@ -411,6 +423,25 @@ impl Maxima for SolidBody {
 }
 
 impl Approach for SolidBody {}
+
+impl SolidBody {
+    /// The memo whose stress is noted. As a step begins, prescribed temperatures have not acted yet.
+    fn memo_to_note<'m>(&self, memo: &'m mut Memo, duration: Option<f64>) -> &'m mut SolidMemo {
+        let memo = SolidMemo::of_mut(memo);
+        match self.prescribes_temperature && duration.is_none() {
+            true => memo.before_jump(),
+            false => memo,
+        }
+    }
+
+    /// Returns true if nothing has been noted of a field.
+    fn is_before_first_note(&self, state: &[f64]) -> bool {
+        match self.solid.flaws() {
+            Some(_) => !self.has_noted_flaws(state),
+            None => !self.has_noted_growth(state),
+        }
+    }
+}
 
 /// Largest shear modulus of the layers of a solid at the start [Pa].
 fn shear_modulus(solid: &Solid) -> Option<f64> {

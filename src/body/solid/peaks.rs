@@ -85,7 +85,7 @@ impl SolidBody {
         let is_value = match self.peaks[which] {
             PeakOf::Temperature => value > 0.0,
             PeakOf::VonMises => value >= 0.0,
-            PeakOf::MaxPrincipal => true,
+            PeakOf::MaxPrincipal => value > f64::MIN,
         };
         if !is_value {
             return Err(format!("{value} as a running maximum of {}", self.name));
