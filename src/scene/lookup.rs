@@ -11,6 +11,9 @@ use super::types::*;
 use crate::limits::Bounds;
 use crate::quantity::Quantity;
 
+/// Least speed of sound over that of a nozzle: one faster than a fifth of it is refused.
+const SOUND_OVER_NOZZLE: f64 = 6.0;
+
 /// Position of a field in its body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Place {
@@ -87,20 +90,30 @@ impl Scene {
         self.coupling.iter().any(|own| is_on_it(&own.to) && self.filament(&own.from).is_some())
     }
 
-    /// Largest speed of fluid and nozzle that a filament of particles expects [m/s]: that of the flow, of the path, of
-    /// a fall from the outlet and of surface tension. A flow that only inputs set is expected to bring `most` by the
-    /// stop time.
-    pub fn fastest_strand(&self, filament: &Filament) -> f64 {
+    /// Legs of a filament's route that the run reaches, up to the stop time.
+    fn legs_of(&self, filament: &Filament) -> Vec<Leg> {
         let route = self.route(filament);
-        let legs = || route.iter().flat_map(|route| &route.legs);
-        let of_legs = legs().map(Leg::largest_flow).fold(0.0, f64::max);
-        let flow = match of_legs.max(filament.nozzle.flow) {
+        route.iter().flat_map(|route| route.legs_until(self.stop_time)).collect()
+    }
+
+    /// Largest volume flow of a filament by its path until the stop time, or by the start value of its input [m³/s].
+    pub fn largest_flow(&self, filament: &Filament) -> f64 {
+        let legs = self.legs_of(filament);
+        legs.iter().map(Leg::largest_flow).fold(filament.nozzle.flow, f64::max)
+    }
+
+    /// Largest speed of fluid, and of the nozzle while fluid comes, that a filament of particles expects until the stop
+    /// time [m/s]: that of the flow, of the path, of a fall from the outlet and of surface tension. A flow that only
+    /// inputs set is expected to bring `most` by the stop time.
+    pub fn fastest_strand(&self, filament: &Filament) -> f64 {
+        let flow = match self.largest_flow(filament) {
             0.0 => filament.most / self.stop_time,
             flow => flow,
         };
-        let speed = legs().map(Leg::fastest).fold(0.0, f64::max);
-        let heights = legs().map(|leg| leg.place[0][2].max(leg.at(leg.duration)[2]));
-        let height = heights.fold(filament.nozzle.height, f64::max);
+        let legs: Vec<Leg> = self.legs_of(filament).into_iter().filter(Leg::lays).collect();
+        let speed = legs.iter().map(Leg::fastest).fold(0.0, f64::max);
+        let heights = legs.iter().map(|leg| leg.place[0][2].max(leg.at(leg.duration)[2]));
+        let height = heights.reduce(f64::max).unwrap_or(filament.nozzle.height);
         let fall = (2.0 * filament.gravity * height).sqrt();
         let radius = 0.5 * filament.nozzle.diameter;
         let capillary = filament.fluid.capillary_speed_squared(radius).sqrt();
@@ -108,14 +121,17 @@ impl Scene {
     }
 
     /// Speed of sound of a filament of particles [m/s]: that of its fluid, or ten times the fastest of its flow, of the
-    /// pressure of its surface and of that of its viscosity.
+    /// pressure of its surface and of that of its viscosity. A nozzle that moves while no fluid comes has the sixth of
+    /// it at most.
     pub fn sound_of_strand(&self, filament: &Filament) -> f64 {
         let (fluid, diameter) = (&filament.fluid, filament.nozzle.diameter);
         let fastest = self.fastest_strand(filament);
         let viscosity = fluid.reference_viscosity(filament.nozzle.temperature, fastest / diameter);
         let viscous = fluid.viscous_speed(viscosity, fastest, diameter);
         let surface = fluid.laplace_speed(filament.particle_distance());
-        fluid.sound_speed.unwrap_or(SOUND_OVER_FLOW * fastest.max(viscous).max(surface))
+        let of_flow = SOUND_OVER_FLOW * fastest.max(viscous).max(surface);
+        let of_nozzle = self.legs_of(filament).iter().map(Leg::fastest).fold(0.0, f64::max);
+        fluid.sound_speed.unwrap_or(of_flow.max(SOUND_OVER_NOZZLE * of_nozzle))
     }
 
     /// The filaments, in the order of their names.

@@ -46,6 +46,11 @@ impl Leg {
         self.flow.map_or(0.0, |[value, slope]| value.max(value + slope * self.duration))
     }
 
+    /// Returns true if fluid may come on it.
+    pub fn lays(&self) -> bool {
+        self.flow != Some([0.0; 2])
+    }
+
     /// Volume that the route lets come in a part of the leg [m³]; 0 where an input sets the flow.
     fn volume(&self, duration: f64) -> f64 {
         self.flow.map_or(0.0, |[value, slope]| duration * (value + 0.5 * slope * duration))
@@ -93,16 +98,19 @@ impl Route {
 
     /// Legs on which fluid may come.
     pub fn laid(&self) -> impl Iterator<Item = &Leg> {
-        self.legs.iter().filter(|leg| leg.flow != Some([0.0; 2]))
+        self.legs.iter().filter(|leg| leg.lays())
+    }
+
+    /// Legs that begin before a time [s], up to it.
+    pub fn legs_until(&self, stop: f64) -> impl Iterator<Item = Leg> {
+        let begun = self.legs.iter().filter(move |leg| leg.start < stop);
+        begun.map(move |leg| Leg { duration: leg.duration.min(stop - leg.start), ..*leg })
     }
 
     /// The lowest place until a time on legs of a kind, as height [m] and time [s].
     pub fn lowest_until(&self, stop: f64, counts: impl Fn(&Leg) -> bool) -> Option<[f64; 2]> {
-        let legs = self.legs.iter().filter(|leg| leg.start < stop && counts(leg));
-        let ends = legs.flat_map(|leg| {
-            let ends = [0.0, leg.duration.min(stop - leg.start)];
-            ends.map(|s| [leg.at(s)[2], leg.start + s])
-        });
+        let legs = self.legs_until(stop).filter(|leg| counts(leg));
+        let ends = legs.flat_map(|leg| [0.0, leg.duration].map(|s| [leg.at(s)[2], leg.start + s]));
         ends.min_by(|a, b| a[0].total_cmp(&b[0]))
     }
 

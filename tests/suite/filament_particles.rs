@@ -255,6 +255,54 @@ fn paste_at_rest_cools() {
     );
 }
 
+/// Paste of which each bead is laid in 0.2 s, and then left alone.
+fn bead(law: &str, path: &str) -> String {
+    format!(
+        r#"
+name = "Bead"
+stop_time = 0.6
+step = 0.05
+[body.ink]
+kind = "filament"
+method = "particles"
+fluid = {{ density = 1400.0, viscosity = {law}, specific_heat = 1500.0, conductivity = 0.0 }}
+nozzle = {{ diameter = 1e-3, height = 0.8e-3, temperature = 353.15 }}
+path = {{ {path} }}
+most = 3.2e-9
+spacing = 0.25e-3
+"#
+    )
+}
+
+const PASTE: &str = "{ law = \"bingham\", yield_stress = 60.0, plastic_viscosity = 2.0 }";
+const STILL: &str = "time = [0.0, 0.2, 1.0, 2.0], x = [-2e-3, 2e-3, 2e-3, 2e-3], y = [0.0, 0.0, 0.0, 0.0], flow = [1.57e-8, \
+                     0.0, 0.0, 0.0]";
+
+/// What a path does after the stop time, or with a nozzle from which nothing comes, leaves the strand as it is: its
+/// shape depends on the speed of sound, which follows the fastest flow.
+#[test]
+fn strands_know_only_what_is_laid() {
+    let model_of = |path: &str| {
+        let scene = scene::parse(&bead(PASTE, path), "bead.toml").unwrap();
+        let notes = forecast(&scene).filaments.remove(0).notes;
+        (notes.into_iter().find(|note| note.contains("sound passes at"))).expect("a note on sound")
+    };
+    let alone = model_of(STILL);
+    let lifted = "z = [0.8e-3, 0.8e-3, 0.8e-3, 0.25]";
+    assert_eq!(model_of(&format!("{STILL}, {lifted}")), alone);
+    let late = STILL.replace("flow = [1.57e-8, 0.0, 0.0", "flow = [1.57e-8, 0.0, 5e-7");
+    assert_eq!(model_of(&late), alone);
+    let travels =
+        STILL.replace("1.0, 2.0], x = [-2e-3, 2e-3, 2e-3", "0.25, 2.0], x = [-2e-3, 2e-3, 10e-3");
+    assert_eq!(model_of(&travels), alone);
+    // A nozzle that moves faster than a sixth of the speed of sound raises that.
+    let races = travels.replace("10e-3", "200e-3");
+    assert!(model_of(&races) != alone);
+    let mut trial = Trial::new(&bead(PASTE, &races));
+    trial.step(0.3);
+    assert!(trial.get("ink.max_speed") > 0.0);
+}
+
 /// Wax that freezes on a cold plate comes to rest there, and continues to the bit from a state in between.
 #[test]
 fn wax_freezes_and_rests() {
