@@ -303,6 +303,21 @@ fn strands_know_only_what_is_laid() {
     assert!(trial.get("ink.max_speed") > 0.0);
 }
 
+/// A jet is noted where the path sets the flow, too.
+#[test]
+fn jets_of_paths_are_noted() {
+    let is_jet = |flow: &str| {
+        let text =
+            bead("1e-3", &STILL.replace("1.57e-8", flow)).replace("most = 3.2e-9", "most = 1e-6");
+        let text = text.replace("conductivity = 0.0", "conductivity = 0.0, surface_tension = 0.07");
+        [text.clone(), text.replace("method = \"particles\"\n", "")].map(|text| {
+            let scene = scene::parse(&text, "bead.toml").unwrap();
+            forecast(&scene).filaments[0].notes.iter().any(|note| note.contains("as a jet"))
+        })
+    };
+    assert_eq!([is_jet("1e-6"), is_jet("1e-8")], [[true; 2], [false; 2]]);
+}
+
 /// Wax that freezes on a cold plate comes to rest there, and continues to the bit from a state in between.
 #[test]
 fn wax_freezes_and_rests() {

@@ -240,7 +240,7 @@ fn inertia(scene: &Scene, filament: &Filament) -> Option<String> {
 
 /// Reynolds and Weber number of a fluid that leaves the nozzle so fast that its inertia matters.
 fn jet(scene: &Scene, filament: &Filament) -> Option<[f64; 2]> {
-    let speed = filament.nozzle.flow / filament.outlet();
+    let speed = scene.largest_flow(filament) / filament.outlet();
     let fluid = &filament.fluid;
     let diameter = filament.nozzle.diameter;
     let viscosity = fluid.reference_viscosity(filament.nozzle.temperature, speed / diameter);
