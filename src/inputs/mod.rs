@@ -4,7 +4,9 @@
 mod layout;
 mod motion;
 mod path;
+mod trend;
 
 pub use layout::{FaceInput, FaceInputKind, InputLayout, LoadInputs};
 pub use motion::Motion;
 pub use path::{HIGHEST_INPUT_DERIVATIVE, InputPath};
+pub use trend::Trend;

@@ -253,6 +253,39 @@ fn strands_in_air_cool_as_lumps() {
     }
 }
 
+/// Air that warms within a step is as warm at each time as its derivatives say: the strand gives it as much heat in one
+/// long step as in many short ones.
+#[test]
+fn air_follows_its_derivatives_within_a_step() {
+    let text = r#"
+name = "Air"
+stop_time = 3.0
+step = 0.1
+[body.ink]
+kind = "filament"
+fluid = { density = 900.0, viscosity = 2.0, specific_heat = 2000.0, conductivity = 0.2, surface_tension = 0.03, contact_angle = 0.8 }
+nozzle = { diameter = 0.8e-3, height = 0.7e-3, temperature = 353.15, flow = 5e-9 }
+path = { time = [0.0, 1.0], x = [-5e-3, 5e-3], y = [0.0, 0.0] }
+most = 3e-8
+convection = { coefficient = 200.0, ambient = 293.15 }
+"#;
+    for [slope, bend] in [[20.0, 0.0], [0.0, 40.0 / 3.0]] {
+        let lost = |steps: usize| {
+            let mut trial = Trial::new(text);
+            for n in 0..steps {
+                let time = 3.0 * n as f64 / steps as f64;
+                trial.set("ink.ambient", 293.15 + time * (slope + 0.5 * time * bend));
+                trial.set_derivative("ink.ambient", 1, slope + time * bend);
+                trial.set_derivative("ink.ambient", 2, bend);
+                trial.step(3.0 / steps as f64);
+            }
+            trial.get("ink.heat_lost")
+        };
+        let [long, short] = [1, 60].map(lost);
+        assert!((long / short - 1.0).abs() < 0.01, "{slope} {bend}: {long} J, {short} J");
+    }
+}
+
 /// Inputs with derivatives move the nozzle as the table of the same path does, in steps of any length.
 #[test]
 fn inputs_follow_polynomials() {

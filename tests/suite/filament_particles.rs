@@ -255,6 +255,26 @@ fn paste_at_rest_cools() {
     );
 }
 
+/// Air that warms within a step is as warm at each time as its derivatives say.
+#[test]
+fn air_follows_its_derivatives_within_a_step() {
+    let text = strand("convection = { coefficient = 100.0, ambient = 280.0 }")
+        .replace("interval = 5e-3", "interval = 0.2");
+    let lost = |steps: usize| {
+        let mut trial = Trial::new(&text);
+        for n in 0..steps {
+            let time = 0.2 * n as f64 / steps as f64;
+            trial.set("ink.ambient", 280.0 + time * 1500.0 * time);
+            trial.set_derivative("ink.ambient", 1, 3000.0 * time);
+            trial.set_derivative("ink.ambient", 2, 3000.0);
+            trial.step(0.2 / steps as f64);
+        }
+        trial.get("ink.heat_lost")
+    };
+    let [long, short] = [1, 20].map(lost);
+    assert!((long / short - 1.0).abs() < 0.03, "{long} J, {short} J");
+}
+
 /// Paste of which each bead is laid in 0.2 s, and then left alone.
 fn bead(law: &str, path: &str) -> String {
     format!(

@@ -129,7 +129,7 @@ impl Structured for FilamentBody {
         let nothing = Surface::default();
         let around = Around {
             surface: acts.below.unwrap_or(&nothing),
-            air: self.nozzle.air(acts.path, acts.duration, self.line.plan().reference),
+            air: self.nozzle.air(acts.path, state.time, self.line.plan().reference),
         };
         let advanced = self.line.advance(state, &motions, &around);
         let parts = advanced.map_err(|failure| self.error(failure))?;

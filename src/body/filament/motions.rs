@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::body::BodyError;
-use crate::inputs::{InputPath, Motion};
+use crate::inputs::{InputPath, Motion, Trend};
 use crate::scene::{Filament, Route};
 
 /// Part of a segment that is no distance between two places of the nozzle.
@@ -55,9 +55,10 @@ impl NozzleInputs {
         }
     }
 
-    /// Mean temperature of the air over a step [K]; `otherwise` where there is none.
-    pub fn air(&self, path: &InputPath, duration: f64, otherwise: f64) -> f64 {
-        self.air.map_or(otherwise, |air| path.at(0, 0.5 * duration)[air])
+    /// Temperature of the air over a step that begins at a time [K]; `otherwise` where there is none.
+    pub fn air(&self, path: &InputPath, begin: f64, otherwise: f64) -> Trend {
+        let trend = |air| Trend { begin, derivatives: input(path, air, 0.0) };
+        self.air.map_or(Trend::held(otherwise), trend)
     }
 
     /// Places and values of inputs that are temperatures.

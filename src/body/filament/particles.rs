@@ -197,13 +197,13 @@ impl Body for ParticleFilament {
         acts: &Acts,
         allowance: &Allowance,
     ) -> Result<Option<Given>, BodyError> {
-        let motions = self.nozzle.motions(acts.path, self.sph.time(state), acts.duration);
+        let time = self.sph.time(state);
+        let motions = self.nozzle.motions(acts.path, time, acts.duration);
         let checked = self.check_motions(self.sph.fed(state).volume, &motions);
         checked.map_err(|failure| self.refused(failure))?;
         let insulated = Surface::held(&[self.sph.plan().reference_temperature()]);
         let surface = acts.below.unwrap_or(&insulated);
-        let air =
-            self.nozzle.air(acts.path, acts.duration, self.sph.plan().reference_temperature());
+        let air = self.nozzle.air(acts.path, time, self.sph.plan().reference_temperature());
         let rises = self.sph.advance_fed(state, &motions, (surface, air), allowance);
         let rises = rises.map_err(|failure| self.failed(failure))?;
         Ok(self.given(state).map(|given| Given {

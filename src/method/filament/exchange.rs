@@ -6,6 +6,7 @@ use super::cooling::{Column, Surroundings};
 use super::line::Line;
 use super::spreading::Spreading;
 use super::stacks::TOP;
+use crate::inputs::Trend;
 use crate::port::Surface;
 
 /// Part of its heat that a segment releases in an inner step, at most.
@@ -68,6 +69,7 @@ pub struct Exchange<'a> {
 pub struct SegmentStep<'a> {
     line: &'a Line,
     below: &'a Below<'a>,
+    born: f64,
     /// Ages of the segment at its beginning and end [s].
     ages: [f64; 2],
     /// Age at which the exchange began of which this is a part, and its duration [s].
@@ -79,8 +81,8 @@ pub struct SegmentStep<'a> {
     received: f64,
     /// Part of its upper side on which other segments lie.
     covered: f64,
-    /// [K]
-    air: f64,
+    /// Temperature of the air over the age of the segment [K].
+    air: Trend,
 }
 
 impl<'a> SegmentStep<'a> {
@@ -94,19 +96,20 @@ impl<'a> SegmentStep<'a> {
         Self {
             line,
             below: &exchange.below,
+            born: segment.born,
             ages: times.map(|time| time - segment.born),
             began: exchange.from - segment.born,
             whole: exchange.whole,
             before: exchange.given,
             received: 0.0,
             covered: 0.0,
-            air: line.plan.reference,
+            air: Trend::held(line.plan.reference),
         }
     }
 
     /// The same step as it lies on others and below others, in air of a temperature [K].
-    pub fn between(self, below: &'a Below<'a>, stacked: &Stacked, air: f64) -> Self {
-        let covered = stacked.covered.min(1.0);
+    pub fn between(self, below: &'a Below<'a>, stacked: &Stacked, air: Trend) -> Self {
+        let (covered, air) = (stacked.covered.min(1.0), air.since(self.born));
         Self { below, covered, received: stacked.received, air, ..self }
     }
 
@@ -158,9 +161,13 @@ impl<'a> SegmentStep<'a> {
     /// Largest difference between the temperatures of the layers and those around the segment [K].
     fn apart(&self, segment: &Segment) -> f64 {
         let around = self.surroundings(segment, self.ages, 0.0);
+        let variation = self.air.variation(self.ages);
         let apart = self.line.temperatures(segment).map(|temperature| {
-            let to_air = if self.line.plan.air > 0.0 { temperature - around.air } else { 0.0 };
-            (temperature - around.below).abs().max(to_air.abs())
+            let to_air = match self.line.plan.air > 0.0 {
+                true => (temperature - around.air).abs() + variation,
+                false => 0.0,
+            };
+            (temperature - around.below).abs().max(to_air)
         });
         apart.into_iter().fold(0.0, f64::max)
     }
@@ -201,7 +208,7 @@ impl<'a> SegmentStep<'a> {
         let (below, resistance) = self.below(segment, ages, before);
         let [above, aside] = self.exposed(segment).map(|area| self.line.plan.air * area);
         let contact = self.contact(segment);
-        Surroundings { below, resistance, contact, air: self.air, above, aside }
+        Surroundings { below, resistance, contact, air: self.air.mean(ages), above, aside }
     }
 
     /// Area through which the segment touches what lies below it [m²].
@@ -228,7 +235,7 @@ impl<'a> SegmentStep<'a> {
     fn below(&self, segment: &Segment, ages: [f64; 2], before: f64) -> (f64, f64) {
         let duration = ages[1] - ages[0];
         match self.below {
-            Below::Nothing => (self.air, f64::INFINITY),
+            Below::Nothing => (self.air.mean(ages), f64::INFINITY),
             Below::Plate { surface, ends, flux, .. } => {
                 let elapsed = ages[1] - self.began;
                 let free = ends[0] + elapsed / self.whole * (ends[1] - ends[0]);

@@ -10,7 +10,7 @@ use super::sections::CLEARANCE;
 use super::spreading::PACKED;
 use super::stacks::{TOP, shortest_part, stacked};
 use super::{Failure, LinePlan, Segment, Strand};
-use crate::inputs::Motion;
+use crate::inputs::{Motion, Trend};
 use crate::port::{Domain, Surface};
 
 /// A filament that is laid as a line of segments.
@@ -25,7 +25,7 @@ pub struct Line {
 pub struct Around<'a> {
     pub surface: &'a Surface,
     /// Temperature of the air [K].
-    pub air: f64,
+    pub air: Trend,
 }
 
 /// Sums over a strand.
@@ -190,7 +190,7 @@ impl Line {
         strand: &mut Strand,
         (begin, stacked): (f64, &[bool]),
         exchanges: &mut [Exchange],
-        air: f64,
+        air: Trend,
     ) -> usize {
         let (mut now, end, mut parts) = (begin, strand.time, 0);
         while now < end {
@@ -220,7 +220,7 @@ impl Line {
         (strand, n): (&mut Strand, usize),
         exchange: &mut Exchange,
         to: f64,
-        (stacked, air): (Stacked, f64),
+        (stacked, air): (Stacked, Trend),
     ) {
         let mut segment = strand.segment(n);
         let time = to - exchange.now;

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 use super::{Around, Line, LinePlan, Segment, Strand, Target};
-use crate::inputs::Motion;
+use crate::inputs::{Motion, Trend};
 use crate::laws::Fluid;
 use crate::port::{Surface, SurfaceResponse, WallCells};
 
@@ -62,7 +62,7 @@ fn straight(line: &Line, steps: usize, (height, speed, flow): (f64, f64, f64)) -
     let step = duration / steps as f64;
     for n in 0..steps {
         let motion = along(step, (speed * step * n as f64, height), speed, flow);
-        let around = Around { surface: &surface, air: 300.0 };
+        let around = Around { surface: &surface, air: Trend::held(300.0) };
         line.advance(&mut strand, &[motion], &around).unwrap();
     }
     strand
@@ -113,7 +113,7 @@ fn a_nozzle_at_rest_makes_one_heap() {
     let line = Line::new(plan(CONCRETE, 0.02));
     let flow = 0.1 * line.plan().outlet();
     let mut strand = line.start([0.0, 0.0, 0.02]);
-    let around = Around { surface: &Surface::default(), air: 300.0 };
+    let around = Around { surface: &Surface::default(), air: Trend::held(300.0) };
     let rest = along(2.0, (0.0, 0.02), 0.0, flow);
     line.advance(&mut strand, &[rest, along(1.0, (0.0, 0.02), 0.1, flow)], &around).unwrap();
     let heap = strand.segment(0);
@@ -128,7 +128,7 @@ fn a_nozzle_at_rest_makes_one_heap() {
 fn inputs_without_derivatives_lay_a_strand() {
     let line = Line::new(plan(CONCRETE, 0.02));
     let flow = 0.1 * line.plan().outlet();
-    let around = Around { surface: &Surface::default(), air: 300.0 };
+    let around = Around { surface: &Surface::default(), air: Trend::held(300.0) };
     let lengths = [0.04, 0.07, 0.3].map(|step| {
         let mut strand = line.start([0.0, 0.0, 0.015]);
         let steps = (4.0_f64 / step).round() as usize;
@@ -169,7 +169,7 @@ fn circles_are_laid_smaller() {
     let speed = radius * rate;
     let flow = speed * line.plan().outlet();
     let mut strand = line.start([radius, 0.0, height]);
-    let around = Around { surface: &Surface::default(), air: 300.0 };
+    let around = Around { surface: &Surface::default(), air: Trend::held(300.0) };
     let (turns, parts) = (0.9, 400);
     let step = 2.0 * PI * turns / rate / f64::from(parts);
     for n in 0..parts {
@@ -202,7 +202,7 @@ fn corners_are_cut_exponentially() {
     let flow = speed * line.plan().outlet();
     let relaxation = 0.5 * (height - line.plan().outlet().sqrt()) / speed;
     let mut strand = line.start([-1.0, 0.0, height]);
-    let around = Around { surface: &Surface::default(), air: 300.0 };
+    let around = Around { surface: &Surface::default(), air: Trend::held(300.0) };
     line.advance(&mut strand, &[along(10.0, (-1.0, height), speed, flow)], &around).unwrap();
     assert!((strand.touch[0] / (-speed * relaxation) - 1.0).abs() < 1e-3, "{:?}", strand.touch);
     let mut since = 0.0;
@@ -227,7 +227,7 @@ fn corners_are_cut_exponentially() {
 fn stacks_load_their_lowest_layer() {
     let line = Line::new(LinePlan { most: 1e-2, ..plan(CONCRETE, 0.02) });
     let flow = 0.1 * line.plan().outlet();
-    let around = Around { surface: &Surface::default(), air: 300.0 };
+    let around = Around { surface: &Surface::default(), air: Trend::held(300.0) };
     let mut strand = line.start([0.0, 0.0, 0.015]);
     let mut height = 0.015;
     for layers in 1..=3 {
@@ -247,7 +247,7 @@ fn stacks_load_their_lowest_layer() {
 
 /// Lays a wall of four layers of 12 mm, each for a time [s], in one direction or there and back.
 fn wall(line: &Line, duration: f64, there_and_back: bool) -> Strand {
-    let around = Around { surface: &Surface::default(), air: 300.0 };
+    let around = Around { surface: &Surface::default(), air: Trend::held(300.0) };
     let flow = 0.1 * line.plan().outlet();
     let mut strand = line.start([0.0, 0.0, 0.012]);
     for layer in 0..4 {
@@ -283,7 +283,7 @@ fn stiff(spacing: f64) -> Line {
 
 /// Area of such a strand that gives heat to the air [m²].
 fn open_area(line: &Line, mut strand: Strand) -> f64 {
-    let around = Around { surface: &Surface::default(), air: 300.0 };
+    let around = Around { surface: &Surface::default(), air: Trend::held(300.0) };
     let before = strand.lost;
     let rest = Motion { flow: [0.0; 3], ..along(10.0, (0.0, 0.1), 0.0, 0.0) };
     line.advance(&mut strand, &[rest], &around).unwrap();
@@ -320,7 +320,7 @@ fn crossing_layers_cover_each_other() {
         // Lines of the width of a strand side by side, as many along as across.
         let pitch = outlet / 0.012;
         let length = f64::from(lines) * pitch;
-        let around = Around { surface: &Surface::default(), air: 300.0 };
+        let around = Around { surface: &Surface::default(), air: Trend::held(300.0) };
         let mut strand = line.start([0.0, 0.0, 0.012]);
         for layer in 0..2_usize {
             let height = 0.012 * (layer + 1) as f64;
@@ -355,7 +355,7 @@ fn heat_and_volume_balance() {
             };
             let place = -0.05 + 0.02 * 0.1 * f64::from(n);
             let motion = along(0.1, (place, 0.8e-3), 0.02, 0.8e-6 * 0.02);
-            let around = Around { surface: &surface, air: 293.0 };
+            let around = Around { surface: &surface, air: Trend::held(293.0) };
             line.advance(&mut strand, &[motion], &around).unwrap();
             to_cells += strand.cell_heat.iter().sum::<f64>();
         }
@@ -391,7 +391,7 @@ fn strands_beyond_the_edge_are_found() {
         let cells = WallCells::Tiles { count: [24, 24], size: edges.map(|edge| 2.0 * edge) };
         let line = Line::new(LinePlan { cells: Some(cells), ..plan(honey, 0.02) });
         let flow = 0.1 * line.plan().outlet();
-        let around = Around { surface: &still(340.0, 576), air: 340.0 };
+        let around = Around { surface: &still(340.0, 576), air: Trend::held(340.0) };
         let mut strand = line.start([-0.04, 0.015, 0.012]);
         let mut first = along(0.8, (-0.04, 0.012), 0.1, flow);
         first.place[0][1] = 0.015;
@@ -427,7 +427,7 @@ fn width_does_not_follow_the_step() {
 fn no_slivers_end_a_strand() {
     let line = Line::new(plan(CONCRETE, 0.02));
     let whole = line.plan().segment_volume();
-    let around = Around { surface: &Surface::default(), air: 300.0 };
+    let around = Around { surface: &Surface::default(), air: Trend::held(300.0) };
     let mut strand = line.start([0.0, 0.0, 0.015]);
     let flow = 0.1 * line.plan().outlet();
     let duration = 4.0 * whole / flow;
@@ -444,7 +444,7 @@ fn no_slivers_end_a_strand() {
 fn strands_lie_on_strands() {
     let line = Line::new(plan(CONCRETE, 0.02));
     let flow = 0.1 * line.plan().outlet();
-    let around = Around { surface: &Surface::default(), air: 300.0 };
+    let around = Around { surface: &Surface::default(), air: Trend::held(300.0) };
     let mut strand = line.start([0.0, 0.0, 0.02]);
     let first = along(4.0, (0.0, 0.02), 0.1, flow);
     line.advance(&mut strand, &[first], &around).unwrap();
@@ -472,7 +472,7 @@ fn strands_lie_on_strands() {
 #[test]
 fn impossible_motions_are_refused() {
     let line = Line::new(plan(WAX, 1e-3));
-    let around = Around { surface: &Surface::default(), air: 300.0 };
+    let around = Around { surface: &Surface::default(), air: Trend::held(300.0) };
     let refusal = |motion: Motion| {
         let mut strand = line.start([0.0; 3]);
         line.advance(&mut strand, &[motion], &around).unwrap_err().to_string()
@@ -497,7 +497,7 @@ fn deviations_converge_with_the_length_of_segments() {
         let line = Line::new(LinePlan { spacing, most: 1e-7, ..own });
         let target = Target::new(vec![[-0.02, -radius], [radius, -radius], [radius, 0.02]]);
         let mut strand = line.start([-straight, -radius, 0.8e-3]);
-        let around = Around { surface: &Surface::default(), air: 300.0 };
+        let around = Around { surface: &Surface::default(), air: Trend::held(300.0) };
         let (speed, flow) = (0.02, 1.5e-8);
         let mut motions = vec![along(straight / speed, (-straight, 0.8e-3), speed, flow)];
         motions[0].place[0][1] = -radius;

@@ -23,6 +23,7 @@ use super::plan::{DropletPlan, Release};
 use super::stepper::Stepper;
 use super::units::{density, pressure};
 use super::wall_points::WallPoints;
+use crate::inputs::Trend;
 use crate::port::WallExchange;
 use crate::port::{Surface, SurfaceResponse};
 use crate::runtime::allowance::Allowance;
@@ -59,7 +60,7 @@ struct Run<'a> {
     ledger: Ledger,
     points: Option<WallPoints<'a>>,
     /// Temperature of the air above the model's reference [K].
-    air: f64,
+    air: Trend,
     allowance: &'a Allowance,
 }
 
@@ -277,7 +278,8 @@ impl DropletSph {
         if let (Some(points), Some(heat)) = (&mut points, &method.wall_heat) {
             points.resistance = heat.resistance_above(&surface);
         }
-        let mut run = Run { method, team, cloud, ledger, points, air: 0.0, allowance };
+        let air = Trend::default();
+        let mut run = Run { method, team, cloud, ledger, points, air, allowance };
         steps(&mut run)?;
         let Run { team, mut cloud, mut ledger, points, .. } = run;
         let (temperature, time) = (self.coldest(&cloud), ledger.time);

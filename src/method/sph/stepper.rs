@@ -29,6 +29,7 @@ use super::pulls::{Bounded, balanced};
 use super::units::pressure;
 use super::viscous;
 use super::wall_points::WallPoints;
+use crate::inputs::Trend;
 use crate::runtime::allowance::Allowance;
 use crate::runtime::parallel::Team;
 
@@ -56,7 +57,7 @@ pub struct Stepper<'a, 'p> {
     /// Frozen fluid.
     frozen: Pieces,
     /// Temperature of the air above the reference [K], and whether free surfaces have been found.
-    pub air: f64,
+    pub air: Trend,
     exposed: bool,
     /// Velocities that held particles have lost, and whose impulse the wall has not received yet; empty where none was
     /// held.
@@ -99,7 +100,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
             free_surface: FreeSurface::default(),
             pending_kicks: Vec::new(),
             frozen: Pieces::NONE,
-            air: 0.0,
+            air: Trend::default(),
             exposed: false,
             stopped: Vec::new(),
         }
@@ -234,7 +235,9 @@ impl<'a, 'p> Stepper<'a, 'p> {
         self.drift_to_middle(dt);
         self.change_density_and_heat(dt);
         if let Some(cooling) = &self.method.cooling {
-            cooling.act(self.method, self.cloud, self.ledger, (dt, self.air));
+            let time = self.ledger.time;
+            let air = self.air.mean([time, time + dt * self.method.units.time()]);
+            cooling.act(self.method, self.cloud, self.ledger, (dt, air));
         }
         self.frozen.update(self.method, self.cloud);
         let times = match self.method.implicit {

@@ -41,7 +41,7 @@ fn laid(
             response: response.clone(),
             ..still(300.0, cells)
         };
-        let around = Around { surface: &surface, air };
+        let around = Around { surface: &surface, air: Trend::held(air) };
         let from = speed * step * n as f64;
         line.advance(&mut strand, &[along(step, (from, height * diameter), speed, flow)], &around)
             .unwrap();
@@ -89,7 +89,7 @@ fn widths_follow_closed_forms_at_any_speed() {
             let line = line_of(fluid, diameter, 0.5, false);
             let (mut strand, _) = laid(&line, ratio, (20.0, 1.0), (20, 340.0));
             let rest = Motion { flow: [0.0; 3], ..along(1e4, (0.0, 0.1), 0.0, 0.0) };
-            let around = Around { surface: &Surface::default(), air: 340.0 };
+            let around = Around { surface: &Surface::default(), air: Trend::held(340.0) };
             line.advance(&mut strand, &[rest], &around).unwrap();
             let section = line.plan().outlet() / ratio;
             let density = line.plan().fluid.density;
@@ -177,7 +177,7 @@ fn stops_do_not_depend_on_segments_or_steps() {
             let speed = PACE * diameter;
             let flow = speed * line.plan().outlet();
             let mut strand = line.start([0.0, 0.0, diameter]);
-            let around = Around { surface: &Surface::default(), air: 340.0 };
+            let around = Around { surface: &Surface::default(), air: Trend::held(340.0) };
             // Two seconds evenly, two slowing down, two at rest, and two evenly.
             let mut lay = |duration: f64, [from, speed, bend]: [f64; 3]| {
                 let step = duration / steps as f64;
@@ -217,7 +217,7 @@ fn slow_layers_are_stacked() {
         let line = line_of(fluid, 0.02, 0.5, false);
         let (speed, diameter) = (0.04, 0.02);
         let flow = speed / ratio * line.plan().outlet();
-        let around = Around { surface: &Surface::default(), air: 340.0 };
+        let around = Around { surface: &Surface::default(), air: Trend::held(340.0) };
         let mut strand = line.start([0.0, 0.0, 0.6 * diameter]);
         let mut counts = vec![0];
         for layer in 0..3 {
@@ -248,7 +248,7 @@ fn strands_over_seams_lie_on_both_sides() {
     let line = line_of(&stiff, 0.02, 0.5, false);
     let flow = 0.1 * line.plan().outlet();
     let width = line.plan().outlet() / 0.012;
-    let around = Around { surface: &Surface::default(), air: 340.0 };
+    let around = Around { surface: &Surface::default(), air: Trend::held(340.0) };
     for across in [false, true] {
         for (apart, shift, on_both) in [
             (1.0, 0.0, true),

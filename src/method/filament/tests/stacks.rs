@@ -46,7 +46,7 @@ fn stack(line: &Line, temperatures: &[f64]) -> Strand {
 
 /// Lets a stack rest on a plate; returns the heat that the plate receives [J/m²].
 fn rested(line: &Line, strand: &mut Strand, (duration, steps): (f64, usize)) -> f64 {
-    let around = Around { surface: &still(PLATE, 576), air: 300.0 };
+    let around = Around { surface: &still(PLATE, 576), air: Trend::held(300.0) };
     let rest = Motion { flow: [0.0; 3], ..along(duration / steps as f64, (0.0, 0.1), 0.0, 0.0) };
     for _ in 0..steps {
         line.advance(strand, &[rest], &around).unwrap();

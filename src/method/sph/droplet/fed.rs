@@ -1,7 +1,7 @@
 //! Fluid that comes from a nozzle.
 
 use super::{DropletSph, Run};
-use crate::inputs::Motion;
+use crate::inputs::{Motion, Trend};
 use crate::method::sph::cloud::{Cloud, Ledger, cloud_of, ledger_of};
 use crate::method::sph::failure::Failure;
 use crate::method::sph::feed::{ASLEEP, BY_NOZZLE, Column, FREE, Fed};
@@ -63,12 +63,12 @@ impl DropletSph {
         &self,
         state: &mut Vec<f64>,
         motions: &[Motion],
-        (surface, air): (&Surface, f64),
+        (surface, air): (&Surface, Trend),
         allowance: &Allowance,
     ) -> Result<Vec<f64>, Failure> {
         let duration = motions.iter().map(|motion| motion.duration).sum();
         self.advance_by(state, surface, duration, allowance, |run| {
-            run.air = air - self.reference_temperature();
+            run.air = air.above(self.reference_temperature());
             motions.iter().try_for_each(|motion| self.follow(run, motion))
         })
     }

@@ -54,7 +54,9 @@ impl DropletSph {
         }
         let all = duration / self.method.units.time();
         if let Some(cooling) = &self.method.cooling {
-            cooling.act(&self.method, rest, &mut run.ledger, (all, run.air));
+            let time = run.ledger.time;
+            let air = run.air.mean([time - duration, time]);
+            cooling.act(&self.method, rest, &mut run.ledger, (all, air));
         }
         let beside = held_beside(&run.cloud);
         let place = |n: usize| match n.checked_sub(rest.len()) {
