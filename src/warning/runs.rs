@@ -54,6 +54,10 @@ rules! {
     "fluid lies beyond the edge of the solid: it transfers no heat there, and its force, which does not act on the \
      solid, is counted apart as `force_outside`"; "enlarge the solid if its edge is not meant to be hit"
 
+    Step drop_is_late(time)
+    "the drop due at {time} s is not released then, nor are later ones, as fluid occupies its place: they wait until a \
+     communication step ends with that free"; "a larger `height` of the drops starts them above what rests on the wall"
+
     Build mesh_below_strand_is_large(strand, nodes, spacing, linear)
     "the mesh below the strand of `{strand}` has {nodes} nodes: a run takes minutes or hours";
     "{linear}limit where the strand is laid by a `[[target]]` or the `radius` of the coupling, or set a `mesh.spacing` \

@@ -71,6 +71,41 @@ fn drops_that_still_wait_at_the_end_are_warned_of() {
     assert!(found[0].to_string().contains("1 of 2 drops asked for are not released"), "{found:?}");
 }
 
+/// A drop of `arrivals` waits, too, while fluid that stays tall is where it starts, and a warning says so; it continues
+/// from a saved state.
+#[test]
+fn arrivals_wait_for_their_place() {
+    let text = |height: &str| {
+        let keys = "gravity = 9.81\narrivals = [{ time = 0.0 }, { time = 0.03 }]\n[[wall]]\nname = \"wall\"\nunder = \
+                    \"drop\"\nfootprint.rings = { count = 5, radius = 4e-3 }";
+        format!(
+            "name = \"Pile\"\nstop_time = 0.06\nstep = 5e-3\n[body.drop]\nkind = \"droplet\"\ndiameter = 2e-3\n\
+             impact_velocity = 0.1\ninitial_temperature = 300.0\nspacing = 0.2e-3\nheight = {height}\nfluid = {{ density = \
+             1200.0, viscosity = 0.3, specific_heat = 2400.0, conductivity = 0.0, surface_tension = 0.06, contact_angle = \
+             2.4 }}\n{keys}\n"
+        )
+    };
+    let mass = PI / 6.0 * 2e-3_f64.powi(3) * 1200.0;
+    for (height, released) in [("1e-3", 1.0), ("4e-3", 2.0)] {
+        let mut trial = Trial::new(&text(height));
+        (0..12).for_each(|_| trial.step(5e-3));
+        assert!(off(trial.get("drop.mass"), released * mass) < 1e-9, "{height}");
+        assert!(trial.get("drop.max_density") < 1.1 * 1200.0, "{height}");
+        let said = trial.model.warnings(&trial.state);
+        let late: Vec<_> = said.iter().map(|one| one.to_string()).collect();
+        let is_told = late.iter().any(|one| one.contains("the drop due at 0.03 s is not released"));
+        assert_eq!(is_told, released == 1.0, "{late:?}");
+        trial.model.check_state(&trial.state).unwrap();
+    }
+    // Without the fluid in its way no run makes it wait.
+    let mut trial = Trial::new(&text("4e-3"));
+    (0..5).for_each(|_| trial.step(5e-3));
+    let mut forged = trial.state.clone();
+    forged.bodies[0][0] = 0.035;
+    let refusal = trial.model.check_state(&forged).unwrap_err().to_string();
+    assert!(refusal.contains("1 drops released, where 2 are due"), "{refusal}");
+}
+
 #[test]
 fn drops_on_demand_are_those_of_arrivals_to_the_bit() {
     let arrivals =

@@ -92,7 +92,9 @@ impl Advice for DropletBody {
     fn warnings(&self, state: &[f64], occasion: Occasion) -> Vec<Warning> {
         let found = match occasion {
             Occasion::Step => {
-                self.overflows(state).then(warning::fluid_beyond_edge).into_iter().collect()
+                let late = self.droplet.late_release(state).map(warning::drop_is_late);
+                let beyond = self.overflows(state).then(warning::fluid_beyond_edge);
+                beyond.into_iter().chain(late).collect()
             }
             Occasion::Response { before, now } => {
                 self.held_wall(state, before, now).into_iter().collect()

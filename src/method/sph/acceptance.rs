@@ -25,24 +25,29 @@ const LARGEST_STRESS: f64 = 1e3;
 
 /// Returns the reason why a state must not be loaded: the particle loops cannot process it, or no
 /// run leads to it. `coldest` returns the lowest temperature [K] of a cloud, `released` the
-/// particles after a number of releases.
+/// particles after a number of releases, and `waits` whether fluid occupies the place of the next
+/// one.
 pub fn check(
     state: &[f64],
     (plan, method, head): (&DropletPlan, &Method, HeadNumbers),
     column: Option<&Column>,
     coldest: impl Fn(&Cloud) -> f64,
     released: impl Fn(usize) -> Released,
+    waits: impl Fn(&Cloud, usize) -> bool,
 ) -> Result<(), String> {
     let Some(count) = particles_in(state, head) else {
         return Err(format!("{} unknowns, which fit no number of particles", state.len()));
     };
-    let drops = check_head(&state[..head_len(head)], (plan, method, head), column)?;
+    let [drops, due] = check_head(&state[..head_len(head)], (plan, method, head), column)?;
     let expected = released(drops);
     if count != expected.particles || count > Source::MOST {
         let expected = expected.particles;
         return Err(format!("{count} particles, where {drops} drops have {expected}"));
     }
     let cloud = cloud_of(state, head, &Team::new(1));
+    if drops < due && !waits(&cloud, drops) {
+        return Err(format!("{drops} drops released, where {due} are due and have room"));
+    }
     check_masses(&cloud, expected)?;
     let coldest = coldest(&cloud);
     if coldest <= 0.0 {
@@ -79,12 +84,12 @@ pub fn check(
     }
 }
 
-/// Refuses a ledger that contradicts itself or the plan; returns the number of released drops.
+/// Refuses a ledger that contradicts itself or the plan; returns the numbers of drops that are released and due.
 fn check_head(
     numbers: &[f64],
     (plan, method, head): (&DropletPlan, &Method, HeadNumbers),
     column: Option<&Column>,
-) -> Result<usize, String> {
+) -> Result<[usize; 2], String> {
     let [time, drops] = [numbers[0], numbers[1]];
     let ledger = ledger_of(numbers, head);
     if let (Some(column), Some(fed)) = (column, &ledger.fed) {
@@ -98,7 +103,7 @@ fn check_head(
         }
         _ => plan.releases.iter().take_while(|release| release.time <= time).count(),
     };
-    if drops != due as f64 {
+    if !(0.0..=due as f64).contains(&drops) || drops.fract() != 0.0 {
         return Err(format!("{drops} drops released, where {due} are due at {time} s"));
     }
     let numbers = [
@@ -113,7 +118,7 @@ fn check_head(
     ];
     match numbers.into_iter().find(|&(_, number)| number < 0.0) {
         Some((what, number)) => Err(format!("{what} of {number}, which is below zero")),
-        None => Ok(due),
+        None => Ok([drops as usize, due]),
     }
 }
 

@@ -166,7 +166,8 @@ impl DropletSph {
         let released = |drops: usize| self.released_after(drops);
         let coldest = |cloud: &Cloud| self.coldest(cloud);
         let model = (&self.plan, &self.method, self.head());
-        acceptance::check(state, model, self.column.as_ref(), coldest, released)
+        let waits = |cloud: &Cloud, next: usize| !self.is_clear(cloud, &self.plan.releases[next]);
+        acceptance::check(state, model, self.column.as_ref(), coldest, released, waits)
     }
 
     fn released_after(&self, drops: usize) -> Released {
@@ -242,6 +243,8 @@ impl DropletSph {
             let end = run.ledger.time + duration;
             while run.ledger.time < end {
                 let due = self.plan.releases.get(run.ledger.released as usize);
+                // One that is due waits until the end.
+                let due = due.filter(|release| release.time > run.ledger.time);
                 let next = due.map_or(end, |release| release.time.min(end));
                 let rest = next - run.ledger.time;
                 if rest > 0.0 {
@@ -417,12 +420,11 @@ impl DropletSph {
         cloud_of(state, self.head(), &Team::new(1))
     }
 
-    /// Adds all droplets whose release time has been reached; returns true if there are any.
+    /// Adds all droplets whose release time has been reached, up to the first whose place fluid
+    /// occupies; returns true if there are any.
     fn release(&self, ledger: &mut Ledger, cloud: &mut Cloud) -> Result<bool, Failure> {
         let before = cloud.len();
-        while let Some(release) =
-            self.plan.releases.get(ledger.released as usize).filter(|r| r.time <= ledger.time)
-        {
+        while let Some(release) = self.next_due(ledger).filter(|r| self.is_clear(cloud, r)) {
             self.add(release, ledger, cloud);
             ledger.released += 1.0;
         }
@@ -430,6 +432,18 @@ impl DropletSph {
             self.prime(ledger, cloud)?;
         }
         Ok(cloud.len() > before)
+    }
+
+    /// The next of the plan's drops, if its time has been reached.
+    fn next_due(&self, ledger: &Ledger) -> Option<&Release> {
+        let next = self.plan.releases.get(ledger.released as usize);
+        next.filter(|release| release.time <= ledger.time)
+    }
+
+    /// Release time of the plan's drop that waits because fluid occupies its place [s].
+    pub fn late_release(&self, state: &[f64]) -> Option<f64> {
+        let ledger = ledger_of(state, self.head());
+        self.next_due(&ledger).map(|release| release.time)
     }
 
     fn prime(&self, ledger: &mut Ledger, cloud: &mut Cloud) -> Result<(), Failure> {

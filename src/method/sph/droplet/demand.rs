@@ -79,8 +79,18 @@ impl DropletSph {
     /// Returns true if no particle occupies the start position of a drop. Images need no check: the
     /// drop stands on the mirrors, so they are as far from it as their originals.
     fn is_free(&self, cloud: &Cloud, drop: &Release) -> bool {
+        self.is_apart(cloud, drop, CLEARANCE * self.plan.spacing)
+    }
+
+    /// Returns true if no particle is within a drop at its start: drops of a plan may touch there.
+    pub(super) fn is_clear(&self, cloud: &Cloud, drop: &Release) -> bool {
+        self.is_apart(cloud, drop, 0.0)
+    }
+
+    /// Returns true if no particle is nearer to the surface of a drop that starts than a distance [m], or within it.
+    fn is_apart(&self, cloud: &Cloud, drop: &Release, distance: f64) -> bool {
         let length = self.method.units.length;
-        let radius = (0.5 * drop.diameter + CLEARANCE * self.plan.spacing) / length;
+        let radius = (0.5 * drop.diameter + distance) / length;
         let centre = drop.centre.map(|x| x / length);
         let is_apart = |x: &[f64; 3]| {
             let square: f64 = x.iter().zip(centre).map(|(x, c)| (x - c).powi(2)).sum();
