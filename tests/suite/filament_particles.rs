@@ -338,6 +338,23 @@ fn jets_of_paths_are_noted() {
     assert_eq!([is_jet("1e-6"), is_jet("1e-8")], [[true; 2], [false; 2]]);
 }
 
+/// A yield stress that bears nothing holds nothing: such a strand spreads on as one without, at the rate to which both
+/// solvers resolve it.
+#[test]
+fn faint_yield_stresses_hold_nothing() {
+    let long = STILL.replace("0.2, 1.0, 2.0", "0.2, 30.0, 31.0");
+    let grown = |law: &str| {
+        let mut trial = Trial::new(&bead(law, &long));
+        trial.step(1.0);
+        let before = trial.get("ink.width");
+        trial.step(2.0);
+        trial.get("ink.width") - before
+    };
+    let faint = grown("{ law = \"bingham\", yield_stress = 1e-3, plastic_viscosity = 20.0 }");
+    let none = grown("20.0");
+    assert!((0.8..1.4).contains(&(faint / none)), "{faint} m, {none} m");
+}
+
 /// Wax that freezes on a cold plate comes to rest there, and continues to the bit from a state in between.
 #[test]
 fn wax_freezes_and_rests() {

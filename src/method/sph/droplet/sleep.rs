@@ -1,10 +1,10 @@
 //! Fluid of a strand that rests, and takes no part in steps.
 //!
-//! Fluid with a yield stress comes to rest for good, and so does what freezes. In cubes as wide as the kernel reaches, particles are awake up to
-//! two cubes from any that moves faster than a limit, or is in the nozzle. Those up to four cubes away are held at
-//! rest: awake ones see all of their neighbours, and sound pressures and fits besides. The others leave the cloud of a
-//! step, so that its cost follows what moves. Their weight passes to the wall below them; their heat goes on, see
-//! [`resting`](super::resting).
+//! Fluid with a yield stress comes to rest for good, and so does what freezes. In cubes as wide as the kernel reaches,
+//! particles are awake up to two cubes from any that moves faster than a limit, bears more than its yield stress, or is
+//! in the nozzle. Those up to four cubes away are held at rest: awake ones see all of their neighbours, and sound
+//! pressures and fits besides. The others leave the cloud of a step, so that its cost follows what moves. Their weight
+//! passes to the wall below them; their heat goes on, see [`resting`](super::resting).
 //!
 //! Places and speeds at the beginning of each part of a step decide which particles sleep, so that fluid which arrives
 //! beside a sleeping strand wakes it.
@@ -18,6 +18,8 @@ use crate::method::sph::frozen::RIGID;
 
 /// Speed below which fluid rests, over the expected fastest one.
 const REST: f64 = 2e-3;
+/// Stress over the yield stress up to which slow fluid rests: it falls towards the yield stress as fluid spreads.
+const BORNE: f64 = 1.01;
 /// Distance in cubes from fluid that moves, up to which fluid is awake, and up to which it is held in the cloud.
 const AWAKE: i32 = 2;
 const HELD: i32 = 4;
@@ -58,7 +60,7 @@ impl DropletSph {
         rest
     }
 
-    /// Cubes that hold a particle which moves, one in the nozzle, or fluid that flows under any stress.
+    /// Cubes that hold a particle which moves, one in the nozzle, or fluid that flows under its stress.
     fn moving_cubes(&self, cloud: &Cloud) -> HashSet<Cube> {
         let fastest = self.plan.feed.map_or(0.0, |feed| feed.fastest);
         let limit = REST * fastest / self.method.units.speed;
@@ -70,11 +72,14 @@ impl DropletSph {
         (0..cloud.len()).filter(moves).map(|i| cube(&cloud.position[i])).collect()
     }
 
-    /// Returns true if a particle has neither a yield stress nor is frozen.
+    /// Returns true if a particle is not frozen, and has no yield stress or bears more than it.
     fn flows(&self, cloud: &Cloud, i: usize) -> bool {
         let content = cloud.contents()[i];
         let frozen = self.method.phases.map_or(0.0, |phases| phases.frozen(content));
-        self.method.flow.yield_stress() == 0.0 && frozen < RIGID
+        let borne = BORNE * self.method.flow.yield_stress();
+        let stress = cloud.stress.as_ref().map_or([0.0; 6], |stresses| stresses[i]);
+        let is_borne = borne > 0.0 && stress.iter().map(|s| s * s).sum::<f64>() <= borne * borne;
+        !is_borne && frozen < RIGID
     }
 
     /// Stops a particle; the wall receives its momentum.
