@@ -355,6 +355,29 @@ fn faint_yield_stresses_hold_nothing() {
     assert!((0.8..1.4).contains(&(faint / none)), "{faint} m, {none} m");
 }
 
+/// Fluid at rest gives the plate as much heat in long exchanges as in short ones.
+#[test]
+fn heat_of_fluid_at_rest_does_not_follow_the_interval() {
+    let heat = |interval: f64| {
+        // The plate takes all heat: its own response does not follow the interval.
+        let text = bead(PASTE, &STILL.replace("0.2, 1.0, 2.0", "0.2, 5.0, 6.0"))
+            .replace("conductivity = 0.0", "conductivity = 20.0")
+            + &format!(
+                "convection = {{ coefficient = 100.0, ambient = 293.15 }}\n[body.plate]\nkind = \"solid\"\nshape = {{ box = \
+                 [8e-3, 8e-3, 2e-3] }}\nmaterial = {{ model = \"thermoelastic\", density = 9e3, specific_heat = 4e4, \
+                 conductivity = 4e4 }}\ninitial_temperature = 293.15\nmesh = {{ spacing = 1e-3 }}\n[[coupling]]\nfrom = \
+                 \"ink\"\nto = \"plate.top\"\ntraction = false\ninterval = {interval}\n"
+            );
+        let mut trial = Trial::new(&text);
+        (0..2).for_each(|_| trial.step(0.25));
+        ["heat", "heat_lost"].map(|key| trial.get(&format!("ink.{key}")))
+    };
+    let [usual, long] = [0.01, 0.25].map(heat);
+    for (long, usual) in long.iter().zip(usual) {
+        assert!((long / usual - 1.0).abs() < 0.05, "{long} J, {usual} J");
+    }
+}
+
 /// Wax that freezes on a cold plate comes to rest there, and continues to the bit from a state in between.
 #[test]
 fn wax_freezes_and_rests() {

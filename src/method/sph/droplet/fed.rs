@@ -151,22 +151,38 @@ impl DropletSph {
             // Too fast in the mean is too fast somewhere; too many parts to count may lie between.
             self.check_speed(self.velocity(motion, [ends[0], ends[1]]), start + ends[0])?;
         }
-        for [from, to] in self.parts(&passages, motion) {
-            let end = motion.outlet(to);
-            let velocity = self.velocity(motion, [from, to]);
-            self.check_speed(velocity, run.ledger.time)?;
-            self.drive_column(run, velocity, motion.temperature_at(0.5 * (from + to)));
-            let mut rest = self.put_to_sleep(run, to - from);
-            self.lay_on_wall(run, &rest);
-            run.advance(to - from)?;
-            self.warm_resting(run, &mut rest, to - from)?;
-            run.cloud.append(rest);
-            run.ledger.time = start + to;
-            let now = fed(&mut run.ledger);
-            (now.nozzle, now.volume) = (end, before.volume + motion.volume(to));
-            self.pass_layers(run, velocity, motion.temperature_at(to));
+        for [mut from, last] in self.parts(&passages, motion) {
+            while from < last {
+                from = self.follow_part(run, (motion, start, before.volume), [from, last])?;
+            }
         }
         Ok(())
+    }
+
+    /// Follows a motion, which began at a time [s] and after a volume [m³], from a time of it on at most to another
+    /// [s]; returns the time that it reaches. The nozzle moves evenly.
+    fn follow_part(
+        &self,
+        run: &mut Run,
+        (motion, start, before): (&Motion, f64, f64),
+        [from, last]: [f64; 2],
+    ) -> Result<f64, Failure> {
+        let mut rest = self.put_to_sleep(run);
+        let count = ((last - from) / self.longest_part(&rest)).ceil();
+        let to = if count > 1.0 { from + (last - from) / count } else { last };
+        let velocity = self.velocity(motion, [from, to]);
+        self.check_speed(velocity, run.ledger.time)?;
+        self.drive_column(run, velocity, motion.temperature_at(0.5 * (from + to)));
+        self.weigh(run, &rest, to - from);
+        self.lay_on_wall(run, &rest);
+        run.advance(to - from)?;
+        self.warm_resting(run, &mut rest, to - from)?;
+        run.cloud.append(rest);
+        run.ledger.time = start + to;
+        let now = fed(&mut run.ledger);
+        (now.nozzle, now.volume) = (motion.outlet(to), before + motion.volume(to));
+        self.pass_layers(run, velocity, motion.temperature_at(to));
+        Ok(to)
     }
 
     /// Mean velocity of the column between two times of a motion [m/s].

@@ -1,9 +1,9 @@
 //! Heat of fluid at rest, which takes no part in steps of the flow.
 //!
 //! The wall exchanges heat with it in each of these steps, as with all fluid. Conduction within it and to the fluid
-//! that is held beside it, and its heat to the air, follow for the time by which the flow has advanced, in explicit steps. Each pair of
-//! particles counts once, in the flow or here, so that heat is conserved; the split has the first order of the time
-//! in which a layer passes the outlet.
+//! that is held beside it, and its heat to the air, follow for the time by which the flow has advanced, in explicit
+//! steps. Each pair of particles counts once, in the flow or here, so that heat is conserved; the split has the first
+//! order of that time, which is at most a step of conduction: fluid at the wall that waits longer is as cold as that.
 
 use super::{DropletSph, Run};
 use crate::method::sph::cloud::Cloud;
@@ -16,6 +16,14 @@ use crate::method::sph::stepper::conducting;
 use crate::method::sph::wall_heat::Touching;
 
 impl DropletSph {
+    /// Longest time for which the flow may advance before heat of fluid outside its cloud does [s].
+    pub(super) fn longest_part(&self, rest: &Cloud) -> f64 {
+        match rest.len() > 0 && self.method.conduction > 0.0 {
+            true => self.method.conductive_step() * self.method.units.time(),
+            false => f64::INFINITY,
+        }
+    }
+
     /// Names fluid outside the cloud of a run to the wall that it touches.
     pub(super) fn lay_on_wall(&self, run: &mut Run, rest: &Cloud) {
         let (Some(points), Some(heat)) = (&mut run.points, &self.method.wall_heat) else { return };

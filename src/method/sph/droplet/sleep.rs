@@ -32,8 +32,8 @@ impl DropletSph {
         self.method.flow.yield_stress() > 0.0 || self.method.phases.is_some()
     }
 
-    /// Takes particles that rest out of the cloud of a run, for a time [s] in which the others advance.
-    pub(super) fn put_to_sleep(&self, run: &mut Run, duration: f64) -> Cloud {
+    /// Takes particles that rest out of the cloud of a run, while the others advance.
+    pub(super) fn put_to_sleep(&self, run: &mut Run) -> Cloud {
         if !self.may_sleep() {
             return Cloud::none(self.head());
         }
@@ -55,9 +55,7 @@ impl DropletSph {
         if others.is_empty() {
             return Cloud::none(self.head());
         }
-        let rest = run.cloud.keep(&kept, &others, &run.team);
-        self.weigh(run, &rest, duration);
-        rest
+        run.cloud.keep(&kept, &others, &run.team)
     }
 
     /// Cubes that hold a particle which moves, one in the nozzle, or fluid that flows under its stress.
@@ -96,7 +94,7 @@ impl DropletSph {
     }
 
     /// Passes the weight of particles outside the cloud to the wall for a time [s].
-    fn weigh(&self, run: &mut Run, rest: &Cloud, duration: f64) {
+    pub(super) fn weigh(&self, run: &mut Run, rest: &Cloud, duration: f64) {
         for (x, mass) in rest.position.iter().zip(&rest.mass) {
             let mass = self.method.units.mass() * mass;
             let impulse = self.plan.gravity.map(|g| mass * g * duration);
