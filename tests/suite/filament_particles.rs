@@ -323,6 +323,29 @@ fn strands_know_only_what_is_laid() {
     assert!(trial.get("ink.max_speed") > 0.0);
 }
 
+/// Widths of a short bead of paste depend on the distance of particles and on the speed of sound, as `docs/scene.md`
+/// says: at 4 across, by default, at 1.4 m/s and at 30 m/s, and at 6 across.
+#[test]
+fn widths_of_paste_depend_on_spacing_and_sound() {
+    let width = |spacing: &str, sound: &str| {
+        let text = bead(PASTE, STILL).replace("0.25e-3", spacing);
+        let text = text.replace("conductivity = 0.0", &format!("conductivity = 0.0{sound}"));
+        let mut trial = Trial::new(&text);
+        (0..5).for_each(|_| trial.step(0.05));
+        1e3 * trial.get("ink.width")
+    };
+    let widths = [
+        width("0.25e-3", ""),
+        width("0.25e-3", ", sound_speed = 1.4"),
+        width("0.25e-3", ", sound_speed = 30.0"),
+        width("0.1667e-3", ""),
+    ];
+    println!("widths of paste: {widths:.3?} mm");
+    for (found, wanted) in widths.iter().zip([1.746, 1.417, 1.857, 1.559]) {
+        assert!((found / wanted - 1.0).abs() < 0.02, "{widths:?} mm");
+    }
+}
+
 /// A jet is noted where the path sets the flow, too.
 #[test]
 fn jets_of_paths_are_noted() {
