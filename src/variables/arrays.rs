@@ -234,7 +234,7 @@ fn cells(family: &CellFamily, list: &mut Vec<ArrayVariable>) {
     let CellFamily { name, count, area, inner, outer, x, y, .. } = family;
     let at_start = if family.kind == "load" { ", at the start" } else { "" };
     for (key, words, quantity, values) in [
-        ("cell_area", "what the value 1 brings on each cell", Quantity::Area, area),
+        ("cell_area", "what the value 1 per area brings on each cell", Quantity::Area, area),
         ("cell_inner", "inner radius of each cell", Quantity::Length, inner),
         ("cell_outer", "outer radius of each cell", Quantity::Length, outer),
         ("cell_x", "x of the middle of each cell", Quantity::Length, x),

@@ -4,7 +4,7 @@ from math import exp, pi, sqrt
 
 import numpy as np
 import pytest
-from impinge import Connection, Master, StepDiscarded, Unit
+from impinge import Connection, Function, Master, StepDiscarded, Unit
 from impinge.master import Bond, Graded, MasterError, MasterWarning
 from linear_unit import make
 
@@ -288,6 +288,21 @@ def test_a_count_of_energy_agrees_with_the_paths_that_were_set(pack, folder):
                 result = master.run(1e-4)
             assert result["energy_passed.law.y"].values[-1] > 1e-8
             assert result.attrs["energy_residual.law.y"] < 1e-9
+
+
+def test_a_power_is_multiplied_by_no_area(pack):
+    """A load that carries watts takes them whole, wherever its cells have areas."""
+    patch = "footprint = { tiles = { count = [2, 3], size = [1.1e-4, 0.9e-4] } }"
+    watts = {
+        patch: "footprint = { disc = { radius = 1e-4 } }",
+        'carries = ["heat_flux", "pressure", "shear"]': 'carries = ["power"]',
+    }
+    law = Function(lambda u: 3e-3 + 0.0 * u, {"u": "K"}, {"y": "W"})
+    links = [("plate.centre.temperature", "law.u"), ("law.y", "plate.patch.power")]
+    options = {"step": 1e-5, "energy": ["law.y"]}
+    with Master({"law": law, "plate": pack("tiles", watts)}, links, **options) as master:
+        passed = master.run(1e-4)["energy_passed.law.y"].values[-1]
+    assert passed == pytest.approx(3e-7, rel=1e-9)
 
 
 LAW = {"d": -4e3, "e": 4e3 * 350.0}

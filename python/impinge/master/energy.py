@@ -27,8 +27,8 @@ class Bond:
     flux: the output that is passed on, such as a heat flux [W/m²] or a force [N].
     effort: the output that the other unit gives back, such as a velocity [m/s], whose product with
         the flux is the power; None where the flux itself is one, as of heat.
-    area: by which the flux is multiplied [m²]; of each cell for families. Read from the cells of
-        either unit if left out, else 1.
+    area: by which the flux is multiplied [m²]; of each cell for families. If left out it is read
+        from the cells of either unit, and 1 where there are none or the flux is no power per area.
     total: an output that counts the energy [J] that has left the source or come to the target: it
         knows what happened within steps. Without it, fluxes between the ends of a step are taken
         to follow the polynomial through what the source says at these.
@@ -64,9 +64,9 @@ class Balance:
         if given.effort is not None:
             if not _is_temperature(given.effort, units):  # a heat flux is a power by itself
                 self.effort = _link(given.effort, links)
-        _check(given, self.link, self.effort, units)
+        power = _check(given, self.link, self.effort, units)
         ends = [self.link] if self.effort is None else [self.link, self.effort]
-        self.area = _area(given, self.link, units) * prod(_factor(k, units) for k in ends)
+        self.area = _area(given, power, self.link, units) * prod(_factor(k, units) for k in ends)
         self._total = None
         if given.total is not None:
             unit, variable = split(given.total, units)
@@ -143,9 +143,11 @@ def _link(name: str, links: list[Link]) -> Link:
     raise MasterError(f"energy: {name} is the end of no connection")
 
 
-def _check(given: Bond, link: Link, effort: Link | None, units: Mapping[str, AnyUnit]) -> None:
+def _check(
+    given: Bond, link: Link, effort: Link | None, units: Mapping[str, AnyUnit]
+) -> np.ndarray | None:
     """Refuses what is no power, or none per area, length or volume, as far as units of measurement
-    are known; and a total that is no energy."""
+    are known; and a total that is no energy. Returns the exponents of the power where known."""
     found = _exponents(given.flux, units, link)
     if given.effort is not None and effort is not None:
         other = _exponents(given.effort, units, effort)
@@ -159,6 +161,7 @@ def _check(given: Bond, link: Link, effort: Link | None, units: Mapping[str, Any
     total = None if given.total is None else _exponents(given.total, units)
     if total is not None and (any(total[_NOT_M] != _ENERGY) or total[1] != 2):
         raise MasterError(f"energy: the total {given.total} is in {_written(total)}, not in J")
+    return found
 
 
 def _exponents(
@@ -194,9 +197,13 @@ def _written(found: np.ndarray) -> str:
     )
 
 
-def _area(given: Bond, link: Link, units: Mapping[str, AnyUnit]) -> np.ndarray:
+def _area(
+    given: Bond, power: np.ndarray | None, link: Link, units: Mapping[str, AnyUnit]
+) -> np.ndarray:
     if given.area is not None:
         return np.broadcast_to(np.asarray(given.area, float).ravel(), (link.size,))
+    if power is not None and power[1] != 0:  # of the whole cell, or per length or volume
+        return np.ones(link.size)
     for unit, variable in ((link.target_unit, link.target), (link.source_unit, link.source)):
         try:
             return np.asarray(units[unit].cells(variable)["area"], float).ravel()
