@@ -12,6 +12,10 @@ const PASSED_OVER: [&str; 34] = [
     "M110", "M115", "M117", "M118", "M140", "M141", "M155", "M190", "M191", "M201", "M203", "M204",
     "M205", "M220S100", "M221S100", "M300", "M400", "M486", "M572", "M593", "M900", "T0",
 ];
+/// Codes whose rest of the line is text: messages, names of jobs and of objects.
+const MESSAGES: [&str; 4] = ["M75", "M117", "M118", "M486"];
+/// Words of moves, which belong to no code that is passed over beside a code that is obeyed.
+const OF_MOVES: &str = "XYZEFIJ";
 const UNDERSTOOD: &str = "G0, G1, G2 and G3 with I and J, G4, G20, G21, G90, G91, G92, M82, M83; codes of temperatures, fans and messages";
 /// Metres of a millimetre and of an inch.
 const MILLIMETRE: f64 = 1e-3;
@@ -23,6 +27,9 @@ const MOST_CHORDS: f64 = 3600.0;
 const ROUND: f64 = 0.01;
 /// Radii that differ by less are equal [m].
 const LEAST: f64 = 2e-5;
+/// Rounding of places [m], and that of lengths of filament, over the length.
+const STILL: f64 = 1e-13;
+const NO_FEED: f64 = 1e-10;
 
 /// Letters and numbers of a line.
 type Words = Vec<(char, f64)>;
@@ -93,6 +100,11 @@ fn bare(line: &str) -> Result<String, Refusal> {
     if depth == 0 { Ok(text) } else { Err(unbalanced('(')) }
 }
 
+/// Number that follows a letter.
+fn word(values: &Words, letter: char) -> Option<f64> {
+    values.iter().find(|(own, _)| *own == letter).map(|word| word.1)
+}
+
 fn unbalanced(bracket: char) -> Refusal {
     let message = format!("the bracket `{bracket}` of a comment has no counterpart");
     (message, "comments as in G1 X10 (wall), or after a semicolon".to_owned())
@@ -126,14 +138,10 @@ fn words_of(line: &str) -> Result<Words, Refusal> {
 impl Machine<'_> {
     fn read(&mut self, line: &str) -> Result<(), Refusal> {
         // Messages may contain any brackets.
-        if is_passed_over(line) {
+        if begins_with(line, &MESSAGES) {
             return Ok(());
         }
-        let line = bare(line)?;
-        if is_passed_over(&line) {
-            return Ok(());
-        }
-        let words = words_of(&line)?;
+        let words = words_of(&obeyed(&bare(line)?)?)?;
         let is_code = |&&(letter, _): &&(char, f64)| matches!(letter, 'G' | 'M' | 'T');
         let codes: Vec<_> = words.iter().filter(is_code).copied().collect();
         let values: Words = words.iter().filter(|word| !is_code(word)).copied().collect();
@@ -206,13 +214,14 @@ impl Machine<'_> {
 
     /// Volume that the word E of a line lets come [m³], and the length that it moves the filament [m].
     fn feed(&mut self, values: &Words) -> [f64; 2] {
-        let Some(&(_, value)) = values.iter().find(|(letter, _)| *letter == 'E') else {
-            return [0.0; 2];
-        };
+        let Some(value) = word(values, 'E') else { return [0.0; 2] };
         let to = value * self.unit;
-        let length = if self.feeds_relative { to } else { to - self.fed };
-        self.fed += length;
-        let comes = (length - self.drawn_back).max(0.0);
+        let (length, fed) = match self.feeds_relative {
+            true => (to, self.fed + to),
+            false => (above_rounding(to - self.fed, to), to),
+        };
+        self.fed = fed;
+        let comes = above_rounding(length - self.drawn_back, self.drawn_back).max(0.0);
         self.drawn_back = (self.drawn_back - length).max(0.0);
         let section = FRAC_PI_4 * self.settings.filament_diameter.powi(2);
         [section * comes, length.abs()]
@@ -223,7 +232,7 @@ impl Machine<'_> {
             let message = format!("`{letter}` is no word of this command");
             return Err((message, known.chars().map(String::from).collect::<Vec<_>>().join(", ")));
         }
-        if let Some(&(_, speed)) = values.iter().find(|(letter, _)| *letter == 'F') {
+        if let Some(speed) = word(values, 'F') {
             if speed <= 0.0 {
                 let message = "the speed F is not above zero".to_owned();
                 return Err((message, "F in units of length per minute".to_owned()));
@@ -259,7 +268,12 @@ impl Machine<'_> {
             };
         };
         let from = [from_x, from_y, from_z.unwrap_or(self.height)];
-        let to = [0, 1, 2].map(|axis| end[axis].unwrap_or(from[axis]));
+        let is_still =
+            |axis: usize, to: f64| (to - from[axis]).abs() <= STILL * from[axis].abs().max(1.0);
+        let to = [0, 1, 2].map(|axis| match end[axis] {
+            Some(to) if !is_still(axis, to) => to,
+            _ => from[axis],
+        });
         self.place = to.map(Some);
         if to != from {
             let speed = self.speed()?;
@@ -273,7 +287,7 @@ impl Machine<'_> {
 
     /// An arc around a centre that I and J set from its beginning, as chords.
     fn arc(&mut self, values: &Words, is_clockwise: bool) -> Result<(), Refusal> {
-        let find = |letter: char| values.iter().find(|(own, _)| *own == letter).map(|word| word.1);
+        let find = |letter: char| word(values, letter);
         if find('R').is_some() || (find('I').is_none() && find('J').is_none()) {
             let message = "an arc is understood by its centre, I and J".to_owned();
             return Err((
@@ -322,9 +336,9 @@ impl Machine<'_> {
 
     fn dwell(&mut self, values: &Words) -> Result<(), Refusal> {
         self.check_words(values, "PS")?;
-        let seconds =
-            |&(letter, value): &(char, f64)| if letter == 'P' { 1e-3 * value } else { value };
-        let duration: f64 = values.iter().map(seconds).sum();
+        let find = |letter: char| word(values, letter);
+        // Seconds take precedence, as in common firmware.
+        let duration = find('S').or_else(|| Some(1e-3 * find('P')?)).unwrap_or(0.0);
         if duration < 0.0 {
             let message = "the nozzle rests for a negative time".to_owned();
             return Err((message, "P in ms or S in s".to_owned()));
@@ -357,15 +371,50 @@ impl Machine<'_> {
     }
 }
 
-/// Returns true if a line has no effect on motion and flow; messages need not consist of words.
-fn is_passed_over(line: &str) -> bool {
+/// Returns a change of a length, or zero if it is due to rounding.
+fn above_rounding(change: f64, length: f64) -> f64 {
+    if change.abs() <= NO_FEED * length.abs() { 0.0 } else { change }
+}
+
+/// Returns the line without codes that have no effect on motion and flow, with their words up to the next code. Those
+/// need not be numbers, and messages take the rest of the line.
+fn obeyed(line: &str) -> Result<String, Refusal> {
+    let parts = parts_of(line);
+    let before = parts.iter().take_while(|part| !begins_with(part, &MESSAGES));
+    let (passed, kept): (Vec<&str>, Vec<&str>) =
+        before.partition(|part| begins_with(part, &PASSED_OVER));
+    let is_obeyed = kept.iter().any(|part| part.starts_with(['G', 'g', 'M', 'm']));
+    for part in passed.iter().filter(|_| is_obeyed) {
+        let is_of_move = |letter: &char| OF_MOVES.contains(letter.to_ascii_uppercase());
+        if let Some(letter) = part.chars().find(is_of_move) {
+            let message =
+                format!("`{letter}` stands behind `{}`, which moves nothing", part.trim());
+            return Err((message, "codes in lines of their own".to_owned()));
+        }
+    }
+    Ok(kept.concat())
+}
+
+/// Parts of a line, each of which begins with a code, and what stands before the first one.
+fn parts_of(line: &str) -> Vec<&str> {
+    let is_number = |c: char| c.is_ascii_digit() || "+-.".contains(c);
+    let codes = line.char_indices().filter(|&(place, letter)| {
+        "GMgm".contains(letter) && line[place + 1..].trim_start().starts_with(is_number)
+    });
+    let starts: Vec<usize> = [0].into_iter().chain(codes.map(|(place, _)| place)).collect();
+    let ends = starts[1..].iter().copied().chain([line.len()]);
+    starts.iter().zip(ends).map(|(&start, end)| &line[start..end]).collect()
+}
+
+/// Returns true if a line begins with one of these codes, behind its number.
+fn begins_with(line: &str, codes: &[&str]) -> bool {
     let line = line.trim();
     let line = match line.strip_prefix(['N', 'n']) {
         Some(rest) => rest.trim_start_matches(|c: char| c.is_ascii_digit()).trim_start(),
         None => line,
     };
     let compact: String = line.split_whitespace().collect::<String>().to_ascii_uppercase();
-    PASSED_OVER.iter().any(|code| {
+    codes.iter().any(|code| {
         let rest = compact.strip_prefix(code);
         rest.is_some_and(|rest| !rest.starts_with(|c: char| c.is_ascii_digit() || c == '.'))
     })

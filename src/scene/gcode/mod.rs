@@ -155,6 +155,43 @@ mod tests {
         assert!((route.stop() - resumes - 1.0).abs() < 1e-12);
     }
 
+    /// An outlet that comes back to where it has been is moved by rounding, as is filament that is fed as far as before.
+    #[test]
+    fn rounding_moves_and_feeds_nothing() {
+        let relative =
+            "M83\nG0 X0 Y0\nG1 X27.3 E3 F1200\nG92 X8.8\nG1 X8.8 E1 F60\nG1 X18.8 E2 F1200";
+        let route = of(relative, "filament_diameter = 1e-3");
+        assert!((route.stop() - 2.865).abs() < 1e-9, "{}", route.stop());
+        let volume = route.volume_until(9.0) / (6e-3 * std::f64::consts::FRAC_PI_4 * 1e-6);
+        assert!((volume - 1.0).abs() < 1e-9, "{volume}");
+        let again =
+            "M82\nG0 X0 Y0\nG1 X5 E2.128 F1200\nG1 X15 E6.566\nG1 X15 Y20 E6.566\nG1 X0 Y20 E9";
+        let parts = "M83\nG0 X0 Y0\nG1 X5 E1 F1200\nG1 E-0.1\nG1 E-0.1\nG1 E-0.1\nG1 X9 E0.3\nG1 E0.3\nG1 Y9";
+        for text in [again, parts] {
+            let flows = of(text, "").legs.into_iter().map(|leg| leg.flow.unwrap()[0]);
+            assert!(flows.into_iter().all(|flow| flow == 0.0 || flow > 1e-12), "{text}");
+        }
+    }
+
+    /// Codes without effect on motion take their own words, and messages the rest of the line.
+    #[test]
+    fn codes_beside_those_that_are_passed_over_are_obeyed() {
+        let plain = "G0 X0 Y0\nG91\nG1 X10 E0.5 F600\nG4 S2\nG1 X10";
+        for beside in [
+            "G0 X0 Y0\nM107 G91\nG1 X10 E0.5 F600\nG4 P500 S2\nG1 X10",
+            "T0 G0 X0 Y0\nN7 M104 T1 S200 G91*3\nM106 S255 G1 X10 E0.5 F600\nG4 P2000\nG1 X10 M106 S9",
+            "G0 X0 Y0 M84\nG91 M117 G1 X3\nG1 X10 E0.5 F600 M220 S100\nG4 S2 P1 M107\nM84 X Y E\nG1 X10",
+            "M205 X8 Y8\nG0 X0 Y0\nM486 A\"(G0 X7\"\ng91m107\nG1 X10 E0.5 F600\nG4 S2\nG1 X10",
+        ] {
+            assert_eq!(of(beside, ""), of(plain, ""), "{beside}");
+        }
+        for (text, words) in [("G1 M106 X10 F60", "`X`"), ("M205 E3 G91", "`E`"), ("M107 G5", "G5")]
+        {
+            let refused = route(text, &settings(""), 1e-3).unwrap_err();
+            assert!(refused.message.contains(words), "{text}: {refused:?}");
+        }
+    }
+
     /// A full circle by G2 and half of one by G3 keep their distance from the centre, and their length.
     #[test]
     fn arcs_keep_their_radius() {
