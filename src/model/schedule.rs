@@ -1,5 +1,7 @@
 //! Order in which bodies advance, and exchanges between linked bodies.
 
+use std::borrow::Cow;
+
 use super::joints::{Beginning, Extent, Settled};
 use super::{Cache, Model, ModelError, State};
 use crate::body::{Acts, BodyError, Given, Link, MOST_PARTS, Received};
@@ -101,14 +103,15 @@ impl Model {
         let of_links = group.links.iter().map(|&link| self.links[link].parts(dt));
         let of_joints = group.joints.iter().map(|&joint| self.joints[joint].parts(dt));
         let parts = of_links.chain(of_joints).max().unwrap_or(1);
-        let cut = match parts {
-            1 => self.cut(group, states, (path, dt)),
-            parts => vec![dt / parts as f64],
-        };
-        self.foresee_exchanges(group, states, (dt, parts.max(cut.len())), allowance)?;
+        // Bodies whose own exchanges cut the step ask for no moments.
+        let is_asked = |link: &&usize| self.links[**link].parts(dt) == 1;
+        let asked: Vec<usize> = group.links.iter().filter(is_asked).copied().collect();
+        let moments = self.cut(&asked, states, (path, dt)).len() - 1;
+        self.foresee_exchanges(group, states, (dt, parts + moments), allowance)?;
         let mut start = 0.0;
         for _ in 0..parts {
-            for &length in &cut {
+            let rest = rest_of(path, start);
+            for length in self.cut(&asked, states, (&rest, dt / parts as f64)) {
                 self.advance_over(group, states, cache, (path, start, length), allowance)?;
                 start += length;
             }
@@ -136,14 +139,8 @@ impl Model {
         while start < length {
             let left = length - start;
             let least = least.next().unwrap_or(left).min(left);
-            let rest;
-            let from = match path.is_held() || begin + start == 0.0 {
-                true => path,
-                false => {
-                    rest = path.from(begin + start);
-                    &rest
-                }
-            };
+            let rest = rest_of(path, begin + start);
+            let from = &*rest;
             let tried = if is_free { fitting(wanted.max(least), left) } else { least };
             let beginning = self.beginning(group, states, cache, from, allowance)?;
             let allowed = *allowed.get_or_insert(beginning.allowed);
@@ -169,9 +166,9 @@ impl Model {
         Ok(())
     }
 
-    /// Parts of a step at whose ends the transfers of upper bodies are evaluated.
-    fn cut(&self, group: &Group, states: &[Vec<f64>], (path, dt): Part) -> Vec<f64> {
-        let above = group.links.iter().map(|&link| self.links[link].from);
+    /// Parts of a part of a step at whose ends the transfers of the upper bodies of these links are evaluated.
+    fn cut(&self, links: &[usize], states: &[Vec<f64>], (path, dt): Part) -> Vec<f64> {
+        let above = links.iter().map(|&link| self.links[link].from);
         let moments = above.flat_map(|body| self.bodies[body].moments(&states[body], path, dt));
         let mut moments: Vec<f64> = moments.collect();
         moments.sort_by(f64::total_cmp);
@@ -288,6 +285,14 @@ impl Model {
             on_it.iter().zip(found).for_each(|((place, _), surface)| surfaces[*place] = surface);
         }
         Ok(surfaces)
+    }
+}
+
+/// Remainder of a path from a time after its beginning on [s].
+fn rest_of(path: &InputPath, start: f64) -> Cow<'_, InputPath> {
+    match path.is_held() || start == 0.0 {
+        true => Cow::Borrowed(path),
+        false => Cow::Owned(path.from(start)),
     }
 }
 

@@ -142,6 +142,27 @@ fn steps_far_longer_than_drops_take_to_cool_leave_plates_as_warm() {
     }
 }
 
+/// Exchanges of other bodies cut steps further, but keep no moments of drops.
+#[test]
+fn exchanges_of_other_bodies_leave_a_plate_as_warm_under_drops() {
+    let arrivals = "arrivals = [{ time = 3.3e-4, x = 1e-4 }, { time = 1.2e-3, x = -1e-4 }]";
+    let heat = |others: &str, count: usize| {
+        let text = drop("film", arrivals) + &plate(300.0, "").replace("10.0 }", "1.0 }") + others;
+        let mut trial = Trial::new(&text);
+        (0..count).for_each(|_| trial.step(4e-3 / count as f64));
+        trial.get("drop.heat")
+    };
+    let chuck = "[body.chuck]\nkind = \"reservoir\"\nheat_capacity = 1.0\ninitial_temperature = 300.0\n[[coupling]]\nfrom \
+                 = \"chuck.top\"\nto = \"plate.bottom\"\nconductance = 1e3\ninterval = 2e-3\n";
+    let ink = "[body.ink]\nkind = \"filament\"\nfluid = { density = 1e3, viscosity = 1.0, specific_heat = 1e3, conductivity \
+               = 0.2 }\nnozzle = { diameter = 2e-4, height = 3e-4, temperature = 320.0 }\nmost = 1e-9\npath = { time = \
+               [1.0, 2.0], x = [3e-4, 3e-4], y = [-3e-4, 3e-4] }\n[[coupling]]\nfrom = \"ink\"\nto = \"plate.top\"\n";
+    for others in ["", chuck, ink] {
+        let [long, short] = [1, 40].map(|count| heat(others, count));
+        assert!(off(long, short) < 0.02, "{others}: {long} J in one step, {short} J in 40");
+    }
+}
+
 /// Drops that hardly fall are pulled down by tension, and give what momentum they have; fast thin ones go on until they
 /// are as wide as Roisman (2009) or Pasandideh-Fard et al. (1996) say.
 #[test]
