@@ -3,7 +3,8 @@
 //!
 //! The rise of a cell is that of purely vertical conduction, `u`. Where heat arrives laterally from
 //! its neighbours, the rise is limited by a mean of u about the cell. Films that would bring a cell
-//! beyond its bound transfer the fraction that it can absorb, and the remainder later.
+//! beyond its bound transfer the fraction that it can absorb, and the remainder later. A cell that
+//! is far beyond its bound without them absorbs nothing, and bounds none of its neighbours.
 
 use super::footprint::{Footprint, Ring};
 use super::lateral::Lateral;
@@ -42,6 +43,10 @@ struct Bound {
     rise: f64,
     bound: f64,
 }
+
+/// Temperature by which a cell is beyond its bound for other reasons than films, over the difference
+/// between the bound and the wall: at smaller ones it bounds its neighbours in part.
+const SLIGHT: f64 = 0.05;
 
 /// Signs of the sides: warming and cooling.
 const SIGNS: [f64; 2] = [1.0, -1.0];
@@ -105,7 +110,8 @@ impl<'a> Limit<'a> {
         for (side, sign) in SIGNS.into_iter().enumerate() {
             self.straight_down((side, sign), &free, &mut parts);
             if self.is_near_bound((side, sign), &free) {
-                self.along((side, sign), &free, lateral, &mut parts);
+                let along = self.along((side, sign), &free, lateral, &parts);
+                parts.iter_mut().zip(along).for_each(|(p, along)| p[side] = p[side].min(along));
             }
         }
         parts.iter().any(|parts| parts.iter().any(|part| *part < 1.0)).then_some(parts)
@@ -135,29 +141,68 @@ impl<'a> Limit<'a> {
         })
     }
 
-    /// Lateral heat counts for all cells that it comes from.
+    /// Fractions of each cell's contribution whose lateral heat fits all cells that it goes to.
+    /// Those whose `parts` are zero give none.
     fn along(
         &self,
         (side, sign): (usize, f64),
         free: &[f64],
         lateral: &Lateral,
-        parts: &mut Parts,
-    ) {
+        parts: &Parts,
+    ) -> Vec<f64> {
+        let mut fractions = vec![1.0; parts.len()];
+        let coldest = free.iter().map(|free| sign * free).fold(f64::INFINITY, f64::min);
         for (&cell, free) in self.touched.iter().zip(free) {
             let around = lateral.around(cell, self.duration);
             let of = |other: usize| self.cells[other][side];
             let giving = || around.iter().filter(|(other, _)| of(*other).bound.is_finite());
-            let mean: f64 = giving().map(|(other, share)| share * of(*other).rise).sum();
+            let rise = |other: usize| {
+                if parts[other][side] > 0.0 { of(other).rise } else { 0.0 }
+            };
+            let mean: f64 = giving().map(|(other, share)| share * rise(*other)).sum();
             let bound = giving().map(|(other, _)| sign * of(*other).bound).fold(f64::MIN, f64::max);
-            let part = part(bound - sign * free, mean);
-            giving().for_each(|(other, _)| parts[*other][side] = parts[*other][side].min(part));
+            let room = bound - sign * free;
+            let part = match room > 0.0 {
+                true => part(room, mean),
+                false => (-room / (SLIGHT * (bound - coldest))).min(1.0),
+            };
+            giving().for_each(|(other, _)| fractions[*other] = part.min(fractions[*other]));
         }
+        fractions
     }
 
-    /// Fraction of a ring's contribution that all its cells can absorb.
+    /// Fraction of a ring's contribution that its cells can absorb.
     pub fn part_of(parts: &Parts, ring: &Ring, given: &Contribution) -> f64 {
-        let Some(side) = given.side.map(Side::place) else { return 1.0 };
-        ring.parts.iter().map(|part| parts[part.cell][side]).fold(1.0, f64::min)
+        match given.side.map(Side::place) {
+            Some(side) if !ring.parts.is_empty() => ring.mean(|cell| parts[cell][side]),
+            _ => 1.0,
+        }
+    }
+}
+
+/// Heat [J] of each cell, and its fall [W], beyond an even distribution of each ring's.
+pub struct Uneven {
+    pub heat: Vec<f64>,
+    pub fall: Vec<f64>,
+}
+
+impl Uneven {
+    pub fn none(cells: usize) -> Self {
+        Self { heat: vec![0.0; cells], fall: vec![0.0; cells] }
+    }
+
+    /// Distributes a ring's contribution, of which the fraction that its cells absorb remains, in
+    /// proportion to what each of them absorbs.
+    pub fn add(&mut self, parts: &Parts, ring: &Ring, given: &Contribution) {
+        let mean = Limit::part_of(parts, ring, given);
+        let Some(side) = given.side.map(Side::place).filter(|_| mean > 0.0 && mean < 1.0) else {
+            return;
+        };
+        for part in &ring.parts {
+            let more = part.weight * (parts[part.cell][side] / mean - 1.0);
+            self.heat[part.cell] += more * given.heat;
+            self.fall[part.cell] += more * given.fall;
+        }
     }
 }
 

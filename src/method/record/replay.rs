@@ -5,10 +5,10 @@ mod extremes;
 use super::course::Course;
 use super::footprint::{Footprint, Part, Ring};
 use super::lateral::Lateral;
-use super::limit::{Limit, Parts, Side};
+use super::limit::{Limit, Parts, Side, Uneven};
 use super::profile::Amounts;
 use super::sharing::{reach, share};
-use super::state::{Drop, Ledger, drops_in, flatten, layout, unflatten};
+use super::state::{Drop, Ledger, cells_in, drops_in, flatten, layout, unflatten};
 use super::surface::SurfaceAt;
 use crate::port::{Domain, Surface, WallCells, WallExchange};
 use crate::state::Layout;
@@ -86,7 +86,7 @@ impl Replay {
     /// Fields of a state; `None` if its length fits no number of drops.
     pub fn layout(&self, state: &[f64]) -> Option<Layout> {
         let rings = self.plan.course.rings();
-        drops_in(state, rings).map(|drops| layout(drops, rings))
+        Some(layout(drops_in(state, rings)?, rings, cells_in(state)?))
     }
 
     /// Numbers of drops requested so far, and released.
@@ -141,7 +141,7 @@ impl Replay {
         ledger.time += duration;
         self.record_landings(&mut ledger, &mut drops, surface, start);
         drops.iter_mut().for_each(|drop| drop.lag_before.clone_from(&drop.lag));
-        let (exchange, falls) = self.give(&ledger, &mut drops, surface);
+        let (exchange, falls) = self.give(&mut ledger, &mut drops, surface);
         ledger.heat += exchange.heat.iter().sum::<f64>() + exchange.heat_outside;
         for axis in 0..3 {
             let given: f64 = exchange.impulse.iter().map(|impulse| impulse[axis]).sum();
@@ -235,10 +235,11 @@ impl Replay {
     /// them.
     fn give(
         &self,
-        ledger: &Ledger,
+        ledger: &mut Ledger,
         drops: &mut [Drop],
         surface: &Surface,
     ) -> (WallExchange, Falls) {
+        ledger.uneven.clear();
         let mut limit = Limit::new(surface, &self.areas, ledger.duration);
         let before = self.before(ledger, drops);
         if ledger.duration > 0.0 {
@@ -263,10 +264,21 @@ impl Replay {
             last = Some(n);
         });
         drops.clone_from_slice(&delay);
-        self.collect_exchange(ledger, drops, &before, |n, _, rings| {
-            let falls = rings.iter_mut().zip(&falls_of_rings[n]);
-            falls.for_each(|(given, &fall)| given.fall = fall);
-        })
+        let mut uneven = Uneven::none(self.areas.len());
+        let (mut exchange, mut falls) =
+            self.collect_exchange(ledger, drops, &before, |n, footprint, rings| {
+                let falls = rings.iter_mut().zip(&falls_of_rings[n]);
+                for ((given, &fall), ring) in falls.zip(&footprint.rings) {
+                    given.fall = fall;
+                    uneven.add(&parts, ring, given);
+                }
+            });
+        add(&mut exchange.heat, &uneven.heat);
+        add(&mut falls, &uneven.fall);
+        if uneven.heat.iter().any(|heat| *heat != 0.0) {
+            ledger.uneven = uneven.heat;
+        }
+        (exchange, falls)
     }
 
     /// Lag of the rings' heat where the wall cannot absorb all of it [s], and its fall then [W].
@@ -330,6 +342,7 @@ impl Replay {
                 ring.outside.iter().for_each(|part| given.beyond(part, &mut exchange, keeps));
             }
         }
+        add(&mut exchange.heat, &ledger.uneven);
         (exchange, falls)
     }
 
@@ -373,6 +386,10 @@ impl Replay {
         later.iter_mut().zip(gave).for_each(|(drop, earlier)| drop.lag_before = earlier.lag_before);
         drops.extend(later);
         ledger.duration += earlier.duration;
+        match ledger.uneven.is_empty() {
+            true => ledger.uneven = earlier.uneven,
+            false => add(&mut ledger.uneven, &earlier.uneven),
+        }
         *state = flatten(&mut ledger, &mut drops);
     }
 
@@ -441,7 +458,21 @@ impl Replay {
         if time < 0.0 || duration < 0.0 || duration > time * (1.0 + ROUNDING) {
             return Err(format!("a last step of {duration} s before {time} s"));
         }
+        self.check_uneven(&ledger.uneven, &drops)?;
         drops.iter().try_for_each(|drop| self.check_drop(&ledger, drop))
+    }
+
+    fn check_uneven(&self, uneven: &[f64], drops: &[Drop]) -> Result<(), String> {
+        let cells = self.areas.len();
+        if !uneven.is_empty() && uneven.len() != cells {
+            return Err(format!("heat of {} cells, of {cells}", uneven.len()));
+        }
+        let [sum, size] = [uneven.iter().sum::<f64>(), uneven.iter().map(|heat| heat.abs()).sum()];
+        let warmth: f64 = drops.iter().map(|drop| self.plan.heat_capacity * drop.temperature).sum();
+        if sum.abs() > ROUNDING * (size + warmth) {
+            return Err(format!("cells that got {sum} J more than drops gave"));
+        }
+        Ok(())
     }
 
     fn check_drop(&self, ledger: &Ledger, drop: &Drop) -> Result<(), String> {
@@ -480,6 +511,11 @@ impl Replay {
 pub const NEAR: f64 = 0.08;
 /// Relative rounding of times and places.
 const ROUNDING: f64 = 1e-9;
+
+/// Adds numbers of cells, if there are any.
+fn add(to: &mut [f64], more: &[f64]) {
+    to.iter_mut().zip(more).for_each(|(to, more)| *to += more);
+}
 
 fn minus(after: &Amounts, before: &Amounts) -> [f64; 2] {
     [after.push - before.push, after.outward - before.outward]

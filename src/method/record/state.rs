@@ -23,6 +23,10 @@ pub struct Ledger {
     pub impulse: [f64; 3],
     /// Contact time [s] and speed [m/s] of the drop that landed last of those that have ended; no speed before any has.
     pub landed: [f64; 2],
+    /// Number of cells whose heat in the last step was not that of an even distribution of each
+    /// ring's: none or all, and the difference [J].
+    pub cells: f64,
+    pub uneven: Vec<f64>,
 }
 
 /// A drop that falls or is active, or was so in the last step.
@@ -88,6 +92,16 @@ impl Fields for Ledger {
                 body("landed", "contact [s] and speed [m/s] of the last drop that has ended", 2),
                 &mut self.landed,
             ),
+            (body("cells", "cells that absorbed heat unevenly", 1), from_mut(&mut self.cells)),
+            (
+                Field {
+                    name: "uneven",
+                    words: "heat of the cell beyond its even share [J]",
+                    per: Per::Cell,
+                    width: 1,
+                },
+                &mut self.uneven,
+            ),
         ]
     }
 }
@@ -137,22 +151,33 @@ impl Drop {
     }
 }
 
+/// Number of cells in a state whose heat was uneven; `None` if the state has no such number.
+pub fn cells_in(state: &[f64]) -> Option<usize> {
+    let head = Layout::of(&mut Ledger::default()).len();
+    let cells = *state.get(head - 1)?;
+    let is_count = cells.fract() == 0.0 && cells >= 0.0 && cells <= state.len() as f64;
+    is_count.then_some(cells as usize)
+}
+
 /// Number of drops in a state; `None` if its length fits no number.
 pub fn drops_in(state: &[f64], rings: usize) -> Option<usize> {
-    let head = Layout::of(&mut Ledger::default()).len();
+    let head = Layout::of(&mut Ledger::default()).len() + cells_in(state)?;
     let rest = state.len().checked_sub(head)?;
     rest.is_multiple_of(width(rings)).then(|| rest / width(rings))
 }
 
 /// Fields of a state with a number of drops, grouped by drop.
-pub fn layout(drops: usize, rings: usize) -> Layout {
+pub fn layout(drops: usize, rings: usize, cells: usize) -> Layout {
     let of_one = Layout::of(&mut Drop::none(rings));
-    (0..drops).fold(Layout::of(&mut Ledger::default()), |all, _| all.then(of_one.clone()))
+    let uneven = vec![0.0; cells];
+    let head = Layout::of(&mut Ledger { uneven, ..Ledger::default() });
+    (0..drops).fold(head, |all, _| all.then(of_one.clone()))
 }
 
 /// Restores a state from its flat vector.
 pub fn unflatten(state: &[f64], rings: usize) -> (Ledger, Vec<Drop>) {
-    let mut ledger = Ledger::default();
+    let uneven = vec![0.0; cells_in(state).unwrap_or(0)];
+    let mut ledger = Ledger { uneven, ..Ledger::default() };
     load(&mut ledger, state);
     let head = state.len() - drops_in(state, rings).unwrap_or(0) * width(rings);
     let drop = |numbers: &[f64]| {
@@ -165,6 +190,7 @@ pub fn unflatten(state: &[f64], rings: usize) -> (Ledger, Vec<Drop>) {
 
 /// Writes a state to a flat vector.
 pub fn flatten(ledger: &mut Ledger, drops: &mut [Drop]) -> Vec<f64> {
+    ledger.cells = ledger.uneven.len() as f64;
     let head = Layout::of(ledger).len();
     let rings = drops.first().map_or(0, |drop| drop.wall.len());
     let mut state = vec![0.0; head + drops.len() * width(rings)];
@@ -181,8 +207,13 @@ mod tests {
 
     #[test]
     fn state_round_trip() {
-        let mut ledger =
-            Ledger { time: 2.0, released: 2.0, impulse: [1.0, 2.0, 3.0], ..Ledger::default() };
+        let mut ledger = Ledger {
+            time: 2.0,
+            released: 2.0,
+            impulse: [1.0, 2.0, 3.0],
+            uneven: vec![0.5, -0.5],
+            ..Ledger::default()
+        };
         let drop = |at: f64| Drop {
             contact: at,
             wall: vec![at, 2.0 * at, 300.0],
@@ -191,7 +222,7 @@ mod tests {
         };
         let mut drops = vec![drop(1.0), drop(4.0)];
         let state = flatten(&mut ledger, &mut drops);
-        assert_eq!(layout(2, 3).len(), state.len());
+        assert_eq!(layout(2, 3, 2).len(), state.len());
         assert_eq!(drops_in(&state, 3), Some(2));
         assert_eq!(drops_in(&state[1..], 3), None);
         assert_eq!(unflatten(&state, 3), (ledger, drops));
