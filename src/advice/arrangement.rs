@@ -92,7 +92,7 @@ fn width(reviewer: &mut Reviewer, path: &Path, coupling: &Coupling, droplet: &Dr
     }
 }
 
-/// Warns of droplets of two bodies that are expected to overlap as they spread.
+/// Warns of droplets of two bodies that are expected to overlap as they spread, or that inputs may place so.
 fn apart(
     reviewer: &mut Reviewer,
     path: &Path,
@@ -102,6 +102,11 @@ fn apart(
     let scene = reviewer.scene;
     for earlier in scene.coupling[..i].iter().filter(|earlier| earlier.to == coupling.to) {
         let Some(other) = scene.drop_of(earlier) else { continue };
+        if droplet.is_on_demand() || other.is_on_demand() {
+            let finding = warning::droplets_of_two_bodies_may_meet(&earlier.from, &coupling.from);
+            reviewer.warn(&path.key("from"), finding);
+            continue;
+        }
         let reach = 0.5 * (droplet.spread_diameter() + other.spread_diameter());
         let meet = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) < reach;
         if droplet.landings().any(|a| other.landings().any(|b| meet(a, b))) {

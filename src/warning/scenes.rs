@@ -134,6 +134,10 @@ rules! {
     "`{one}` and `{other}` are expected to spread over each other, and droplets of two bodies do not interact";
     "did you mean `arrivals` of one body?"
 
+    Check droplets_of_two_bodies_may_meet(one, other)
+    "inputs may let droplets of `{one}` and `{other}` spread over each other, and droplets of two bodies do not \
+     interact"; "ask for droplets that meet from one body"
+
     Check cells_narrower_than_particles(width, drop, spacing, wide)
     "cells of {width} m are narrower than the film can resolve: particles of `{drop}` are {spacing} m apart, so that \
      fluxes of single cells scatter by chance"; "did you mean cells of {wide} m or more?"

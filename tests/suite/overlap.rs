@@ -330,3 +330,27 @@ fn arrivals_on_more_films_than_were_measured_are_foretold() {
     assert_eq!(said(9, 1e-4, 1e-4), 0);
     assert_eq!(said(9, 0.0, 1.0), 0);
 }
+
+/// Drops of two bodies know nothing of each other, and inputs may bring them anywhere.
+#[test]
+fn two_bodies_whose_drops_inputs_may_let_meet_are_warned_of() {
+    let said = |keys: &str, others: &str| {
+        let first = drops(WATER, "film", 370.0, keys);
+        let body = first.find("[body.drop]").unwrap();
+        let second = drops(WATER, "film", 370.0, others)[body..].replace("body.drop", "body.other");
+        let wide = BOX.replace("6e-4, 6e-4", "1.2e-3, 1.2e-3");
+        let below = plate(&wide, GLASS, 300.0);
+        let coupling = below.find("[[coupling]]").unwrap();
+        let further = below[coupling..].replace("\"drop\"", "\"other\"");
+        let text = format!("{first}{second}{below}{further}");
+        let found = advice::parse_with_warnings(&text, "scene").unwrap().1;
+        let ids = found.iter().map(ToString::to_string);
+        let of_two = |words: &String| words.contains("spread over each other");
+        ids.filter(of_two).map(|words| words.contains("may let")).collect::<Vec<_>>()
+    };
+    let [near, far] = ["arrivals = [{ x = 1e-4 }]", "arrivals = [{ x = -4.5e-4 }]"];
+    assert_eq!(said(ON_DEMAND, ON_DEMAND), [true]);
+    assert_eq!(said(near, ON_DEMAND), [true]);
+    assert_eq!(said(near, ""), [false]);
+    assert!(said("arrivals = [{ x = 4.5e-4 }]", far).is_empty());
+}
