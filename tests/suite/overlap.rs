@@ -62,14 +62,14 @@ fn heat_of(liquid: [f64; 7], difference: f64) -> f64 {
 }
 
 /// Releases `count` drops, if any, and makes steps; fails where the top of a plate goes beyond its own and the drops'
-/// temperature by more than a fortieth of their difference, which piles on coarse cells overshoot, or where heat is
+/// temperature by more than a thirtieth of their difference, which piles on coarse cells overshoot, or where heat is
 /// lost.
 fn bounded(text: &str, count: f64, (drop, wall): (f64, f64), steps: &[f64]) -> Trial {
     let mut trial = Trial::new(text);
     if count > 0.0 {
         trial.set("drop.release", count);
     }
-    let allowed = 2.5e-2 * (drop - wall).abs();
+    let allowed = (drop - wall).abs() / 30.0;
     for &step in steps {
         trial.step(step);
         let fields = trial.fields("plate");

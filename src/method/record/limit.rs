@@ -44,8 +44,9 @@ struct Bound {
     bound: f64,
 }
 
-/// Temperature by which a cell is beyond its bound for other reasons than films, over the difference
-/// between the bound and the wall: at smaller ones it bounds its neighbours in part.
+/// Temperature by which films may bring a cell beyond its bound, as the mean along the wall is an
+/// estimate, over the difference between the bound and the wall. At twice as much other heat did,
+/// and the cell bounds no neighbour.
 const SLIGHT: f64 = 0.05;
 
 /// Signs of the sides: warming and cooling.
@@ -164,7 +165,7 @@ impl<'a> Limit<'a> {
             let room = bound - sign * free;
             let part = match room > 0.0 {
                 true => part(room, mean),
-                false => (-room / (SLIGHT * (bound - coldest))).min(1.0),
+                false => (-room / (SLIGHT * (bound - coldest)) - 1.0).clamp(0.0, 1.0),
             };
             giving().for_each(|(other, _)| fractions[*other] = part.min(fractions[*other]));
         }
