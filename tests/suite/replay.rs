@@ -486,9 +486,9 @@ fn states_that_contradict_themselves_are_refused() {
     let state = trial.state.clone();
     trial.model.check_state(&state).unwrap();
     let body = trial.model.scene().body.keys().position(|name| name == "drop").unwrap();
-    // Time, last step, asked, released, overlapping, films, heat, impulse, the last drop that has ended; then contact,
-    // place, speed, temperature, rings.
-    let first = 12;
+    // Time, last step, asked, released, overlapping, films, heat, impulse, the last drop that has ended, cells of uneven
+    // heat; then contact, place, speed, temperature, rings.
+    let first = 13;
     for (place, value, words) in [
         (0, -1.0, "a last step"),
         (1, 1.0, "a last step"),
@@ -499,6 +499,7 @@ fn states_that_contradict_themselves_are_refused() {
         (6, f64::NAN, "not finite"),
         (10, 1.0, "a last drop"),
         (11, 1e3, "a last drop"),
+        (12, 1.0, "of no number of drops"),
         (first, 1.0, "touches the wall"),
         (first, -1.0, "m/s and"),
         (first + 1, 1.0, "beyond what drops reach"),

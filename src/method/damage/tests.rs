@@ -96,7 +96,6 @@ fn bars_break_at_the_strength_of_their_model() {
             };
             let peak = parts.iter().map(|part| bar.draw(part * strain)).fold(0.0, f64::max);
             let ratio = peak / strength;
-            println!("{dissipation:?} {split:?}: {ratio:.4}");
             assert!((ratio - 1.0).abs() < 0.01, "{dissipation:?} {split:?} {ratio}");
         }
     }
@@ -113,8 +112,7 @@ fn broken_bar_has_dissipated_the_energy_of_a_crack() {
         assert!(force.abs() < 1e-3 * law.strength(), "{force}");
         let energies = bar.problem.energies(&bar.state);
         let part = energies.dissipated / (ENERGY * bar.height());
-        println!("{elements} elements: {part:.4}");
-        assert!((part - 1.0).abs() < 0.01, "{elements} {part}");
+        assert!((part - 1.0).abs() < 0.003, "{elements} {part}");
         // The profile beside the broken row of elements, whose length is corrected by `1 − 3h/(8ℓ)`.
         let h = LENGTH / elements as f64;
         let stretched = 1.0 - 3.0 * h / (8.0 * DAMAGE_LENGTH);
@@ -283,10 +281,8 @@ fn bar_in_space_breaks_at_its_strength_with_the_energy_of_its_section() {
         let end = (0..nodes).filter(|node| node % (count + 1) == count);
         peak = peak.max(end.map(|node| forces[3 * node]).sum::<f64>() / (h * h));
     }
-    println!("in space: {:.4}", peak / law.strength());
     assert!((peak / law.strength() - 1.0).abs() < 0.01, "{}", peak / law.strength());
     let part = problem.energies(&state).dissipated / (ENERGY * h * h);
-    println!("in space: {part:.4}");
     assert!((part - 1.0).abs() < 0.01, "{part}");
 }
 
