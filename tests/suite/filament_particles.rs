@@ -219,8 +219,8 @@ fn threads_in_air_cool_through_their_side() {
     }
 }
 
-/// Paste that conducts heat sleeps as any other, and goes on cooling: long after it came to rest it is nearly as cold as
-/// plate and air, and heat balances to rounding.
+/// Paste that conducts heat sleeps as any other, and goes on cooling: long after it came to rest it is nearly as cold
+/// as plate and air, and heat balances to rounding.
 #[test]
 fn paste_at_rest_cools() {
     let warm = "viscosity = 5.0, specific_heat = 2000.0, conductivity = 0.2";

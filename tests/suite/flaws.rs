@@ -65,8 +65,8 @@ fn shocked_edge_cracks_have_the_intensity_of_the_half_plane() {
     assert!(off(trial.get("worst.depth"), 1.1305 * diffusion()) < 0.05);
 }
 
-/// Cracks of a row that are far apart are alone; those of a dense one have the energy `pσ²/(2E′)` of the stress at their
-/// tip, and worst depths are less deep.
+/// Cracks of a row that are far apart are alone; those of a dense one have the energy `pσ²/(2E′)` of the stress at
+/// their tip, and worst depths are less deep.
 #[test]
 fn cracks_of_a_row_shield_each_other() {
     let depth = 2.0 * diffusion();

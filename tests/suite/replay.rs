@@ -486,8 +486,8 @@ fn states_that_contradict_themselves_are_refused() {
     let state = trial.state.clone();
     trial.model.check_state(&state).unwrap();
     let body = trial.model.scene().body.keys().position(|name| name == "drop").unwrap();
-    // Time, last step, asked, released, overlapping, films, heat, impulse, the last drop that has ended, cells of uneven
-    // heat; then contact, place, speed, temperature, rings.
+    // Time, last step, asked, released, overlapping, films, heat, impulse, the last drop that has ended, cells of
+    // uneven heat; then contact, place, speed, temperature, rings.
     let first = 13;
     for (place, value, words) in [
         (0, -1.0, "a last step"),

@@ -115,8 +115,8 @@ impl FilamentForecast {
     }
 }
 
-/// Time of the solid below [s] in a number of exchanges of some length [s] with a fluid of a temperature [K], and a note
-/// if that is long because its heat is not linear.
+/// Time of the solid below [s] in a number of exchanges of some length [s] with a fluid of a temperature [K], and a
+/// note if that is long because its heat is not linear.
 fn cost_of_solid(
     below: Option<&(f64, Plan)>,
     exchanges: f64,

@@ -100,8 +100,8 @@ impl Swinging {
 
 /// Halvings of a step that Newton's method does not solve.
 const HALVINGS: u32 = 10;
-/// Energy of the whole body at the change of speed of a face, over that of the body, from which on it is a jolt; halvings
-/// of such a step, and the change of the work of faces, over that energy, at which it is resolved.
+/// Energy of the whole body at the change of speed of a face, over that of the body, from which on it is a jolt;
+/// halvings of such a step, and the change of the work of faces, over that energy, at which it is resolved.
 const JOLT: f64 = 0.02;
 const FINEST: u32 = 5;
 const RESOLVED: f64 = 0.02;
@@ -152,8 +152,9 @@ impl SwingingBody {
         })
     }
 
-    /// Swings over a communication step. A step in which a face changes its speed abruptly is cut into equal parts, until
-    /// halves of them hardly change the work of the faces; so are those in which its waves cross the body a few times.
+    /// Swings over a communication step. A step in which a face changes its speed abruptly is cut into equal parts,
+    /// until halves of them hardly change the work of the faces; so are those in which its waves cross the body a few
+    /// times.
     fn swing_through(
         &self,
         state: &mut Swinging,

@@ -31,8 +31,8 @@ impl SolidBody {
     /// Over each part of the step, loads are the quadratics in time that match them at its beginning, middle and end.
     /// Heat is solved exactly under these. Amounts and face values have no time error, so such a step is one part.
     /// Footprints that move or grow have a fourth-order error; they move by at most an eighth of their least radius (a
-    /// ring's width, a tile's smaller side) in a part. For alumina under footprints of 50 µm at 1 m/s the error is 3e-5 of the
-    /// rise for a Gaussian. For a disc or tiles it is 2e-5 below them and 5e-4 at the leading edge.
+    /// ring's width, a tile's smaller side) in a part. For alumina under footprints of 50 µm at 1 m/s the error is 3e-5
+    /// of the rise for a Gaussian. For a disc or tiles it is 2e-5 below them and 5e-4 at the leading edge.
     fn advance_along(
         &self,
         state: &mut [f64],
@@ -64,8 +64,8 @@ impl SolidBody {
         Ok(self.loads.assemble(&inputs, self.meshes()))
     }
 
-    /// Returns the loads and their derivatives at a time [s] after the beginning, with the transfers through ports; `None`
-    /// without transfers.
+    /// Returns the loads and their derivatives at a time [s] after the beginning, with the transfers through ports;
+    /// `None` without transfers.
     fn with_received(
         &self,
         loads: &[SolidLoads],

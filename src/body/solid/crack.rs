@@ -300,8 +300,8 @@ impl Crack {
         self.points.iter().map(across).collect()
     }
 
-    /// The stress intensity of a given depth as a sum over nodes; `None` if the depth is searched or grows, or if the sum
-    /// is over more than the nodes of one image.
+    /// The stress intensity of a given depth as a sum over nodes; `None` if the depth is searched or grows, or if the
+    /// sum is over more than the nodes of one image.
     pub fn nodal_sum(&self, solid: &SolidFem) -> Option<NodalSum> {
         let Extent::Given { weights, .. } = &self.extent else { return None };
         solid.nodal_sum(&self.points, weights, self.across)

@@ -104,9 +104,9 @@ impl SolidBody {
         self.noted(state).is_some()
     }
 
-    /// Updates the running maxima to the observed values, a duration [s] after the last time; without one, no flaw grows
-    /// until the next. The risk follows from the stresses; it is kept itself, so that it never falls where these change
-    /// the interpolation between them.
+    /// Updates the running maxima to the observed values, a duration [s] after the last time; without one, no flaw
+    /// grows until the next. The risk follows from the stresses; it is kept itself, so that it never falls where these
+    /// change the interpolation between them.
     pub(super) fn note_flaws(
         &self,
         state: &mut [f64],

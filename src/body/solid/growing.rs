@@ -211,9 +211,9 @@ impl SolidBody {
         noted.first().is_some_and(|own| *own != NOTHING)
     }
 
-    /// Lets flaws grow up to the observed stress, a duration [s] after the last time. Without one they run at once where
-    /// they do, and the stress is not noted. Before the first note the stress counts as if it had been there from the
-    /// start.
+    /// Lets flaws grow up to the observed stress, a duration [s] after the last time. Without one they run at once
+    /// where they do, and the stress is not noted. Before the first note the stress counts as if it had been there from
+    /// the start.
     pub(super) fn note_growth_of_flaws(
         &self,
         state: &mut [f64],

@@ -286,8 +286,8 @@ fn bar_in_space_breaks_at_its_strength_with_the_energy_of_its_section() {
     assert!((part - 1.0).abs() < 0.01, "{part}");
 }
 
-/// Nodes that may be damaged have the damage of a minimum over all, from any margin around them on, with wide damage and
-/// scattered elements.
+/// Nodes that may be damaged have the damage of a minimum over all, from any margin around them on, with wide damage
+/// and scattered elements.
 #[test]
 fn damage_is_that_of_all_nodes() {
     let law = GradientDamage { scatter: 0.2, ..law(Dissipation::At1, Split::NoTension) };

@@ -4,8 +4,8 @@
 //! heat content balance exactly; its cross-section has one width and one temperature. `laying` makes segments from the
 //! motion of the nozzle, `sections` has their sections and widths, `beneath` finds what they lie on (their `carriers`),
 //! `stacks` cuts the exchange of heat of these into parts, `exchange` makes a part of one segment, `spreading` has the
-//! law of their width, `cooling` that of their heat, `footprint` their place on the cells of the plate; `line` is a step
-//! of all; `target` measures the distance of the centre line from a wanted line.
+//! law of their width, `cooling` that of their heat, `footprint` their place on the cells of the plate; `line` is a
+//! step of all; `target` measures the distance of the centre line from a wanted line.
 
 mod beneath;
 mod carriers;

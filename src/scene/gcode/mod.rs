@@ -155,7 +155,8 @@ mod tests {
         assert!((route.stop() - resumes - 1.0).abs() < 1e-12);
     }
 
-    /// An outlet that comes back to where it has been is moved by rounding, as is filament that is fed as far as before.
+    /// An outlet that comes back to where it has been is moved by rounding, as is filament that is fed as far as
+    /// before.
     #[test]
     fn rounding_moves_and_feeds_nothing() {
         let relative =

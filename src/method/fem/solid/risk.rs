@@ -362,8 +362,8 @@ struct Rise {
 }
 
 impl Rise {
-    /// That of running maxima to values of now; up to `least` there is no tension. Those of flaws that have grown exceed
-    /// the present stress.
+    /// That of running maxima to values of now; up to `least` there is no tension. Those of flaws that have grown
+    /// exceed the present stress.
     fn of(mesh: &Mesh, patch: &Patch, [noted, now, present]: [&[f64]; 3], least: f64) -> Self {
         let mut own = Self { before: 0.0, after: 0.0, is_met: false, is_met_by_all: true };
         patch.for_nodes(mesh, |_, node| {
@@ -381,8 +381,8 @@ impl Rise {
     }
 
     /// The value of a node without tension under which the tension so far has its share of the risk: all of it where
-    /// only a part of the nodes meets its largest one. Otherwise the largest value T has grown by a factor g. Between it
-    /// and a negative value v, over the part `T/(T − v)` of the length, the share is as `T^(m+1)/(T − v)`, so that v
+    /// only a part of the nodes meets its largest one. Otherwise the largest value T has grown by a factor g. Between
+    /// it and a negative value v, over the part `T/(T − v)` of the length, the share is as `T^(m+1)/(T − v)`, so that v
     /// falls to `gT − g^(m+1) (T − v)`.
     fn reach(&self, modulus: f64) -> impl Fn(f64) -> f64 {
         let Self { before, after, is_met_by_all, .. } = *self;
