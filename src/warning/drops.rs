@@ -109,8 +109,8 @@ rules! {
     "did you mean `sph`?"
 
     Check film_cools_through(fourier, usual)
-    "the temperature under the middle of the drop is expected to be too low, by a fifth to nine tenths, and heat by \
-     up to a third, as this film has cooled through while the drop still comes down (a(D/U)/δ² = {fourier} of what \
+    "the change of temperature under the middle of the drop is expected to be too small, by a fifth to nine tenths, and \
+     heat is off by up to a half, as this film has cooled through while the drop still comes down (a(D/U)/δ² = {fourier} of what \
      is in contact; films are accurate below {usual})"; "did you mean `sph`?"
 
     Check film_on_insulator()

@@ -7,13 +7,28 @@ use crate::limits::number;
 use crate::scene::filament::PathFile;
 
 /// Codes without effect on motion and flow: temperatures, fans, motors, messages, limits of firmware, metadata.
-const PASSED_OVER: [&str; 34] = [
-    "M17", "M18", "M73", "M74", "M75", "M77", "M84", "M104", "M105", "M106", "M107", "M109",
-    "M110", "M115", "M117", "M118", "M140", "M141", "M155", "M190", "M191", "M201", "M203", "M204",
-    "M205", "M220S100", "M221S100", "M300", "M400", "M486", "M572", "M593", "M900", "T0",
+const PASSED_OVER: [&str; 41] = [
+    "G17", "G29", "M17", "M18", "M73", "M74", "M75", "M77", "M84", "M104", "M105", "M106", "M107",
+    "M109", "M110", "M115", "M117", "M118", "M140", "M141", "M155", "M190", "M191", "M201", "M203",
+    "M204", "M205", "M220S100", "M221S100", "M300", "M400", "M420", "M486", "M500", "M501", "M502",
+    "M503", "M572", "M593", "M900", "T0",
 ];
-/// Codes whose rest of the line is text: messages, names of jobs and of objects.
-const MESSAGES: [&str; 4] = ["M75", "M117", "M118", "M486"];
+/// Codes whose rest of the line is text: messages, names of jobs, of objects and of machines, and commands by words that
+/// move nothing.
+const MESSAGES: [&str; 12] = [
+    "M75",
+    "M117",
+    "M118",
+    "M486",
+    "M862.1",
+    "M862.2",
+    "M862.3",
+    "M862.4",
+    "M862.5",
+    "M862.6",
+    "EXCLUDE_OBJECT",
+    "SET_PRESSURE_ADVANCE",
+];
 /// Words of moves, which belong to no code that is passed over beside a code that is obeyed.
 const OF_MOVES: &str = "XYZEFIJ";
 const UNDERSTOOD: &str = "G0, G1, G2 and G3 with I and J, G4, G20, G21, G90, G91, G92, M82, M83; codes of temperatures, fans and messages";
@@ -50,6 +65,8 @@ struct Machine<'a> {
     drawn_back: f64,
     /// [m/s]
     speed: Option<f64>,
+    /// True once the nozzle has gone home after the path began: the path ends there.
+    is_home: bool,
     steps: Vec<Step>,
 }
 
@@ -70,6 +87,7 @@ pub fn steps(text: &str, settings: &PathFile, height: f64) -> Result<Vec<Step>, 
         fed: 0.0,
         drawn_back: 0.0,
         speed: None,
+        is_home: false,
         steps: Vec::new(),
     };
     for (n, line) in text.lines().enumerate() {
@@ -162,6 +180,7 @@ impl Machine<'_> {
     fn obey(&mut self, (letter, code): (char, f64), values: &Words) -> Result<(), Refusal> {
         let code = format!("{letter}{code}");
         match code.as_str() {
+            "G0" | "G1" | "G2" | "G3" | "G4" if self.is_home => self.go_on_from_home(values)?,
             "G0" | "G1" => self.go(values)?,
             "G2" | "G3" => self.arc(values, code == "G2")?,
             "G4" => self.dwell(values)?,
@@ -169,6 +188,7 @@ impl Machine<'_> {
             "G21" => self.unit = MILLIMETRE,
             // No fluid comes at home, and the path begins afterwards.
             "G28" if self.steps.is_empty() => self.home(values),
+            "G28" => self.is_home = true,
             "G90" => self.is_relative = false,
             "G91" => self.is_relative = true,
             "G92" => self.rename(values)?,
@@ -187,6 +207,18 @@ impl Machine<'_> {
                 self.place[axis] = None;
                 self.zero[axis] = zero;
             }
+        }
+    }
+
+    /// Leaves out moves after the nozzle has gone home, which takes a time that is not known.
+    fn go_on_from_home(&mut self, values: &Words) -> Result<(), Refusal> {
+        let [volume, _] = self.feed(values);
+        match volume > 0.0 {
+            true => Err((
+                "fluid comes after G28, whose way takes a time that is not known".to_owned(),
+                "G28 before the first move, or after the last on which fluid comes".to_owned(),
+            )),
+            false => Ok(()),
         }
     }
 

@@ -280,6 +280,7 @@ mod tests {
             ("X1 Y2", 1, "no command"),
             ("G0 X0 Y0\nG1 X1 (wall F60", 2, "`(`"),
             ("G0 X0 Y0\nG1 X1 wall) F60", 2, "`)`"),
+            ("G0 X0 Y0\nG1 X1 E1 F60\nG28\nG0 X0\nG1 X1 E2 F60", 5, "after G28"),
             ("G0 X0 Y0\nG28\nG1 X1 E1 F60", 3, "before the place"),
             ("G0 X0 Y0\nG28 Y0\nG1 X1 E1 F60", 3, "before the place"),
         ] {
@@ -288,5 +289,13 @@ mod tests {
         }
         let passed = "M104 S200\nM107\nG28\nM117 Hello (world) X1\nM117 :)\nT0\n; only a comment\n%\nG0 X0 Y0";
         assert!(route(passed, &settings(""), 1e-3).is_ok());
+        // What machines are asked at the start, and where they go at the end.
+        let plain = "G0 X0 Y0\nG1 X9 E1 F600\n";
+        let whole = format!(
+            "M862.3 P \"MK3S\"\nG17\nG29\nSET_PRESSURE_ADVANCE ADVANCE=0.04\n{plain}EXCLUDE_OBJECT_END NAME=a_1\n\
+             G28 X0\nG0 Y90 F600\nG1 E-1 F600\nM500\n"
+        );
+        let [found, wanted] = [&whole, plain].map(|text| route(text, &settings(""), 1e-3).unwrap());
+        assert_eq!(found, wanted);
     }
 }
