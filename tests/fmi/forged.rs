@@ -219,7 +219,7 @@ fn ledgers_that_contradict_the_plan_are_refused() {
     let (unit, state) = stepped();
     let cases = [
         (1, 2.0, "drops released"),
-        (1, 0.0, "drops released"),
+        (1, 0.0, "where 0 drops have"),
         (1, 0.5, "drops released"),
         (0, 1.0, "drops released"),
         (2, -1.0, "time steps of -1"),

@@ -59,13 +59,13 @@ fn exchanges_without_end_are_discarded() {
 }
 
 #[test]
-fn a_footprint_that_grows_from_next_to_nothing_is_discarded() {
+fn a_footprint_of_next_to_nothing_that_moves_is_discarded() {
     let text = crate::master::SCENE
         .replace("start = { heat_flux = 5e7 }", "start = { heat_flux = 5e7, radius = 1e-11 }")
         .replace("radius = [2e-5, 9e-5]", "radius = [1e-12, 9e-5]");
     assert_ne!(text, crate::master::SCENE);
     let unit = started(&text);
-    assert_eq!(unit.set_derivative("spot.radius", 1, 50.0), OK, "{:?}", unit.messages.take());
+    assert_eq!(unit.set_derivative("spot.x", 1, 50.0), OK, "{:?}", unit.messages.take());
     discarded(&unit, 1e-6, &[WORDS[0], "samples of moving footprints", "plate: "]);
 }
 
