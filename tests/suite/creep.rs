@@ -1,5 +1,6 @@
 //! Bodies that creep, against closed forms.
 
+use closed_form::quadrature::integrate;
 use impinge::model::Cache;
 use impinge::runtime::allowance::{Allowance, Interrupt};
 
@@ -128,13 +129,13 @@ fn a_held_bar_relaxes_as_norton_says() {
             time += step;
             let (found, wanted) = (trial.get("inside.stress_xx"), relaxed(material, time));
             // Of the stress at first: what relaxes exponentially comes to nothing.
-            assert!((found - wanted).abs() < 0.01 * first, "{}: {found} {wanted}", material.young);
+            assert!((found - wanted).abs() < 2e-3 * first, "{}: {found} {wanted}", material.young);
             // All that elastic strain has lost has become plastic.
             let plastic = (first - found) / material.young;
             assert!(off(trial.get("inside.plastic_strain"), plastic) < 1e-6, "{}", material.young);
             // So has its energy been dissipated, but for what is of second order in the inner steps.
             let work = 0.5 * (first * first - found * found) / material.young * 2e-6;
-            assert!(off(trial.get("bar.plastic_work"), work) < 0.04, "{}", material.young);
+            assert!(off(trial.get("bar.plastic_work"), work) < 5e-3, "{}", material.young);
         }
     }
 }
@@ -154,9 +155,9 @@ fn linear_creep_relaxes_alike_at_any_strain() {
     }
 }
 
+/// Errors of steps go as the cube of their length, so those of all steps together as the power 2/3 of the tolerance.
 #[test]
 fn the_error_of_creep_falls_with_its_tolerance() {
-    // Errors of Euler steps go as the length of these, and that as the root of the tolerance.
     let material = &MATERIALS[0];
     let errors = [1e-3, 1e-4, 1e-5].map(|tolerance| {
         let mut trial = held(material, "", tolerance);
@@ -166,7 +167,40 @@ fn the_error_of_creep_falls_with_its_tolerance() {
     });
     for pair in errors.windows(2) {
         let order = (pair[0] / pair[1]).log10();
-        assert!((0.4..0.6).contains(&order), "{errors:?}");
+        assert!((0.55..0.8).contains(&order), "{errors:?}");
+    }
+}
+
+/// In one step a bar is loaded ever more while its temperature rises: `p = ∫ A e^{−T_a/T} (σ_b sinh(σ/σ_b))ⁿ dt`.
+#[test]
+fn creep_that_accelerates_keeps_the_tolerance() {
+    let [coefficient, exponent, activation, breakdown] = [3.3e-27, 4.0, 8e3, 25e6_f64];
+    let (duration, heating, [low, high]) = (1e3, 0.1, [5e6, 30e6]);
+    let rate = |part: f64| {
+        let temperature = 400.0 + heating * duration * part;
+        let stress = breakdown * ((low + part * (high - low)) / breakdown).sinh();
+        coefficient * (-activation / temperature).exp() * stress.powf(exponent)
+    };
+    let wanted = integrate(rate, &[0.0, 0.25, 0.5, 0.75, 1.0]) * duration;
+    let material = format!(
+        "model = \"viscoplastic\", density = 2700.0, specific_heat = 900.0, conductivity = 4000.0, young = 70e9, \
+         poisson = 0.3, expansion = 2e-5, creep = {{ coefficient = {coefficient:e}, exponent = {exponent:?}, \
+         activation_temperature = {activation:?}, breakdown = {breakdown:?} }}"
+    );
+    let faces = "left = { roller = true }\nfront = { roller = true }\nbottom = { roller = true, temperature = 400.0 }\n\
+                 top = { temperature = 400.0 }";
+    let load = "[[load]]\nname = \"pull\"\non = \"bar.top\"\nfootprint = { tiles = { count = [1, 1], size = [2e-2, 1e-2] } \
+                }\ncarries = [\"pressure\"]\nstart = { pressure = -5e6 }\n";
+    for tolerance in [1e-2, 1e-3, 1e-4] {
+        let rest = format!("{load}{PROBE}[fidelity]\ntolerance = {tolerance:e}\n");
+        let mut trial = Trial::new(&scene(BAR, &material, [400.0; 2], faces, &rest));
+        for face in ["top", "bottom"] {
+            trial.set_derivative(&format!("bar.{face}.temperature"), 1, heating);
+        }
+        trial.set_derivative("pull.pressure[1,1]", 1, -(high - low) / duration);
+        trial.step(duration);
+        let found = trial.get("inside.plastic_strain");
+        assert!(off(found, wanted) < 0.1 * tolerance, "{tolerance}: {found} {wanted}");
     }
 }
 
@@ -303,8 +337,7 @@ fn overstress_beyond_a_yield_stress_falls_exponentially() {
         trial.step(0.6);
         let wanted = 60e6 + 140e6 * (-trial.state.time).exp();
         let found = trial.get("inside.stress_xx");
-        // A tenth of the tolerance, a third of the error.
-        assert!((found - wanted).abs() < 0.01 / 3.0 * 200e6, "{found} {wanted}");
+        assert!((found - wanted).abs() < 1e-3 * 200e6, "{found} {wanted}");
     }
 }
 

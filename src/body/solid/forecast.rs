@@ -90,7 +90,7 @@ const MELTING: f64 = 2.0;
 const YIELDING: f64 = 1.1e-5;
 const YIELDING_SECTION: f64 = 2e-5;
 const WITH_TABLES: f64 = 2.5;
-const WITH_CREEP: f64 = 11.0;
+const WITH_CREEP: f64 = 5.0;
 /// Time per node for the equilibrium of a body in which cracks grow in a step [s], the middle of quenches, and memory
 /// per node [B].
 const CRACKING: f64 = 2.5e-5;

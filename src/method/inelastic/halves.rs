@@ -6,8 +6,8 @@
 //! that third is added to the halves, which makes the result of fourth order. Lengths are powers of ½ of the increment,
 //! so that the factors of a few lengths serve all steps.
 
-use super::problem::{InelasticError, InelasticProblem};
-use super::substeps::{Increment, between};
+use super::problem::{InelasticError, InelasticProblem, Lapse};
+use super::substeps::Increment;
 
 /// Shortest step, over the whole.
 const LEAST_PART: f64 = 1.0 / (1_u64 << 40) as f64;
@@ -82,11 +82,8 @@ impl InelasticProblem {
         increment: &Increment,
         [start, end]: [f64; 2],
     ) -> Result<(), InelasticError> {
-        let temperatures = [start, end].map(|part| between(increment.temperatures, part));
-        let forces = between(increment.forces, end);
-        let duration = (end - start) * increment.duration;
-        let temperatures = temperatures.each_ref().map(Vec::as_slice);
-        self.advance_within(state, temperatures, &forces, duration, increment.allowance).map(drop)
+        let lapse = Lapse::of((end - start) * increment.duration);
+        self.advance_stage(state, increment, [start, end], lapse)
     }
 
     /// Largest difference of the strains of relaxing points between two states, and the largest of these.

@@ -64,6 +64,19 @@ pub struct StateLayout {
     pub points: usize,
 }
 
+/// Time that passes in a step [s]: for points that creep, and for all others.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lapse {
+    pub of_creep: f64,
+    pub of_others: f64,
+}
+
+impl Lapse {
+    pub fn of(duration: f64) -> Self {
+        Self { of_creep: duration, of_others: duration }
+    }
+}
+
 /// A quadrature point with its state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PointState {
@@ -205,7 +218,8 @@ impl InelasticProblem {
         duration: f64,
     ) -> Result<Progress, InelasticError> {
         let change = [temperatures; 2];
-        self.advance_within(state, change, forces, duration, &Allowance::default())
+        let lapse = Lapse::of(duration);
+        self.advance_within(state, change, forces, lapse, &Allowance::default())
     }
 
     /// Advances like [`Self::advance_over`] from nodal temperatures to others [K], within an allowance of work.
@@ -214,7 +228,7 @@ impl InelasticProblem {
         state: &mut [f64],
         temperatures: [&[f64]; 2],
         forces: &[f64],
-        duration: f64,
+        lapse: Lapse,
         allowance: &Allowance,
     ) -> Result<Progress, InelasticError> {
         self.check(state, temperatures[0])?;
@@ -225,7 +239,7 @@ impl InelasticProblem {
             return Err(InelasticError::Length { what, given: forces.len(), wanted: unknowns });
         }
         address_space::expect(self.memory() as usize).map_err(SolverError::from)?;
-        aside(|| self.advance_here(state, temperatures, forces, duration, allowance))
+        aside(|| self.advance_here(state, temperatures, forces, lapse, allowance))
     }
 
     fn advance_here(
@@ -233,11 +247,11 @@ impl InelasticProblem {
         state: &mut [f64],
         temperatures: [&[f64]; 2],
         forces: &[f64],
-        duration: f64,
+        lapse: Lapse,
         allowance: &Allowance,
     ) -> Result<Progress, InelasticError> {
         let team = Team::new(self.threads);
-        let constants = self.constants_over(temperatures, duration, &team)?;
+        let constants = self.constants_over(temperatures, lapse, &team)?;
         let relaxation = self.relaxation();
         let layout = self.layout();
         let mut iterate = self.iterate(state);
@@ -304,18 +318,20 @@ impl InelasticProblem {
         duration: f64,
         team: &Team,
     ) -> Result<Vec<PointConstants>, InelasticError> {
-        self.constants_over([temperatures; 2], duration, team)
+        self.constants_over([temperatures; 2], Lapse::of(duration), team)
     }
 
-    /// Constants of all points over a step [s] in which temperatures change.
+    /// Constants of all points over a step in which temperatures change.
     fn constants_over(
         &self,
         temperatures: [&[f64]; 2],
-        duration: f64,
+        lapse: Lapse,
         team: &Team,
     ) -> Result<Vec<PointConstants>, InelasticError> {
         let shapes = &self.grid.kit.shapes;
         let layers = team.map(self.grid.layers(), |layer| {
+            let law = self.law(layer);
+            let duration = if law.creeps() { lapse.of_creep } else { lapse.of_others };
             let mut out = Vec::with_capacity(self.grid.per_layer() * shapes.points);
             let mut at = [vec![0.0; shapes.points], vec![0.0; shapes.points]];
             for e in 0..self.grid.per_layer() {
@@ -326,7 +342,7 @@ impl InelasticProblem {
                     shapes.interpolate(&nodal, at);
                 }
                 for (&start, &temperature) in at[0].iter().zip(&at[1]) {
-                    let constants = self.law(layer).over_change([start, temperature], duration);
+                    let constants = law.over_change([start, temperature], duration);
                     out.push(constants.ok_or(InelasticError::Constants { layer, temperature })?);
                 }
             }
