@@ -70,7 +70,7 @@ pub struct Coupling {
     /// Load of the fluid's pressure and shear on the solid.
     #[serde(default = "crate::scene::defaults::yes")]
     pub traction: bool,
-    /// Longest time between two exchanges [s].
+    /// Longest time between two exchanges [s]; of a filament at most `0.1 D²/a` of nozzle and fluid.
     #[schemars(transform = within(1e-30, 1e12, "s", "the time between exchanges")
         .otherwise("from the flow and the contact; for solids the communication step"))]
     pub interval: Option<f64>,
