@@ -128,13 +128,17 @@ fn unbalanced(bracket: char) -> Refusal {
     (message, "comments as in G1 X10 (wall), or after a semicolon".to_owned())
 }
 
+/// Words of a line. Axes that go home need no number.
 fn words_of(line: &str) -> Result<Words, Refusal> {
+    let goes_home = begins_with(line, &["G28"]);
     let mut words = Words::new();
     let mut rest = line.trim();
     while let Some(letter) = rest.chars().next() {
         let after = rest[letter.len_utf8()..].trim_start();
         let end = after.find(|c: char| !(c.is_ascii_digit() || "+-.".contains(c)));
         let (value, next) = after.split_at(end.unwrap_or(after.len()));
+        let is_axis = goes_home && value.is_empty();
+        let value = if is_axis { "0" } else { value };
         let value: Option<f64> = value.parse().ok().filter(|value: &f64| value.is_finite());
         let (true, Some(value)) = (letter.is_ascii_alphabetic(), value) else {
             let message = format!("`{letter}` stands without a number");
@@ -174,6 +178,7 @@ impl Machine<'_> {
         if codes.is_empty() && !values.is_empty() {
             return Err(("the line has no command".to_owned(), UNDERSTOOD.to_owned()));
         }
+        check_order(&codes)?;
         codes.into_iter().try_for_each(|code| self.obey(code, &values))
     }
 
@@ -199,11 +204,12 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// Forgets the place along the axes that go home, and that it was renamed; without words all axes go.
+    /// Forgets the place along the axes that go home, and that it was renamed; if none is named, all axes go.
     fn home(&mut self, values: &Words) {
         let [x, y] = self.settings.origin;
+        let go_all = !values.iter().any(|(named, _)| "XYZ".contains(*named));
         for (axis, (letter, zero)) in [('X', x), ('Y', y), ('Z', 0.0)].into_iter().enumerate() {
-            if values.is_empty() || values.iter().any(|(named, _)| *named == letter) {
+            if go_all || values.iter().any(|(named, _)| *named == letter) {
                 self.place[axis] = None;
                 self.zero[axis] = zero;
             }
@@ -382,10 +388,12 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// Renames the present place and the length of filament.
+    /// Renames the present place and the length of filament; without words, all become zero.
     fn rename(&mut self, values: &Words) -> Result<(), Refusal> {
         self.check_words(values, "XYZE")?;
-        for &(letter, value) in values {
+        let all = || "XYZE".chars().map(|letter| (letter, 0.0)).collect();
+        let values = if values.is_empty() { all() } else { values.clone() };
+        for (letter, value) in values {
             let value = value * self.unit;
             match letter {
                 'E' => self.fed = value,
@@ -400,6 +408,19 @@ impl Machine<'_> {
             }
         }
         Ok(())
+    }
+}
+
+/// Refuses codes of units and modes behind a move: machines differ in whether that move obeys them.
+fn check_order(codes: &[(char, f64)]) -> Result<(), Refusal> {
+    let moves = |&(letter, code): &(char, f64)| letter == 'G' && code <= 4.0;
+    let Some(first) = codes.iter().position(moves) else { return Ok(()) };
+    match codes[first + 1..].iter().find(|code| !moves(code)) {
+        None => Ok(()),
+        Some((letter, code)) => Err((
+            format!("{letter}{code} stands behind a move, which may obey it or not"),
+            "codes of units and modes before the move, or in lines of their own".to_owned(),
+        )),
     }
 }
 

@@ -143,6 +143,40 @@ mod tests {
         assert_eq!(of(&format!("G0 X1 Y2\nG92 X7\nG28\n{plain}"), ""), of(plain, ""));
     }
 
+    /// Axes need no number, and other words name none of them.
+    #[test]
+    fn homing_takes_axes_without_numbers() {
+        let text = |home: &str, next: &str| format!("G0 X1 Y2\n{home}\n{next}\nG1 X15 Y6 E1 F600");
+        let all = of(&text("G28", "G0 X5 Y6"), "");
+        for home in ["G28 W", "G28 X Y", "g28 X0 Y0 Z", "N4 G28 O"] {
+            assert_eq!(of(&text(home, "G0 X5 Y6"), ""), all, "{home}");
+        }
+        assert_eq!(of(&text("G28 X", "G0 X5"), ""), of("G0 X5 Y2\nG1 X15 Y6 E1 F600", ""));
+    }
+
+    /// The present place becomes that of all zeros.
+    #[test]
+    fn renaming_without_words_renames_all() {
+        let plain = "G0 X5 Y6 Z1\nM82\nG1 X7 E3 F600\n";
+        let rest = "\nG1 X10 E1 F600";
+        let named = of(&format!("{plain}G92 X0 Y0 Z0 E0{rest}"), "");
+        assert_eq!(of(&format!("{plain}G92{rest}"), ""), named);
+        let unknown = route("G92\nG0 X0 Y0", &settings(""), 1e-3).unwrap_err();
+        assert!(unknown.message.contains("before its place is known"), "{unknown:?}");
+    }
+
+    /// Machines differ in whether a move obeys a mode that stands behind it.
+    #[test]
+    fn modes_behind_moves_are_refused() {
+        for mode in ["G20", "G91", "M83", "G92"] {
+            let text = format!("G0 X0 Y0\nG1 X10 E1 F600 {mode}");
+            let bad = route(&text, &settings(""), 1e-3).unwrap_err();
+            assert!(bad.line == 2 && bad.message.contains("behind a move"), "{bad:?}");
+        }
+        let before = of("G0 X0 Y0\nG21 G91 G1 X10 E1 F600", "");
+        assert_eq!(before, of("G0 X0 Y0\nG91\nG1 X10 E1 F600", ""));
+    }
+
     /// Filament that was drawn back is fed first; only then does fluid come again.
     #[test]
     fn retractions_bring_no_fluid() {
