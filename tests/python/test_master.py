@@ -340,6 +340,8 @@ def test_steps_that_a_unit_refuses_are_shortened(pack, folder):
     with Master({**units, "law": cold}, SPLIT, scheme="gauss-seidel", step=4e-4) as master:
         with pytest.raises(StepDiscarded, match="below absolute zero"):
             master.run(2e-3)
+        assert master.record.time.values[-1] == master.time
+        assert len(master.record["plate.centre.temperature"]) == master.record.steps + 1
     options = {"adaptive": True, "tolerance": 1e-2, "energy": ["law.y"]}
     with Master({**units, "law": cold}, SPLIT, step=4e-4, **options) as master:
         result = master.run(2e-3)

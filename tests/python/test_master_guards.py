@@ -237,7 +237,7 @@ def test_outputs_that_follow_driven_inputs_belong_to_the_ends_of_steps(
     assert result.attrs["held_inputs"] == "h"
     assert result["h.y"].values[1:] == pytest.approx(1.0 + result.time.values[1:], rel=1e-12)
     if is_connected:
-        # Nobody knows the first answer of what is computed in steps before the first step.
+        # A unit that follows its inputs late has its first answer only after the first step.
         expected = 1.5 + (0.5 * 0.1**2 if is_late else 0.0)
         assert result["count.y"].values[-1] == pytest.approx(expected, rel=1e-9)
 
@@ -506,3 +506,15 @@ def test_errors_that_follow_a_jump_are_told_of_with_graded_steps(folder):
     with pytest.warns(MasterWarning, match="right after the start or a jump.*Graded\\(0.3, 4\\)"):
         with Master(stores(folder, 1.0), PAIR, scheme="jacobi", step=0.3) as master:
             master.run(20.0)
+
+
+def test_errors_of_input_functions_name_the_input(folder):
+    def broken(time):
+        return 1.0 / (0.3 - time) if time < 0.25 else {}["missing"]
+
+    unit = make(folder, "a", d=1.0)
+    with Master({"a": unit}, inputs={"a.u": broken}, outputs=["a.y"], step=0.1) as master:
+        with pytest.raises(KeyError) as failed:
+            master.run(1.0)
+        assert any("input `a.u` at 0." in note for note in failed.value.__notes__)
+        assert master.record["a.y"].shape == (len(master.record.time),)

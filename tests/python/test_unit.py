@@ -175,6 +175,15 @@ def test_what_is_wrong_is_told_in_the_units_own_words(pack, fmi):
 
 
 @both
+def test_steps_far_too_long_are_discarded(pack, fmi):
+    """Units of FMI 3.0 end them early, again and again."""
+    with Unit(pack("drop", fmi=fmi)) as unit:
+        with pytest.raises(StepDiscarded, match="take shorter") as stopped:
+            unit.step(1e3)
+        assert unit.time == stopped.value.time < 1.0
+
+
+@both
 def test_a_discarded_step_leaves_the_unit_where_it_was(pack, fmi):
     with Unit(pack("tiles", fmi=fmi), parameters={"patch.heat_flux": -1e12}) as unit:
         state = unit.state()

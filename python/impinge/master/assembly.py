@@ -128,6 +128,15 @@ def _participant(name: str, unit: AnyUnit, recorded: Sequence[str]) -> Participa
 def _function(name: str, value: Any, shape: tuple[int, ...]) -> Watched:
     """A constant or a function of time as a function of time that gives a flat array."""
     if callable(value):
-        return Watched(name, lambda time: flat_numbers(name, value(time), shape))
+
+        def at(time: float) -> np.ndarray:
+            try:
+                given = value(time)
+            except Exception as error:
+                error.add_note(f"from the function of the input `{name}` at {time!r} s")
+                raise
+            return flat_numbers(name, given, shape)
+
+        return Watched(name, at)
     constant = flat_numbers(name, value, shape)
     return Watched(name, lambda _: constant, is_constant=True)

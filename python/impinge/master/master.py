@@ -279,7 +279,8 @@ class Master:
 
         progress: whether a bar is shown; only in runs of more than two seconds if left out.
 
-        Ctrl-C ends the run after the present step; another `run` goes on from there.
+        Ctrl-C ends the run after the present step; another `run` goes on from there. If a unit
+        fails, `record` has the rows before.
         """
         began = time.perf_counter()
         march = self._march
@@ -307,7 +308,12 @@ class Master:
                     bar.update(0)
         self.seconds += time.perf_counter() - began
         march.judge()
-        return march.record.dataset(march.balances, self._attributes())
+        return self.record
+
+    @property
+    def record(self) -> xarray.Dataset:
+        """The rows recorded since the start; also those before a run failed."""
+        return self._march.record.dataset(self._march.balances, self._attributes())
 
     def _attributes(self) -> dict[str, Any]:
         import impinge

@@ -53,7 +53,8 @@ class Record:
         arrays: dict[str, Any] = {}
         coordinates: dict[str, Any] = {"time": ("time", self.times, {"units": "s"})}
         for unit, reader in self._readers.items():
-            rows = np.array(self._rows[unit]).reshape(len(self.times), -1)
+            width = sum(variable.size for variable in reader.variables)
+            rows = np.array(self._rows[unit]).reshape(len(self.times), width)
             for variable, place in zip(reader.variables, reader.slices, strict=True):
                 name = f"{unit}.{variable.name}"
                 dimensions = [f"{name}:{axis}" for axis in range(len(variable.shape))]

@@ -16,6 +16,9 @@ from impinge.unit.slave import Slave, pointer
 from impinge.unit.variable import NUMBERS
 
 _DISCARD = 2
+# A step is given up after so many parts in a row that end early, each below this share of it.
+_MOST_SHORT_PARTS = 3
+_SHORT_PART = 1e-4
 _Flag = c_bool
 
 
@@ -119,6 +122,7 @@ class Fmi3(Slave):
         event, terminate, early = self._flags
         # Not `end - time`, which differs by rounding: the unit goes as it would under FMI 2.
         end, rest = time + size, size
+        short_parts = 0
         while True:
             self._last.value = time
             status = self._do_step(time, rest, self._keep_past, *self._results)
@@ -132,6 +136,11 @@ class Fmi3(Slave):
                 return
             if last <= time:
                 raise UnitError(f"{self.log.name}: a step ends early at {last!r} s, where it began")
+            short_parts = short_parts + 1 if last - time < _SHORT_PART * size else 0
+            if short_parts == _MOST_SHORT_PARTS:
+                raise self.discarded(
+                    last, False, f"it ends early after {last - time:.1g} s; take shorter steps"
+                )
             time, rest = last, end - last
 
     # Derivatives

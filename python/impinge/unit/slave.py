@@ -115,9 +115,9 @@ class Slave:
         word = STATUS[status] if 0 <= status < len(STATUS) else f"status {status}"
         return f"{self.log.name}: {self.prefix}{what}: {word}"
 
-    def discarded(self, time: float, terminated: bool) -> StepDiscarded:
+    def discarded(self, time: float, terminated: bool, reason: str = "") -> StepDiscarded:
         return StepDiscarded(
-            f"{self.log.name}: the step was discarded at {time!r} s",
+            f"{self.log.name}: the step was discarded at {time!r} s" + (reason and f": {reason}"),
             time,
             self.log.take(),
             terminated,
