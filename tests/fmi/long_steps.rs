@@ -59,7 +59,7 @@ fn exchanges_without_end_are_discarded() {
 }
 
 #[test]
-fn a_footprint_of_next_to_nothing_that_moves_is_discarded() {
+fn moves_of_a_tiny_footprint_are_discarded() {
     let text = crate::master::SCENE
         .replace("start = { heat_flux = 5e7 }", "start = { heat_flux = 5e7, radius = 1e-11 }")
         .replace("radius = [2e-5, 9e-5]", "radius = [1e-12, 9e-5]");

@@ -135,7 +135,7 @@ fn states_are_possible_while_compression_grows() {
     }
 }
 
-/// Where tension grows a little at one node of an element while others lose theirs, no stress is of two moments.
+/// Tension that grows at one node of an element while others lose theirs is not mixed with stresses of other moments.
 #[test]
 fn tension_keeps_the_compression_of_its_moment() {
     let material = one(&flaws(10, "volume = 1e-9"));

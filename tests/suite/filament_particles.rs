@@ -298,10 +298,10 @@ const PASTE: &str = "{ law = \"bingham\", yield_stress = 60.0, plastic_viscosity
 const STILL: &str = "time = [0.0, 0.2, 1.0, 2.0], x = [-2e-3, 2e-3, 2e-3, 2e-3], y = [0.0, 0.0, 0.0, 0.0], flow = [1.57e-8, \
                      0.0, 0.0, 0.0]";
 
-/// What a path does after the stop time, or with a nozzle from which nothing comes, leaves the strand as it is: its
-/// shape depends on the speed of sound, which follows the fastest flow.
+/// Moves after the stop time, or while nothing flows, leave the strand unchanged: its shape depends on the speed of
+/// sound, which follows the fastest flow.
 #[test]
-fn strands_know_only_what_is_laid() {
+fn strands_ignore_moves_that_lay_nothing() {
     let model_of = |path: &str| {
         let scene = scene::parse(&bead(PASTE, path), "bead.toml").unwrap();
         let notes = forecast(&scene).filaments.remove(0).notes;

@@ -234,7 +234,7 @@ fn a_saved_pile_goes_on_to_the_bit_and_lags_that_no_run_leads_to_are_refused() {
 /// One tile of 64 that is hotter than the drop gets nothing; its neighbours get what they do without it, but for the
 /// wall's mean that rings meet.
 #[test]
-fn a_tile_hotter_than_a_drop_keeps_no_heat_from_others() {
+fn hot_tiles_leave_the_heat_of_others_as_it_is() {
     let given = |hot: f64| {
         let text = drops(WATER, "film", 370.0, "") + &tiles(300.0);
         let mut trial = Trial::new(&text);
@@ -265,7 +265,7 @@ fn a_tile_hotter_than_a_drop_keeps_no_heat_from_others() {
 
 /// A spot hotter than the drop gets nothing, and what lies around it is warmed to no more than the drop.
 #[test]
-fn a_hot_spot_of_a_plate_keeps_no_heat_from_others() {
+fn hot_spots_are_not_heated() {
     for method in ["film", "record"] {
         let top = |flux: f64, count: f64| {
             let load = format!(

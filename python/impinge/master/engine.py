@@ -197,7 +197,7 @@ class Engine:
                     self.guess[link.place] = new
 
     def _last(self, place: slice) -> np.ndarray:
-        """What some inputs are as the step ends, or their means over it where these are held."""
+        """Returns values of some inputs at the end of the step; where means are held, those."""
         if self.means is None:
             return self.guess[place]
         return np.where(np.isfinite(self.means[place]), self.means[place], self.guess[place])

@@ -47,7 +47,7 @@ class Exchange:
         self._is_simple = not any(after.values())
 
     def __call__(self, inputs: np.ndarray, tolerance: float) -> None:
-        """Brings `inputs` to what outputs say now, and sets them."""
+        """Replaces `inputs` by the present values of the outputs that drive them, and sets them."""
         # What follows inputs at once must see those that no connection sets.
         for participant in self._participants.values():
             if participant.is_direct:

@@ -72,14 +72,14 @@ def unit_components(units: Mapping[str, AnyUnit], links: Sequence[Link]) -> list
 
 
 def follows_at_once(units: Mapping[str, AnyUnit], first: Link, second: Link) -> bool:
-    """Whether the second's source follows the first's target at once, as its unit declares."""
+    """Returns true if the source of the second link follows the target of the first at once."""
     if first.target_unit != second.source_unit:
         return False
     return follows(units[first.target_unit], first.target, second.source)
 
 
 def follows(unit: AnyUnit, target: str, source: str) -> bool:
-    """Whether a source follows an input of its unit at once, as the unit declares."""
+    """Returns true if a unit declares that a source follows one of its inputs at once."""
     if unit.variable(source).causality != "output":
         return True  # of locals nothing is declared
     return stem_of_family(unit, target) in unit.depends_on(source)

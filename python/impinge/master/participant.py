@@ -54,7 +54,7 @@ class Participant:
         self._moves = self.paths & ~self._of(self.constants)
 
     def _followers(self, names: Sequence[str]) -> list[str]:
-        """What it says to others or to the record and follows one of these inputs at once."""
+        """Returns outputs, connected or recorded, that follow one of these inputs at once."""
         told = dict.fromkeys([*(link.source for link in self.links_out), *self.recorded])
         return [
             each

@@ -42,8 +42,8 @@ impl SolidBody {
     }
 
     /// Highest temperature just after prescribed ones may have jumped, from that of the nodes `now`. Nodes next to a
-    /// face that has cooled make up for the heat of its nodes at once, and may be hotter than the body was and its
-    /// faces are.
+    /// face that has cooled balance the heat of its nodes at once, and may be hotter than the body was and its faces
+    /// are.
     pub(super) fn possible_after_jump(
         &self,
         now: Extreme,
