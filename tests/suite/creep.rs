@@ -200,7 +200,7 @@ fn creep_that_accelerates_keeps_the_tolerance() {
         trial.set_derivative("pull.pressure[1,1]", 1, -(high - low) / duration);
         trial.step(duration);
         let found = trial.get("inside.plastic_strain");
-        assert!(off(found, wanted) < 0.1 * tolerance, "{tolerance}: {found} {wanted}");
+        assert!(off(found, wanted) < 0.3 * tolerance, "{tolerance}: {found} {wanted}");
     }
 }
 
