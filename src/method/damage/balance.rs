@@ -30,7 +30,7 @@ const ENTRIES_PER_ITERATION: usize = 16;
 /// end, too.
 const REDUCTION: f64 = 1e-2;
 const ENOUGH: f64 = 0.3;
-/// Part of the forces that may be left where Newton's method no longer reduces it.
+/// Part of the forces that may be left, while damage still changes, where Newton's method no longer reduces it.
 const MOST_LEFT: f64 = 0.1;
 /// Updates per unknown that a factorisation takes at least, and for each squared entry of a column of the factor, and
 /// those that an iteration takes, for the allowance of a step.
@@ -113,6 +113,14 @@ pub struct Balance<'a, const D: usize, const C: usize, const V: usize> {
     pub iterations: usize,
 }
 
+/// What follows from displacements in equilibrium.
+pub struct Settled<const C: usize> {
+    /// Energy that cracks release.
+    pub released: Released<C>,
+    /// Part of the forces that is left, at most.
+    pub left: f64,
+}
+
 impl<'a, const D: usize, const C: usize, const V: usize> Balance<'a, D, C, V>
 where
     Point<D, C>: Kinematics<D, C, V>,
@@ -148,14 +156,14 @@ where
     }
 
     /// Moves displacements to the equilibrium with a load [N], until its residual is below a part of the forces;
-    /// displacements that are held stay. Returns the energy that cracks release.
+    /// displacements that are held stay.
     pub fn settle(
         &mut self,
         displacement: &mut [f64],
         (damage, rise): (&[f64], &[f64]),
         load: &[f64],
         tolerance: f64,
-    ) -> Result<Released<C>, DamageError> {
+    ) -> Result<Settled<C>, DamageError> {
         self.damaged.restore(self.elements, &mut self.stiffness, self.intact);
         self.damaged = Damaged::of(self.elements, damage);
         let released = |elements: &Elements<D, C, V>, displacement: &[f64], team: &Team| {
@@ -166,7 +174,8 @@ where
         for _ in 0..MOST_STEPS {
             let size = dot(&residual, &residual).sqrt();
             if size <= tolerance * self.scale(rise, load) {
-                return Ok(released(self.elements, displacement, self.team));
+                let released = released(self.elements, displacement, self.team);
+                return Ok(Settled { released, left: tolerance });
             }
             self.assemble(&Nodal { displacement, damage, rise });
             let goal = (REDUCTION * size).max(ENOUGH * tolerance * self.scale(rise, load));
@@ -188,7 +197,9 @@ where
         }
         let left = dot(&residual, &residual).sqrt() / self.scale(rise, load);
         match left <= MOST_LEFT {
-            true => Ok(released(self.elements, displacement, self.team)),
+            true => {
+                Ok(Settled { released: released(self.elements, displacement, self.team), left })
+            }
             false => Err(DamageError::NoEquilibrium { residual: left, tolerance: MOST_LEFT }),
         }
     }

@@ -23,6 +23,8 @@ const MOST_ALTERNATIONS: usize = 3000;
 const TOLERANCE: f64 = 1e-4;
 const TOLERANCE_OF_FORCES: f64 = 1e-6;
 const LARGEST_TOLERANCE: f64 = 1e-3;
+/// Part of the forces that may be left where Newton's method came to no smaller one.
+const MOST_LEFT: f64 = 1e-3;
 
 /// Equilibrium of a domain that cracks.
 pub struct DamageProblem<const D: usize, const C: usize, const V: usize> {
@@ -140,14 +142,19 @@ where
             let fields = (damage.inner(), rise);
             let in_proportion = TOLERANCE_OF_FORCES * change / TOLERANCE;
             let tolerance = in_proportion.clamp(TOLERANCE_OF_FORCES, LARGEST_TOLERANCE);
-            let released = balance.settle(&mut state.displacement, fields, forces, tolerance)?;
+            let settled = balance.settle(&mut state.displacement, fields, forces, tolerance)?;
             let before = damage.inner().to_vec();
             let margin = self.elements.reach_of_damage();
-            let gradient = self.soften((&released, margin), &low, &mut damage, &mut matrix, team);
+            let gradient =
+                self.soften((&settled.released, margin), &low, &mut damage, &mut matrix, team);
             let after = damage.inner();
             order.note(alternation, after);
             change = after.iter().zip(&before).fold(0.0, |most, (a, b)| most.max((a - b).abs()));
             if change <= TOLERANCE && tolerance <= TOLERANCE_OF_FORCES {
+                if settled.left > MOST_LEFT {
+                    let residual = settled.left;
+                    return Err(DamageError::NoEquilibrium { residual, tolerance: MOST_LEFT });
+                }
                 state.damage.copy_from_slice(damage.inner());
                 return Ok(Effort {
                     alternations: alternation,
