@@ -168,6 +168,8 @@ def test_maps_of_several_files_have_the_times_of_these(tmp_path):
         ("1,2\n3\n", {"power": 1.0}, "map.csv: line 2: 1 columns, where there are 2"),
         ("0,0\n", {"power": 1.0}, "map.csv: is dark everywhere"),
         ("1,2\n", {}, "one of power"),
+        ("1,2\n", {"power": -2.0}, "power = -2.0: a finite number above 0"),
+        ("1,2\n", {"scale": float("nan")}, "scale = nan: a finite number above 0"),
         ("1,2\n", {"power": 1.0, "at": (1e-4, 0)}, r"lies off the target"),
     ],
 )

@@ -133,6 +133,9 @@ def laser_frames(
     """
     if (power is None) + (scale is None) + (pulse is None) != 2:
         raise SurfaceError("one of power [W], scale [W/m2] and pulse is needed")
+    for name, given in {"power": power, "scale": scale}.items():
+        if given is not None and not 0.0 < given < np.inf:
+            raise SurfaceError(f"{name} = {given!r}: a finite number above 0 is needed")
     read = [read_picture(path) for path in paths]
     if len({frames.shape[1:] for _, frames in read}) != 1:
         raise SurfaceError(
@@ -184,4 +187,6 @@ def _shaped(path: Path, flux: np.ndarray) -> Series:
             f"{path}: columns time and power are needed; there are {', '.join(names)}"
         )
     times, power = rows[:, names.index("time")], rows[:, names.index("power")]
+    if not (power >= 0.0).all():
+        raise SurfaceError(f"{path}: power = {power.min()!r}: a power of 0 or more is needed")
     return Series(times, np.multiply.outer(power, flux))
