@@ -204,6 +204,36 @@ fn creep_that_accelerates_keeps_the_tolerance() {
     }
 }
 
+/// Elements of layers project their change of volume, so stress that is read differs from that in which they flow.
+#[test]
+fn layers_creep_in_long_steps_at_a_close_tolerance() {
+    let strains = [1e-3, 1e-5].map(|tolerance| {
+        let shared = "density = 8000.0, specific_heat = 400.0, conductivity = 5e3, poisson = 0.35";
+        let layers = [
+            "\"viscoplastic\", young = 40e9, expansion = 2.4e-5, creep = { coefficient = 1e-36, exponent = 4.5 }",
+            "\"elastoplastic\", young = 110e9, expansion = 1.7e-5, yield_stress = 4e6, isotropic_hardening = 3e9",
+            "\"thermoelastic\", young = 10e9, expansion = 1e-5",
+        ]
+        .map(|law| {
+            format!("[[body.pad.layers]]\nthickness = 0.5e-3\nmaterial = {{ model = {law}, {shared} }}\n")
+        });
+        let mut trial = Trial::new(&format!(
+            "name = \"Pad\"\nstop_time = 15.0\nstep = 5.0\nfidelity = {{ tolerance = {tolerance:e} }}\n[body.pad]\n\
+             kind = \"solid\"\nshape = {{ disc = {{ radius = 2e-3, thickness = 1.5e-3 }} }}\n\
+             initial_temperature = 400.0\nmesh = {{ spacing = 0.5e-3, depth_spacing = 0.25e-3, growth = 1.0 }}\n\
+             [body.pad.faces]\nbottom = {{ temperature = 400.0, roller = true }}\ntop = {{ temperature = 400.0 }}\n{}\
+             [[probe]]\nname = \"solder\"\nin = \"pad\"\nat = [1e-3, 0.0, -0.2e-3]\ngives = [\"plastic_strain\"]\n",
+            layers.concat()
+        ));
+        for face in ["top", "bottom"] {
+            trial.set_derivative(&format!("pad.{face}.temperature"), 1, 2.0);
+        }
+        (0..3).for_each(|_| trial.step(5.0));
+        trial.get("solder.plastic_strain")
+    });
+    assert!(strains[1] > 1e-6 && off(strains[0], strains[1]) < 5e-3, "{strains:?}");
+}
+
 #[test]
 fn under_a_constant_pressure_creep_is_steady() {
     for material in &MATERIALS {

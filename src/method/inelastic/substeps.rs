@@ -78,10 +78,12 @@ impl InelasticProblem {
                 }
                 Err(error) => return Err(error),
             };
-            let ahead = self.rates(&step.end, &between(increment.temperatures, end))?;
+            let mut ahead = self.rates(&step.end, &between(increment.temperatures, end))?;
             strain = strain.max(ahead.strain);
             let length = part * increment.duration;
-            let error = self.error(&now, &step, &rates, length) / (increment.tolerance * strain);
+            let grown = self.grown(&now, &step);
+            let error = rates.error(&grown, length) / (increment.tolerance * strain);
+            ahead.follow(&grown, STAGE * length);
             let ratio = if error > 0.0 { MARGIN / error.cbrt() } else { MOST_RATIO };
             // A NaN error results from rates beyond the range of numbers.
             if error.is_nan() || error > 1.0 {
@@ -166,23 +168,17 @@ impl InelasticProblem {
         Ok(Rates { flow, strain: strains.fold(0.0, f64::max) })
     }
 
-    /// Largest error of a step's plastic strain.
-    fn error(&self, from: &[f64], stages: &Stages, rates: &Rates, length: f64) -> f64 {
+    /// Returns by how much the accumulated strain of all points grows in each stage.
+    fn grown(&self, from: &[f64], stages: &Stages) -> Vec<[f64; 2]> {
         let layout = self.layout();
         let [from, first, led, end] =
             [from, &stages.first, &stages.led, &stages.end].map(|state| {
                 let histories = state[layout.history.clone()].chunks_exact(layout.of_point);
                 histories.map(|history| PlasticHistory::read(history).accumulated)
             });
-        let grown = from.zip(first).map(|(from, first)| first - from);
-        let more = led.zip(end).map(|(led, end)| end - led);
-        let of_point = |((grown, more), rate): ((f64, f64), &Option<f64>)| {
-            let of_rate = |rate: f64| SQRT_2 * rate * length - 2.0 / STAGE * grown + 2.0 * more;
-            rate.map_or(0.0, |rate| of_rate(rate).abs() / 3.0)
-        };
-        // A NaN has to remain.
-        let largest = |most: f64, own: f64| if most.is_nan() || own <= most { most } else { own };
-        grown.zip(more).zip(&rates.flow).map(of_point).fold(0.0, largest)
+        let first = from.zip(first).map(|(from, first)| first - from);
+        let last = led.zip(end).map(|(led, end)| end - led);
+        first.zip(last).map(|(first, last)| [first, last]).collect()
     }
 }
 
@@ -200,6 +196,27 @@ struct Rates {
     flow: Vec<Option<f64>>,
     /// Largest elastic strain [1].
     strain: f64,
+}
+
+impl Rates {
+    /// Largest error of a step's plastic strain.
+    fn error(&self, grown: &[[f64; 2]], length: f64) -> f64 {
+        let of_point = |([first, last], rate): (&[f64; 2], &Option<f64>)| {
+            let of_rate = |rate: f64| SQRT_2 * rate * length - 2.0 / STAGE * first + 2.0 * last;
+            rate.map_or(0.0, |rate| of_rate(rate).abs() / 3.0)
+        };
+        // A NaN has to remain.
+        let largest = |most: f64, own: f64| if most.is_nan() || own <= most { most } else { own };
+        grown.iter().zip(&self.flow).map(of_point).fold(0.0, largest)
+    }
+
+    /// Takes the rates of the last stage [s]. Those of the stresses that are read differ from them where an element
+    /// projects its change of volume, which would be an error of first order.
+    fn follow(&mut self, grown: &[[f64; 2]], stage: f64) {
+        for (rate, [_, last]) in self.flow.iter_mut().zip(grown) {
+            *rate = rate.map(|_| last / stage);
+        }
+    }
 }
 
 fn between([start, end]: [&[f64]; 2], part: f64) -> Vec<f64> {
