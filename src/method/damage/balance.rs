@@ -113,7 +113,7 @@ pub struct Balance<'a, const D: usize, const C: usize, const V: usize> {
     pub iterations: usize,
 }
 
-/// What follows from displacements in equilibrium.
+/// Displacements in equilibrium release this energy and leave these forces.
 pub struct Settled<const C: usize> {
     /// Energy that cracks release.
     pub released: Released<C>,
