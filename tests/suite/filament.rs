@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use impinge::advice::parse_with_warnings;
 use impinge::model::State;
 
-use crate::common::{Trial, sweep};
+use crate::common::{Trial, off, sweep};
 
 const WAX: &str = "{ substance = \"n-eicosane\", at = \"60 °C\", contact_angle = \"20°\" }";
 const SOLDER: &str = "{ substance = \"sac305\", contact_angle = \"40°\" }";
@@ -527,4 +527,31 @@ fn damaged_states_do_no_harm() {
         }
     }
     assert!(refused >= 2 * count / 7, "{refused} of {count}");
+}
+
+/// A strand loses heat to plate and air at once: an `interval` far above the time in which heat crosses it would give
+/// too much of it to one of them.
+#[test]
+fn long_intervals_share_heat_between_plate_and_air_alike() {
+    let shares = |conductance: &str, interval: &str| {
+        let mut trial = Trial::new(&format!(
+            "name = \"Strand\"\nstop_time = 10.0\nstep = 10.0\n[body.ink]\nkind = \"filament\"\nmethod = \"line\"\nfluid = \
+             {{ density = 1200.0, viscosity = {{ law = \"bingham\", yield_stress = 200.0, plastic_viscosity = 50.0 }}, \
+             specific_heat = 2000.0, conductivity = 1.0 }}\nnozzle = {{ diameter = 1e-3, height = 0.8e-3, temperature = \
+             360.0, flow = 1.57e-8 }}\npath = {{ time = [0.0, 0.3], x = [-3e-3, 3e-3], y = [0.0, 0.0] }}\nmost = \
+             1e-8\nspacing = 0.25e-3\nconvection = {{ coefficient = 40.0, ambient = 300.0 }}\n[body.plate]\nkind = \
+             \"solid\"\nshape = {{ box = [9e-3, 3e-3, 1e-3] }}\nmaterial = {{ model = \"thermoelastic\", density = \
+             2500.0, specific_heat = 850.0, conductivity = 1.0 }}\ninitial_temperature = 300.0\nmesh = {{ spacing = \
+             0.25e-3, depth_spacing = 0.2e-3, growth = 1.0, order = 1 }}\n[[coupling]]\nfrom = \"ink\"\nto = \
+             \"plate.top\"\ntraction = false\n{conductance}\n{interval}\n"
+        ));
+        trial.step(10.0);
+        [trial.get("ink.heat"), trial.get("ink.heat_lost")]
+    };
+    for conductance in ["", "conductance = 300.0"] {
+        let [plate, air] = shares(conductance, "");
+        let [long_plate, long_air] = shares(conductance, "interval = 10.0");
+        assert!(off(long_plate, plate) < 0.01, "{conductance}: {long_plate} J of {plate} J");
+        assert!(off(long_air, air) < 0.05, "{conductance}: {long_air} J of {air} J");
+    }
 }
