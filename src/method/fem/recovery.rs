@@ -10,7 +10,9 @@
 //! and nearly cancel in σ_zz. Therefore not the strains xx, …, xz are recovered but xx, yy, xy and the stresses zz, yz,
 //! xz, which all vary slowly through the depth. The local temperature then determines the remaining components. On a
 //! top or bottom these stresses are the traction there. It is known from the loads unless a support holds the face, and
-//! the polynomials take that value.
+//! the polynomials take that value. On an interface both layers have the same traction. As the small difference of large
+//! stresses it is less accurate in the stiffer layer, so the layers' values are averaged with their compliances as
+//! weights, and the polynomials of both take the mean.
 //!
 //! A plane of symmetry is no end: the sampling points continue behind it as images, so half a body recovers the same
 //! values as the whole. On the axis of a disc the strains rr and tt are equal. Their mean is recovered as an even
@@ -98,31 +100,81 @@ impl Recovery {
 
 impl Recovery {
     /// Creates the recovery along z from the samples of each layer to its own nodes, with nodes on interfaces listed
-    /// twice. Strains along interfaces and stresses on them are continuous, but their slopes are not.
+    /// twice. Each layer has the value on an interface that its own samples give.
     pub fn of_layers(mesh: &Mesh, known: [bool; 2]) -> Self {
+        Self::stacked(&Self::parts(mesh, known, false), known)
+    }
+
+    /// Like [`Recovery::of_layers`], of a quantity that is continuous across interfaces, though its slope is not: both
+    /// layers take the mean of their values there, weighted by `trust` (an entry per layer), as an end takes a known
+    /// value.
+    pub fn across_layers(mesh: &Mesh, known: [bool; 2], trust: &[f64]) -> Self {
+        let apart = Self::of_layers(mesh, known);
+        let parts = Self::parts(mesh, known, true);
+        let mut whole = Self::stacked(&parts, known);
+        let mut first = 0;
+        for ((below, above), trust) in parts.iter().zip(parts.iter().skip(1)).zip(trust.windows(2))
+        {
+            let middle = first + below.samples.nrows();
+            let share = trust[1] / (trust[0] + trust[1]);
+            let sides = [(middle - 1, 1.0 - share), (middle, share)];
+            for (n, &weight) in below.ends[1].iter().enumerate() {
+                whole.add_rows(first + n, &apart, sides.map(|(row, share)| (row, weight * share)));
+            }
+            for (n, &weight) in above.ends[0].iter().enumerate() {
+                whole.add_rows(middle + n, &apart, sides.map(|(row, share)| (row, weight * share)));
+            }
+            first = middle;
+        }
+        whole
+    }
+
+    /// Creates the recovery of each layer; `inner` is set if values on interfaces are known.
+    fn parts(mesh: &Mesh, known: [bool; 2], inner: bool) -> Vec<Self> {
         let count = mesh.layering.count();
-        let [.., nodes] = mesh.sided_counts();
+        let of_layer = |layer: usize| {
+            let low = if layer == 0 { known[0] } else { inner };
+            let high = if layer + 1 == count { known[1] } else { inner };
+            Self::new(&mesh.layer_axis(layer), Beyond::Nothing, [low, high])
+        };
+        (0..count).map(of_layer).collect()
+    }
+
+    /// Joins the recoveries of layers, from the lowest on, without the weights of values on interfaces.
+    fn stacked(parts: &[Self], known: [bool; 2]) -> Self {
+        let sum = |size: fn(&Mat<f64>) -> usize| parts.iter().map(|part| size(&part.samples)).sum();
+        let (nodes, columns): (usize, usize) = (sum(Mat::nrows), sum(Mat::ncols));
         let mut whole = Self {
-            samples: Mat::zeros(nodes, sampling_places(&mesh.axes[2]).len()),
+            samples: Mat::zeros(nodes, columns),
             ends: known.map(|known| vec![0.0; if known { nodes } else { 0 }]),
         };
         let (mut row, mut column) = (0, 0);
-        for layer in 0..count {
-            let axis = mesh.layer_axis(layer);
-            let outer = [known[0] && layer == 0, known[1] && layer + 1 == count];
-            let Self { samples, ends } = Self::new(&axis, Beyond::Nothing, outer);
-            for i in 0..samples.nrows() {
-                for j in 0..samples.ncols() {
-                    whole.samples[(row + i, column + j)] = samples[(i, j)];
-                }
-            }
-            for (all, own) in whole.ends.iter_mut().zip(ends) {
-                all.iter_mut().skip(row).zip(own).for_each(|(all, own)| *all = own);
-            }
-            row += samples.nrows();
-            column += samples.ncols();
+        for part in parts {
+            let [rows, columns] = [part.samples.nrows(), part.samples.ncols()];
+            whole.samples.submatrix_mut(row, column, rows, columns).copy_from(&part.samples);
+            (row, column) = (row + rows, column + columns);
+        }
+        let outer = [(parts.first(), 0), (parts.last(), 1)];
+        for (all, (part, end)) in whole.ends.iter_mut().zip(outer) {
+            let own = part.map_or(&[][..], |part| &part.ends[end]);
+            let first = if end == 0 { 0 } else { nodes - own.len() };
+            all.iter_mut().skip(first).zip(own).for_each(|(all, own)| *all = *own);
         }
         whole
+    }
+
+    /// Adds weighted rows of another recovery of the same places to a row.
+    fn add_rows(&mut self, row: usize, other: &Self, rows: [(usize, f64); 2]) {
+        for (from, weight) in rows {
+            for column in 0..self.samples.ncols() {
+                self.samples[(row, column)] += weight * other.samples[(from, column)];
+            }
+            for (all, own) in self.ends.iter_mut().zip(&other.ends) {
+                if let (Some(value), Some(own)) = (all.get_mut(row), own.get(from)) {
+                    *value += weight * own;
+                }
+            }
+        }
     }
 }
 
@@ -153,7 +205,54 @@ fn nearest(points: &[f64], x: f64, count: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::method::mesh::Weight;
+    use crate::method::mesh::{Geometry, Layering, Weight};
+
+    /// A mesh of two layers that meet at z = 1.8.
+    fn two_layers(order: usize) -> Mesh {
+        let axis = |ends: &[f64]| Axis::from_element_ends(ends, order, Weight::Uniform);
+        Mesh {
+            axes: [axis(&[0.0, 1.0]), axis(&[0.0, 1.0]), axis(&[0.0, 1.0, 1.8, 3.0, 3.5, 5.0])],
+            mirrored: [false; 2],
+            geometry: Geometry::Box,
+            layering: Layering::new(vec![2], vec![0.0]),
+        }
+    }
+
+    /// Continuous quadratics with a kink at an interface are recovered in both layers, whichever is trusted more; values
+    /// that disagree there take that of the layer that is trusted.
+    #[test]
+    fn layers_share_their_value_on_an_interface() {
+        for order in [1, 2] {
+            let mesh = two_layers(order);
+            let places: Vec<f64> =
+                sampling_places(&mesh.axes[2]).into_iter().map(|own| own.1).collect();
+            let nodes: Vec<f64> =
+                mesh.nodes_of_sided().into_iter().map(|n| mesh.axes[2].nodes[n]).collect();
+            let of_samples = |recovery: &Recovery, f: &dyn Fn(f64) -> f64, node: usize| -> f64 {
+                let own =
+                    places.iter().enumerate().map(|(i, &z)| recovery.samples[(node, i)] * f(z));
+                let ends = [0.0, 5.0].into_iter().zip(&recovery.ends);
+                let known = |(z, end): (f64, &Vec<f64>)| end.get(node).map_or(0.0, |w| w * f(z));
+                own.sum::<f64>() + ends.map(known).sum::<f64>()
+            };
+            let kinked = |z: f64| {
+                let from = z - 1.8;
+                if from < 0.0 { 2.0 - from } else { 2.0 + 3.0 * from - 0.4 * from * from }
+            };
+            for trust in [[1.0, 1.0], [1e-3, 1.0], [1.0, 1e-3]] {
+                let recovery = Recovery::across_layers(&mesh, [true; 2], &trust);
+                for (node, &z) in nodes.iter().enumerate() {
+                    let value = of_samples(&recovery, &kinked, node);
+                    assert!((value - kinked(z)).abs() < 1e-12, "order {order} at {z}: {value}");
+                }
+            }
+            let jumps = |z: f64| if z < 1.8 { 1.0 } else { 5.0 };
+            let upper = Recovery::across_layers(&mesh, [false; 2], &[1.0, 3.0]);
+            for node in [2 * order, 2 * order + 1] {
+                assert!((of_samples(&upper, &jumps, node) - 4.0).abs() < 1e-12);
+            }
+        }
+    }
 
     #[test]
     fn quadratics_are_recovered_everywhere() {

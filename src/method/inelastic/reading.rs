@@ -23,6 +23,8 @@ pub struct NodalValues {
     pub back_strain: Vec<[f64; 6]>,
 }
 
+/// Slots of the stresses on an interface: zz, yz, xz.
+const TRACTION: [usize; 3] = [2, 4, 5];
 /// `√(3/2)`
 const ROOT: f64 = 1.224_744_871_391_589;
 /// Time over which flow rates are compared [s].
@@ -36,7 +38,8 @@ impl InelasticProblem {
         temperatures: &[f64],
     ) -> Result<NodalValues, InelasticError> {
         let points = self.points(state, temperatures)?;
-        let stress = self.recover_tensor(points.iter().map(|point| point.stress).collect());
+        let mut stress = self.recover_tensor(points.iter().map(|point| point.stress).collect());
+        self.join_tractions(&mut stress, temperatures)?;
         let plastic_strain = self.nodal_plastic_strain(&points);
         let back_strain = self.nodal_back_strain(&points, &plastic_strain);
         let mut values = NodalValues { stress, plastic_strain, back_strain };
@@ -49,8 +52,7 @@ impl InelasticProblem {
             for _ in 0..self.mesh.layer_axis(layer).len() * plane {
                 let node = levels[number / plane] * plane + number % plane;
                 let temperature = temperatures[node];
-                let own = self.law(element).over_step(temperature, UNIT_TIME);
-                let own = own.ok_or(InelasticError::Constants { layer: element, temperature })?;
+                let own = self.constants_at(element, temperature)?;
                 let face = self.free_faces.normal_at(self.place_of_node(node));
                 let fastest = fastest.get(number).copied().unwrap_or(f64::NEG_INFINITY);
                 values.keep_within(&own, number, fastest, face);
@@ -58,6 +60,45 @@ impl InelasticProblem {
             }
         }
         Ok(values)
+    }
+
+    /// Constants of an element's law at a temperature [K].
+    fn constants_at(
+        &self,
+        element: usize,
+        temperature: f64,
+    ) -> Result<PointConstants, InelasticError> {
+        let own = self.law(element).over_step(temperature, UNIT_TIME);
+        own.ok_or(InelasticError::Constants { layer: element, temperature })
+    }
+
+    /// Gives both sides of interfaces the traction that they share, averaged with their compliances as weights: as the
+    /// small difference of large stresses it is less accurate in the stiffer layer.
+    fn join_tractions(
+        &self,
+        stress: &mut [[f64; 6]],
+        temperatures: &[f64],
+    ) -> Result<(), InelasticError> {
+        let plane = self.mesh.axes[0].len() * self.mesh.axes[1].len();
+        let levels = self.mesh.nodes_of_sided();
+        let mut level = 0;
+        for layer in 1..self.mesh.layering.count() {
+            level += self.mesh.layer_axis(layer - 1).len();
+            let [below, above] = [layer - 1, layer].map(|own| self.mesh.layer_elements(own).start);
+            for i in 0..plane {
+                let temperature = temperatures[levels[level] * plane + i];
+                let below = traction_moduli(&self.constants_at(below, temperature)?);
+                let above = traction_moduli(&self.constants_at(above, temperature)?);
+                let [low, high] = [level - 1, level].map(|level| level * plane + i);
+                for (slot, (below, above)) in TRACTION.into_iter().zip(below.into_iter().zip(above))
+                {
+                    let share = below / (below + above);
+                    let mean = (1.0 - share) * stress[low][slot] + share * stress[high][slot];
+                    (stress[low][slot], stress[high][slot]) = (mean, mean);
+                }
+            }
+        }
+        Ok(())
     }
 
     fn place_of_node(&self, node: usize) -> [f64; 3] {
@@ -131,6 +172,11 @@ impl NodalValues {
         }
         *stress = admissible(*stress, &own.back_stress(&back_strain), radius, face);
     }
+}
+
+/// Moduli of the stresses on an interface [Pa].
+fn traction_moduli(own: &PointConstants) -> [f64; 3] {
+    [own.bulk + 4.0 / 3.0 * own.shear, own.shear, own.shear]
 }
 
 /// Length of a strain with engineering shears.

@@ -81,8 +81,11 @@ impl Recoveries {
             plan.supports.iter().find(|(face, _)| *face == place).map(|(_, support)| *support)
         };
         let supports = [support(false), support(true)];
-        let along_z =
-            |known: fn(Option<Support>) -> bool| Recovery::of_layers(mesh, supports.map(known));
+        let laws = plan.law.as_deref().unwrap_or_default();
+        let traction = |known: fn(Option<Support>) -> bool, modulus: fn(&Thermoelastic) -> f64| {
+            let compliances: Vec<f64> = laws.iter().map(|law| modulus(law).recip()).collect();
+            Recovery::across_layers(mesh, supports.map(known), &compliances)
+        };
         let lateral = |axis: usize| {
             let all = match continues(mesh, axis) {
                 true => [Beyond::Even, Beyond::Odd, Beyond::Vanishing],
@@ -97,9 +100,12 @@ impl Recoveries {
             masses: [0, 1].map(|axis: usize| mesh.axes[axis].mass()),
             lateral: [lateral(0), lateral(1)],
             depth: [
-                along_z(|_| false),
-                along_z(|support| support.is_none()),
-                along_z(|support| support != Some(Support::Clamped)),
+                Recovery::of_layers(mesh, [false; 2]),
+                traction(
+                    |support| support.is_none(),
+                    |law| law.lame_first() + 2.0 * law.shear_modulus(),
+                ),
+                traction(|support| support != Some(Support::Clamped), Thermoelastic::shear_modulus),
             ],
         }
     }
