@@ -39,6 +39,8 @@ pub struct SolidMemo {
     risk_so_far: Option<Risk>,
     /// Results of the same loads before prescribed temperatures act, at the uniform temperature of the start.
     before_jump: Option<Box<Self>>,
+    /// Results of the same loads and temperatures, with what the loads deform at once.
+    at_once: Option<Box<Self>>,
     /// The last point that was read: its components are read one after another.
     stress: Option<([f64; 3], [f64; 6])>,
     /// For each symmetry class: whether heat drives it, and whether instantaneous loads do.
@@ -117,6 +119,28 @@ impl SolidMemo {
         let faces = faces.iter().map(|own| vec![0.0; own.len()]).collect();
         let loads = SolidLoads { heat: heat.clone(), force: force.clone(), faces };
         self.before_jump.get_or_insert_with(|| Box::new(Self::new(loads)))
+    }
+
+    /// Computes the deformation that the loads cause at once in a body with a history, whose state has that of the last
+    /// loads. Where there is no equilibrium, the step that begins says so.
+    pub fn deform_at_once(&mut self, body: &SolidBody, state: &[f64]) -> Result<(), BodyError> {
+        if self.at_once.is_some() {
+            return Ok(());
+        }
+        let temperatures = self.heat(body, state).clone();
+        let deformation = body.deformation_at_once(state, &temperatures, self.loads())?;
+        let mut own = Self::new(self.loads().clone());
+        (own.temperatures, own.deformation) = (Some(temperatures), deformation);
+        self.at_once = Some(Box::new(own));
+        Ok(())
+    }
+
+    /// The memo with what the loads deform at once, if that is known; otherwise this one.
+    pub fn at_once(&mut self) -> &mut Self {
+        match self.at_once.is_some() {
+            true => self.at_once.as_mut().expect("just seen"),
+            false => self,
+        }
     }
 
     /// Nodal temperatures above the initial one.

@@ -375,6 +375,12 @@ impl Maxima for SolidBody {
             let memo = SolidMemo::of_mut(memo).before_jump();
             return self.highest(&mut SolidReader { body: self, state, memo }, which);
         }
+        if self.yielding.is_some() && self.is_stress_peak(which) {
+            let memo = SolidMemo::of_mut(memo);
+            memo.deform_at_once(self, state)?;
+            return self
+                .highest(&mut SolidReader { body: self, state, memo: memo.at_once() }, which);
+        }
         let now = self.observe(state, memo, which)?;
         let jumps = self.prescribes_temperature;
         Ok(if jumps { self.possible_after_jump(now, (state, inputs), memo, so_far) } else { now })
@@ -403,6 +409,9 @@ impl Maxima for SolidBody {
         memo: &mut Memo,
         duration: Option<f64>,
     ) -> Result<(), BodyError> {
+        if self.yielding.is_some() && duration.is_none() && !self.prescribes_temperature {
+            SolidMemo::of_mut(memo).deform_at_once(self, state)?;
+        }
         let memo = self.memo_to_note(memo, duration);
         self.observe_growth(state, memo)?;
         self.observe_flaws(state, memo)
@@ -428,9 +437,10 @@ impl SolidBody {
     /// The memo whose stress is noted. As a step begins, prescribed temperatures have not acted yet.
     fn memo_to_note<'m>(&self, memo: &'m mut Memo, duration: Option<f64>) -> &'m mut SolidMemo {
         let memo = SolidMemo::of_mut(memo);
-        match self.prescribes_temperature && duration.is_none() {
-            true => memo.before_jump(),
-            false => memo,
+        match duration {
+            Some(_) => memo,
+            None if self.prescribes_temperature => memo.before_jump(),
+            None => memo.at_once(),
         }
     }
 

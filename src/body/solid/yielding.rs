@@ -313,9 +313,38 @@ impl SolidBody {
         let (Some(yielding), Some(temperatures)) = (&self.yielding, temperatures) else {
             return Ok(None);
         };
-        let mechanics = self.mechanics_of(state);
         let nodal = self.nodal_temperatures(yielding, temperatures)?;
-        let values = yielding.problem.nodal_values(mechanics, &nodal);
+        self.deformation_of(yielding, self.mechanics_of(state), &nodal).map(Some)
+    }
+
+    /// Returns displacements and stress of a body with a history as loads act on a state at once; `None` without a
+    /// history, and where there is no equilibrium.
+    pub(super) fn deformation_at_once(
+        &self,
+        state: &[f64],
+        temperatures: &Temperatures,
+        loads: &SolidLoads,
+    ) -> Result<Option<Deformation>, BodyError> {
+        let Some(yielding) = &self.yielding else { return Ok(None) };
+        let nodal = self.nodal_temperatures(yielding, temperatures)?;
+        let mut mechanics = self.mechanics_of(state).to_vec();
+        match yielding.problem.advance(&mut mechanics, &nodal, &self.nodal_forces(loads)?) {
+            Ok(_) => self.deformation_of(yielding, &mechanics, &nodal).map(Some),
+            Err(error) => match self.inelastic_error(error) {
+                BodyError::Equilibrium { .. } => Ok(None),
+                error => Err(error),
+            },
+        }
+    }
+
+    /// Displacements and stress of a mechanical state at nodal temperatures.
+    fn deformation_of(
+        &self,
+        yielding: &Yielding,
+        mechanics: &[f64],
+        nodal: &[f64],
+    ) -> Result<Deformation, BodyError> {
+        let values = yielding.problem.nodal_values(mechanics, nodal);
         let NodalValues { stress, plastic_strain, back_strain } =
             values.map_err(|error| self.inelastic_error(error))?;
         let remembered = match yielding.yields {
@@ -323,7 +352,7 @@ impl SolidBody {
             false => Remembered::elastic(stress),
         };
         let displacement = yielding.problem.displacement(mechanics).to_vec();
-        Ok(Some(Deformation::of_nodes(displacement, remembered)))
+        Ok(Deformation::of_nodes(displacement, remembered))
     }
 
     /// Largest accumulated plastic strain of all points at which the law is evaluated [1], an upper bound of all
