@@ -74,8 +74,8 @@ pub struct Coupling {
     #[schemars(transform = within(1e-30, 1e12, "s", "the time between exchanges")
         .otherwise("from the flow and the contact; for solids the communication step"))]
     pub interval: Option<f64>,
-    /// Distance from each arrival within which the solid's mesh is fine [m].
+    /// Distance from each arrival, or from the path of a nozzle, within which the solid's mesh is fine [m].
     #[schemars(transform = length("the radius of the fine mesh")
-        .otherwise("the expected spread of the drop; the path of a nozzle"))]
+        .otherwise("the expected spread of the drop; two diameters of the nozzle"))]
     pub radius: Option<f64>,
 }

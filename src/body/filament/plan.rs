@@ -113,17 +113,17 @@ const MARGIN: f64 = 2.0;
 /// Refinement where a strand is laid: around the path of the nozzle, around the target if inputs move the nozzle, or
 /// over the whole face.
 pub fn refinement(scene: &Scene, (coupling, filament): (&Coupling, &Filament)) -> Refinement {
-    let margin = MARGIN * filament.nozzle.diameter;
+    let margin = coupling.radius.unwrap_or(MARGIN * filament.nozzle.diameter);
     let around = |[low, high]: [f64; 2]| [low - margin, high + margin];
     let target = scene.target_of(&coupling.from);
     let route = scene.route(filament).filter(|route| route.laid().next().is_some());
     let [x, y] = match (coupling.radius, &route, target) {
-        (Some(radius), ..) => [[-radius, radius]; 2],
-        (None, Some(route), _) => route.ranges().map(around),
-        (None, None, Some(target)) => [0, 1].map(|axis| {
+        (_, Some(route), _) => route.ranges().map(around),
+        (_, None, Some(target)) => [0, 1].map(|axis| {
             let along = || target.line.iter().map(|place| place[axis]);
             around([along().fold(f64::INFINITY, f64::min), along().fold(f64::MIN, f64::max)])
         }),
+        (Some(radius), None, None) => [[-radius, radius]; 2],
         (None, None, None) => {
             let solid = coupling.solid().and_then(|name| scene.solid(name));
             let extents = solid.map_or([0.0; 2], |solid| lateral_extents(&solid.shape));
@@ -156,6 +156,34 @@ mod tests {
         );
         let (scene, _) = crate::advice::parse_with_warnings(&text, "scene.toml").unwrap();
         share_of_rise(scene.filament("ink").unwrap(), scene.solid("plate").unwrap())
+    }
+
+    /// A radius of the coupling is a distance from the path, wherever that is.
+    #[test]
+    fn meshes_are_fine_around_the_path() {
+        for (key, margin) in [("radius = 4e-3", 4e-3), ("", 2e-3)] {
+            let ranges = fine_ranges(key);
+            for ([low, high], [first, last]) in ranges.into_iter().zip([[0.02, 0.024], [0.0, 0.0]])
+            {
+                let off = (low + margin - first).abs().max((high - margin - last).abs());
+                assert!(off < 1e-15, "{key}: {ranges:?}");
+            }
+        }
+    }
+
+    /// The fine ranges of a plate below a strand from x = 20 to 24 mm.
+    fn fine_ranges(of_coupling: &str) -> [[f64; 2]; 2] {
+        let text = format!(
+            "name = \"Lay\"\nstop_time = 1.0\nstep = 0.1\n[body.ink]\nkind = \"filament\"\nfluid = {WAX}\nnozzle = {{ \
+             diameter = 1e-3, height = 1e-3, temperature = 340.0 }}\npath = {{ time = [0.0, 1.0], x = [0.02, \
+             0.024], y = [0.0, 0.0], flow = [1e-9, 1e-9] }}\nmost = 1e-8\n[body.plate]\nkind = \"solid\"\nshape = {{ box = \
+             [60e-3, 30e-3, 2e-3] }}\nmaterial = {GLASS}\ninitial_temperature = 293.15\n[[coupling]]\nfrom = \
+             \"ink\"\nto = \"plate.top\"\ntraction = false\n{of_coupling}\n"
+        );
+        let (scene, _) = crate::advice::parse_with_warnings(&text, "scene.toml").unwrap();
+        let Refinement { x, y, .. } =
+            refinement(&scene, (&scene.coupling[0], scene.filament("ink").unwrap()));
+        [x, y]
     }
 
     /// A strand warms the layer on which it lies, whatever is below that.

@@ -4,7 +4,9 @@
 //! the outlet with the nozzle's velocity and rests on the plate; with a velocity linear in the height in between, the
 //! place of touchdown p follows that of the nozzle, x, by `dp/dt = (x − p)/t_r` with `t_r = (H − h)/(2 u)`, the free
 //! height H − h and the mean speed u in the nozzle. Under a nozzle of steady velocity v the strand touches down at the
-//! distance `v t_r` behind it. Threads that swing, coil or buckle are not modelled.
+//! distance `v t_r` behind it. Threads that swing, coil or buckle are not modelled. A nozzle that moves on while next to
+//! no fluid comes, less than a thousandth of the section of the nozzle, draws a thread that breaks: this fluid stays with
+//! the strand where it ended, and the next strand begins below the nozzle.
 
 use super::beneath::Beneath;
 use super::carriers::Carriers;
@@ -24,6 +26,8 @@ const THICKER: f64 = 1.5;
 const LOW: f64 = 0.3;
 /// Difference in height of the segments on which one lies, over their own height.
 const LEVEL: f64 = 0.5;
+/// Part of the section of the nozzle below which a strand is drawn until it breaks.
+const THREAD: f64 = 1e-3;
 /// Part of a segment's volume below which fluid belongs to the segment before: the rounding of a path's end.
 const SLIVER: f64 = 1e-6;
 
@@ -127,18 +131,23 @@ impl Line {
         let duration = piece.to - piece.from;
         let speed = piece.volume / (duration * self.plan.outlet());
         let velocity = [0, 1, 2].map(|axis| (end[axis] - begin[axis]) / duration);
+        let swift = velocity[0].hypot(velocity[1]);
+        let is_thread = speed < THREAD * swift;
         let whole = self.plan.segment_volume() * (1.0 - SLACK);
         let before = strand.segments().next_back();
         let is_sliver = |last: &Segment| last.end == strand.touch && piece.volume < SLIVER * whole;
-        let last = before.filter(|last| strand.open == 1.0 || is_sliver(last));
+        let last = before.filter(|last| is_thread || strand.open == 1.0 || is_sliver(last));
         let way = [begin, end];
         let open = match last {
             Some(last) => last,
             None => self.begun((strand, beneath), way, piece.volume),
         };
-        let thickness = self.thickness(strand, velocity[0].hypot(velocity[1]), speed);
+        let thickness = self.thickness(strand, swift, speed);
         let free = (end[2] - open.base - thickness).max(0.0);
-        let touch = touchdown(strand.touch, [begin, end], (duration, 0.5 * free / speed));
+        let touch = match is_thread {
+            true => open.end,
+            false => touchdown(strand.touch, [begin, end], (duration, 0.5 * free / speed)),
+        };
         let path = (touch[0] - open.end[0]).hypot(touch[1] - open.end[1]);
         let is_new = last.is_none_or(|last| {
             let leaves = || self.thick().max(LEAVES * self.laid(strand, &last).section());
@@ -154,7 +163,10 @@ impl Line {
         let gap = end[2] - floor(strand, &segment);
         let laid_before = self.laid_width(&segment, gap);
         segment.path += path;
-        (segment.end, segment.outlet) = (touch, end[2]);
+        segment.end = touch;
+        if !is_thread {
+            segment.outlet = end[2];
+        }
         let middle = strand.time + 0.5 * (piece.from + piece.to);
         let part = piece.volume / (segment.volume + piece.volume);
         segment.born += part * (middle - segment.born);
@@ -165,7 +177,7 @@ impl Line {
         (0..LAYERS).for_each(|n| segment.heats[n] += SHARES[n] * heat);
         strand.supplied += heat;
         strand.volume += piece.volume;
-        strand.touch = touch;
+        strand.touch = if is_thread { [end[0], end[1]] } else { touch };
         // What has spread so far stays beyond the width as laid, whichever pieces the fluid came in.
         let laid = self.laid_width(&segment, gap);
         let spread = segment.half_width + 0.5 * (laid - laid_before);
@@ -173,7 +185,7 @@ impl Line {
         let thicker = (segment.volume / (self.thick() * segment.path)).max(1.0).powf(THICKER);
         let is_full = piece.is_full && segment.volume >= whole * thicker;
         let is_complete = is_full && !segment.is_heap();
-        strand.open = if is_complete { 0.0 } else { 1.0 };
+        strand.open = if is_complete || is_thread { 0.0 } else { 1.0 };
         if is_new {
             strand.push(&segment);
         }
@@ -311,9 +323,10 @@ fn touchdown(
     [begin, end]: [[f64; 3]; 2],
     (duration, relaxation): (f64, f64),
 ) -> [f64; 2] {
-    let decay = if relaxation > 0.0 { (-duration / relaxation).exp() } else { 0.0 };
+    let decay = (-duration / relaxation).exp();
+    // The distance behind the outlet over its way, without the difference of large numbers in slow fluid.
+    let behind = relaxation / duration * (-duration / relaxation).exp_m1();
     [0, 1].map(|axis| {
-        let lag = (end[axis] - begin[axis]) / duration * relaxation;
-        end[axis] - lag + (from[axis] - begin[axis] + lag) * decay
+        end[axis] + (from[axis] - begin[axis]) * decay + (end[axis] - begin[axis]) * behind
     })
 }

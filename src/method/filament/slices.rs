@@ -3,10 +3,13 @@
 //! Layers that came one after the other make a slice, as long as a segment of a line is. The centre line of the strand
 //! goes through the centroids of slices; ends of segments lie midway between them. Each particle belongs to the nearest
 //! of the segments around its own slice. A segment has the volume of its particles, and is as wide as these reach
-//! across it, with half of their distance on either side.
+//! across it, with half of their distance on either side. Where the flow stopped and the nozzle went on, layers that came
+//! one after the other lie far apart: there one centre line ends and another begins.
 //!
 //! Fluid is laid where it moves at less than half the speed at which it comes. The newest layer that is laid touches
 //! down, with a place between layers by their speeds.
+
+use std::ops::Range;
 
 use super::segment::distance_from_line;
 use super::{LineTotals, Segment};
@@ -30,6 +33,9 @@ pub struct Sliced {
 
 /// Part of the speed at which fluid comes below which it is laid.
 const LAID: f64 = 0.5;
+/// Distance between layers that came one after the other, over the length of a segment, from which on they belong to
+/// strands of their own.
+const APART: f64 = 2.0;
 /// Number of segments before and after that of its slice among which a particle has its nearest.
 const AROUND: usize = 4;
 
@@ -40,20 +46,41 @@ struct Part {
     /// Means over the volume: place along the plate [m], speed [m/s].
     middle: [f64; 2],
     speed: f64,
+    /// Distance of the farthest particle of a layer from its middle [m].
+    reach: f64,
+}
+
+/// The segment of a layer, and all segments of its strand. Layers that the nozzle has torn belong to both strands beside
+/// them.
+struct Home {
+    own: usize,
+    strand: Range<usize>,
 }
 
 impl Sliced {
     pub fn of(laid: &Laid, slicing: Slicing) -> Self {
         let nozzle = [laid.fed.nozzle[0], laid.fed.nozzle[1]];
         let layers = layers(laid);
+        let apart = APART * slicing.segment;
         let (count, touch) = match laid.fed.flowing == 1.0 {
-            true => touchdown(&layers, laid, nozzle),
+            true => touchdown(&layers, laid, nozzle, apart),
             false => (layers.len(), nozzle),
         };
         let per_slice = (slicing.segment / slicing.layer).round().max(1.0) as usize;
-        let slices: Vec<Part> = layers[..count].chunks(per_slice).map(joined).collect();
-        let mut segments = centre_line(&slices);
-        measure(&mut segments, laid, (count, per_slice), slicing.layer);
+        let (mut segments, mut homes) = (Vec::new(), Vec::new());
+        for strand in layers[..count].chunk_by(|a, b| distance(a.middle, b.middle) <= apart) {
+            let first = segments.len();
+            if strand.len() < count && strand.iter().all(|layer| layer.reach > apart) {
+                homes.extend(strand.iter().map(|_| Home { own: first, strand: 0..usize::MAX }));
+                continue;
+            }
+            let slices: Vec<Part> = strand.chunks(per_slice).map(joined).collect();
+            segments.extend(centre_line(&slices));
+            let home =
+                |n: usize| Home { own: first + n / per_slice, strand: first..segments.len() };
+            homes.extend((0..strand.len()).map(home));
+        }
+        measure(&mut segments, laid, &homes, slicing.layer);
         Self { segments, touch }
     }
 
@@ -70,7 +97,7 @@ impl Sliced {
             height: part(volume, area),
             last_width: last.map_or(0.0, Segment::width),
             last_height: last.map_or(0.0, |own| part(own.volume, own.area())),
-            lag: (nozzle[0] - self.touch[0]).hypot(nozzle[1] - self.touch[1]),
+            lag: distance([nozzle[0], nozzle[1]], self.touch),
             volume,
             ..LineTotals::default()
         }
@@ -92,7 +119,16 @@ fn layers(laid: &Laid) -> Vec<Part> {
         part.middle = part.middle.map(|x| x / part.volume);
         part.speed /= part.volume;
     }
+    for (i, &layer) in laid.layer.iter().enumerate() {
+        let [x, y, _] = laid.position[i];
+        let part = &mut layers[layer];
+        part.reach = part.reach.max(distance(part.middle, [x, y]));
+    }
     layers
+}
+
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
 fn joined(parts: &[Part]) -> Part {
@@ -104,16 +140,21 @@ fn joined(parts: &[Part]) -> Part {
         volume,
         middle: [mean(&|part| part.middle[0]), mean(&|part| part.middle[1])],
         speed: mean(&|part| part.speed),
+        reach: 0.0,
     }
 }
 
-/// Number of laid layers, and the place of touchdown [m].
-fn touchdown(layers: &[Part], laid: &Laid, nozzle: [f64; 2]) -> (usize, [f64; 2]) {
+/// Number of laid layers, and the place of touchdown [m]; that of a strand which has just begun, `apart` from the last
+/// one, is below the nozzle.
+fn touchdown(layers: &[Part], laid: &Laid, nozzle: [f64; 2], apart: f64) -> (usize, [f64; 2]) {
     let limit = LAID * laid.drive.iter().map(|v| v * v).sum::<f64>().sqrt();
     let Some(last) = layers.iter().rposition(|part| part.speed < limit) else {
         return (0, nozzle);
     };
     let Some(next) = layers.get(last + 1) else { return (last + 1, layers[last].middle) };
+    if distance(next.middle, layers[last].middle) > apart {
+        return (last + 1, nozzle);
+    }
     let share = (limit - layers[last].speed) / (next.speed - layers[last].speed);
     let place =
         |a: usize| layers[last].middle[a] + share * (next.middle[a] - layers[last].middle[a]);
@@ -145,17 +186,13 @@ fn centre_line(slices: &[Part]) -> Vec<Segment> {
 }
 
 /// Gives segments the volume and the width of their particles, which are at a `distance` from each other [m].
-fn measure(
-    segments: &mut [Segment],
-    laid: &Laid,
-    (count, per_slice): (usize, usize),
-    distance: f64,
-) {
+fn measure(segments: &mut [Segment], laid: &Laid, homes: &[Home], distance: f64) {
     let mut reach = vec![[f64::INFINITY, f64::NEG_INFINITY]; segments.len()];
-    for i in (0..laid.layer.len()).filter(|&i| laid.layer[i] < count) {
+    for i in (0..laid.layer.len()).filter(|&i| laid.layer[i] < homes.len()) {
         let [x, y, _] = laid.position[i];
-        let own = laid.layer[i] / per_slice;
-        let around = own.saturating_sub(AROUND)..(own + AROUND + 1).min(segments.len());
+        let Home { own, strand } = &homes[laid.layer[i]];
+        let first = own.saturating_sub(AROUND).max(strand.start);
+        let around = first..(own + AROUND + 1).min(strand.end).min(segments.len());
         let away = |n: &usize| distance_from_line([x, y], [segments[*n].start, segments[*n].end]);
         let nearest = around.min_by(|a, b| away(a).total_cmp(&away(b)));
         let Some(n) = nearest else { continue };
@@ -199,6 +236,43 @@ mod tests {
         assert!((totals.length - 6.0).abs() < 1e-9, "{totals:?}");
         assert!((totals.width - 0.8).abs() < 1e-9 && (totals.height - 0.1).abs() < 1e-9);
         assert!((totals.volume - 0.48).abs() < 1e-12 && sliced.segments.len() == 12);
+    }
+
+    /// Two bars that came one after the other, far apart, are two strands: nothing lies between them, and one that has
+    /// just begun touches down below the nozzle.
+    #[test]
+    fn strands_end_where_the_nozzle_went_on_without_flow() {
+        let bar = |laid: &mut Laid, from: f64, first: usize, speed: f64| {
+            for layer in 0..20 {
+                for k in 0..4 {
+                    laid.position.push([from + 0.1 * layer as f64, 0.1 * f64::from(k), 0.05]);
+                    laid.velocity.push([speed, 0.0, 0.0]);
+                    laid.volume.push(1e-3);
+                    laid.layer.push(first + layer);
+                }
+            }
+        };
+        let mut laid = Laid { drive: [0.0, 0.0, -1.0], ..Laid::default() };
+        bar(&mut laid, 0.0, 0, 0.0);
+        for (at, layer) in [(1.95, 20), (10.0, 20)] {
+            laid.position.push([at, 0.0, 0.05]);
+            laid.velocity.push([0.0; 3]);
+            laid.volume.push(1e-3);
+            laid.layer.push(layer);
+        }
+        bar(&mut laid, 10.0, 21, 0.0);
+        let slicing = Slicing { segment: 0.5, layer: 0.1 };
+        let sliced = Sliced::of(&laid, slicing);
+        let totals = sliced.totals([12.0, 0.0, 1.0]);
+        assert!(
+            (totals.length - 4.0).abs() < 1e-9 && (totals.width - 0.4).abs() < 1e-9,
+            "{totals:?}"
+        );
+        assert!(sliced.segments.iter().all(|own| own.end[0] < 2.0 || own.start[0] > 9.9));
+        laid.velocity[82..].fill([0.9, 0.0, 0.0]);
+        (laid.fed.flowing, laid.fed.nozzle) = (1.0, [12.0, 0.0, 1.0]);
+        let begun = Sliced::of(&laid, slicing);
+        assert!(begun.touch == [12.0, 0.0] && begun.segments.len() == 4, "{begun:?}");
     }
 
     /// The strand touches down where half of its speed is left, and only what lies behind is laid.

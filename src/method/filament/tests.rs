@@ -123,6 +123,40 @@ fn a_nozzle_at_rest_makes_one_heap() {
     assert!((volume / (3.0 * flow) - 1.0).abs() < 1e-12);
 }
 
+/// A valve that closes slowly, or leaks, draws no strand over a travel without flow: what it lets through stays with the
+/// strand that ended, and the next one begins at the nozzle. The places are far from the origin.
+#[test]
+fn next_to_no_flow_draws_no_strand() {
+    let line = Line::new(plan(CONCRETE, 0.02));
+    let flow = 0.1 * line.plan().outlet();
+    let around = Around { surface: &Surface::default(), air: Trend::held(300.0) };
+    let laid = |leak: f64| {
+        let mut strand = line.start([10.0, 0.0, 0.02]);
+        let motions = [
+            along(2.0, (10.0, 0.02), 0.1, flow),
+            along(0.5, (10.2, 0.02), 2.0, leak * flow),
+            along(0.5, (11.2, 0.02), 2.0, leak * flow),
+            along(2.0, (12.2, 0.02), 0.1, flow),
+        ];
+        line.advance(&mut strand, &motions, &around).unwrap();
+        line.check(&strand).unwrap();
+        segments(&strand)
+    };
+    let closed = laid(0.0);
+    let length = |all: &[Segment]| all.iter().map(Segment::length).sum::<f64>();
+    assert!((length(&closed) - 0.4).abs() < 0.01, "{}", length(&closed));
+    for leak in [1e-30, 1e-20, 1e-9, 1e-4, 1e-3] {
+        let leaking = laid(leak);
+        assert_eq!(leaking.len(), closed.len(), "{leak}");
+        let volume: f64 = leaking.iter().map(|own| own.volume).sum();
+        assert!((volume / ((4.0 + leak) * flow) - 1.0).abs() < 1e-12, "{leak}");
+        assert!((length(&leaking) - length(&closed)).abs() < 1e-9, "{leak}");
+        assert!(leaking.iter().all(|own| own.end[0] < 10.21 || own.start[0] > 12.19), "{leak}");
+    }
+    // Drawn to a tenth of the section of the nozzle it is a strand.
+    assert!(laid(2.0).len() > closed.len() + 10);
+}
+
 /// A nozzle whose inputs jump from step to step lays the same volume along its path, in as many segments.
 #[test]
 fn inputs_without_derivatives_lay_a_strand() {
