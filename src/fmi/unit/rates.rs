@@ -10,13 +10,17 @@ use crate::fmi::gate::answer::{Answer, Reference, Refusal, Status};
 use crate::fmi::table::Phase;
 use crate::inputs::InputPath;
 use crate::model::{BodyError, Cache, HIGHEST_INPUT_DERIVATIVE, ModelError, State, start_rates};
-use crate::scene::Scene;
+use crate::scene::{Scene, Solid, takes_newton};
 use crate::variables::{Output, Parameter, Registry, Slot, Variable};
 
-/// Highest order of output derivatives, as declared in the XML. Steps of particles have none, nor have solids on which
-/// other bodies fall or are laid.
+/// Highest order of output derivatives, as declared in the XML. Only outputs of linear solids have them; steps of
+/// particles have none, nor have solids on which other bodies fall or are laid.
 pub fn highest_output_derivative(scene: &Scene) -> usize {
-    if scene.has_drops() || scene.has_links() { 0 } else { 1 }
+    let is_linear = |(_, solid): (&str, &Solid)| {
+        !takes_newton(scene, solid) && solid.deforms_linearly() && !solid.cracks()
+    };
+    let is_alone = !scene.has_drops() && !scene.has_links();
+    usize::from(is_alone && scene.solids().any(is_linear))
 }
 
 /// Variables by which outputs may be differentiated.
@@ -300,6 +304,20 @@ mod tests {
     #[test]
     fn solids_without_others_on_them_have_time_derivatives() {
         assert_eq!(highest_output_derivative(&Unit::for_tests().scene), 1);
+    }
+
+    #[test]
+    fn units_without_a_linear_solid_have_no_time_derivatives() {
+        let bodies = ["gel", "concrete", "lattice", "crack"];
+        for (name, text) in bodies.into_iter().zip([
+            include_str!("../../../tests/scenes/gel.toml"),
+            include_str!("../../../tests/scenes/concrete.toml"),
+            include_str!("../../../tests/scenes/lattice.toml"),
+            include_str!("../../../tests/scenes/crack.toml"),
+        ]) {
+            let scene = scene::parse(text, name).unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!(highest_output_derivative(&scene), 0, "{name}");
+        }
     }
 
     /// A flow that falls to zero over a step ends at −1.7e-24 m³/s by rounding.
