@@ -89,14 +89,19 @@ impl InputTable {
         };
         for record in reader.records() {
             let record = record.map_err(unreadable)?;
-            let line = record.position().map_or(0, csv::Position::line);
+            let line = || line_of(&record, &text);
             let (cells, titles) = (record.len(), header.len());
             if cells != titles {
-                return Err(TableError::Cells { path: path.to_owned(), line, cells, titles });
+                return Err(TableError::Cells {
+                    path: path.to_owned(),
+                    line: line(),
+                    cells,
+                    titles,
+                });
             }
             let refuse = |column: usize, reason: String| TableError::Value {
                 path: path.to_owned(),
-                line,
+                line: line(),
                 column: header.get(column).unwrap_or_default().to_owned(),
                 reason,
             };
@@ -264,6 +269,14 @@ impl InputTable {
 
 /// Share of a run that a table must cover to avoid a note.
 const COVERED_SHARE: f64 = 0.999;
+
+/// Line of a record that was read from a text; the reader's own is where it stood, before empty lines.
+fn line_of(record: &csv::StringRecord, text: &[u8]) -> u64 {
+    let stood = record.position().map_or(0, csv::Position::byte) as usize;
+    let empty = text[stood..].iter().take_while(|byte| matches!(byte, b'\r' | b'\n')).count();
+    let before = text[..stood + empty].iter().filter(|&&byte| byte == b'\n').count();
+    1 + before as u64
+}
 
 /// Refuses bytes that are not text, and names the line of the first.
 fn check_text(path: &Path, text: &[u8]) -> Result<(), TableError> {

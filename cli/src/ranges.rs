@@ -84,8 +84,8 @@ impl Ranges {
         hottest.into_iter().filter_map(warning).collect()
     }
 
-    /// Formats the ranges as a table, probes first; empty without any.
-    pub fn table(&self) -> String {
+    /// Formats the ranges as a table, probes first; empty without any. `is_whole` is set if each step has a row.
+    pub fn table(&self, is_whole: bool) -> String {
         let row = |range: &Range| {
             let value = |value| shown(value, range.quantity);
             let name = match range.places {
@@ -96,7 +96,8 @@ impl Ranges {
             [name, lowest, highest, last]
         };
         let rows: Vec<_> = self.ranges.iter().take(MOST).map(row).collect();
-        let mut text = table(["over time", "lowest", "highest", "at the end"], &rows);
+        let when = if is_whole { "over time" } else { "in the rows written" };
+        let mut text = table([when, "lowest", "highest", "at the end"], &rows);
         if let Some(further) = self.ranges.len().checked_sub(MOST).filter(|further| *further > 0) {
             let _ = writeln!(text, "  {further} more in outputs.csv");
         }

@@ -183,6 +183,7 @@ impl Run {
             balance_outputs: BalanceOutputs::of(&scene),
             warned_of_phases: BTreeSet::new(),
             balances: Vec::new(),
+            has_all_rows: self.options.rows_every == 1,
             ranges: Ranges::of(&scene),
             passing: Passing::of(&model),
             model: &model,
@@ -411,6 +412,8 @@ struct Running<'a> {
     cache: Cache,
     timeline: Timeline,
     table: Option<InputTable>,
+    /// True if a row is written after each step.
+    has_all_rows: bool,
     /// True if a step too short for the mesh has been reported.
     warned_of_length: bool,
     balance_outputs: Vec<BalanceOutputs>,
@@ -544,7 +547,7 @@ impl Running<'_> {
         let warnings = balances_off.chain(passing).chain(strays).chain(too_hot);
         super::warn(&warnings.collect::<Vec<_>>());
         let balances = summary::balance_table(&self.balances);
-        let tables = [self.ranges.table(), peaks, balances, totals];
+        let tables = [self.ranges.table(self.has_all_rows), peaks, balances, totals];
         let tables: Vec<_> = tables.into_iter().filter(|table| !table.is_empty()).collect();
         Ok(tables.join("\n"))
     }

@@ -84,6 +84,7 @@ fn table_errors_name_line_and_column() {
             &["table.csv:3", "column `spot.heat_flux`", "much"],
         ),
         ("time,spot.heat_flux\n0,1\n1e-7,NaN\n", &["table.csv:3", "NaN"]),
+        ("time,spot.heat_flux\r\n0,1\r\n\r\n\n1e-7,NaN\r\n", &["table.csv:5", "NaN"]),
         ("time,spot.radius\n0,-1\n", &["table.csv:2", "spot.radius", "1e-12 to 1e6"]),
         ("time,spot.heat_flux\n1,1\n0,1\n", &["table.csv:3", "column `time`", "ascend"]),
         ("time,spot.heat_flux\n0,1\n0,1\n0,1\n", &["table.csv:4", "third row"]),
