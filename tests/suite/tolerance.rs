@@ -248,6 +248,38 @@ fn meshes_that_cannot_get_coarser_are_judged() {
     }
 }
 
+/// A plate on a coarse mesh of its own between a hot reservoir and a weak flux: the estimate is that of what the
+/// reservoir brings.
+#[test]
+fn estimates_count_what_bodies_in_contact_bring() {
+    let rest = "[body.chuck]\nkind = \"reservoir\"\nheat_capacity = 1e9\ninitial_temperature = 900.0\n[[coupling]]\n\
+                from = \"chuck.top\"\nto = \"plate.bottom\"\nconductance = 1e5\n";
+    let text = |depth_spacing: f64| {
+        let mesh = format!(
+            "mesh = {{ spacing = 5e-4, depth_spacing = {depth_spacing:e}, growth = 1.0 }}\n"
+        );
+        let faces = "[body.plate.faces]\ntop = { flux = 1.0 }\n";
+        let probes = probe("\"temperature\"").replace("0.0]", "-0.5e-3]");
+        plate(
+            "box = [4e-3, 4e-3, 1e-3]",
+            [2000.0, 500.0, 1.0],
+            &format!("{mesh}{faces}{rest}{probes}"),
+        )
+        .replace("step = 0.05", "step = 0.1")
+    };
+    let (_, found) = estimates(&scene(&text(5e-4)));
+    let told = found.iter().find(|one| one.body == "plate").and_then(BodyEstimate::worst).unwrap();
+    let (mut coarse, mut fine) = (Trial::new(&text(5e-4)), Trial::new(&text(2e-5)));
+    let (mut error, mut range) = (0.0_f64, 0.0_f64);
+    for _ in 0..10 {
+        [&mut coarse, &mut fine].into_iter().for_each(|trial| trial.step(0.1));
+        let [value, wanted] = [&mut coarse, &mut fine].map(|trial| trial.get("p.temperature"));
+        (error, range) = (error.max((value - wanted).abs()), range.max(wanted - 300.0));
+    }
+    assert!(error > 0.01 * range, "{error} of {range}");
+    assert!(told > 0.5 * error / range && told < 20.0 * error / range, "{told} {error} {range}");
+}
+
 /// What a disc with a spot and a probe of temperature asks for, with more said of the plate, its probe and the scene.
 fn spotted(plate_says: &str, gives: &str, says: &str) -> Scene {
     let load = "[[load]]\nname = \"spot\"\non = \"plate.top\"\nfootprint = { gaussian = { radius = 1e-3 } }\n\

@@ -64,10 +64,6 @@ pub fn estimate(scene: &Scene, name: &str) -> BodyEstimate {
         found.notes.push("no estimate: particles conduct the heat of the body".to_owned());
         return found;
     }
-    let is_touched = |place: &str| place.rsplit_once('.').is_some_and(|(body, _)| body == name);
-    if scene.coupling.iter().any(|coupling| is_touched(&coupling.from)) {
-        found.notes.push("what other bodies bring is left out of the estimate".to_owned());
-    }
     if scene.lies_below_strand(name) {
         found.notes.push("no estimate: heat comes from a strand".to_owned());
         return found;

@@ -5,8 +5,9 @@ use super::sample::sample;
 use crate::body::fine_radius;
 use crate::laws::radiative_coefficient;
 use crate::scene::{
-    Body, Carries, CellValues, Convection, Face, FidelityLevel, Footprint, Gives, Load, LoadRange,
-    LoadStart, MaterialChoice, MeshFactors, PeakOf, Radiation, Role, Scene, Solid, takes_newton,
+    Body, Carries, CellValues, Convection, Face, FaceName, FidelityLevel, Footprint, Gives, Load,
+    LoadRange, LoadStart, MaterialChoice, MeshFactors, PeakOf, Radiation, Role, Scene, Solid,
+    takes_newton,
 };
 
 /// Quantities of a body whose errors are estimated.
@@ -103,7 +104,15 @@ impl Twin {
             );
         }
         twin.solver.method = Default::default();
+        let touched: Vec<_> = touched(scene, name).collect();
+        if !touched.is_empty() {
+            simplified.push("what touches the body keeps its temperature at time zero".to_owned());
+        }
         let solid = twin.meshed_mut(name)?;
+        for (face, convection) in touched {
+            let face = solid.faces.entry(face).or_default();
+            face.convection = Some(beside(face.convection, convection));
+        }
         let only_relaxes = solid.only_relaxes();
         if is_mechanical && only_relaxes {
             simplified.push("moduli are the instantaneous ones at all times".to_owned());
@@ -194,6 +203,29 @@ fn drops(scene: &Scene, name: &str) -> impl Iterator<Item = Load> {
     })
 }
 
+/// Returns the faces of a solid that others touch, with convection that represents these at their first temperatures.
+fn touched(scene: &Scene, name: &str) -> impl Iterator<Item = (FaceName, Convection)> {
+    scene.coupling.iter().filter_map(move |coupling| {
+        let (lower, upper) = (coupling.lower()?, coupling.upper()?);
+        let ((_, face), other) = match name {
+            own if own == lower.0 => (lower, upper.0),
+            own if own == upper.0 => (upper, lower.0),
+            _ => return None,
+        };
+        let ambient = scene.body.get(other)?.initial_temperature();
+        Some((face, Convection { coefficient: coupling.conductance?, ambient }))
+    })
+}
+
+/// The sum of two fluxes by convection.
+fn beside(other: Option<Convection>, own: Convection) -> Convection {
+    let Some(other) = other else { return own };
+    let coefficient = other.coefficient + own.coefficient;
+    let heat = other.coefficient * other.ambient + own.coefficient * own.ambient;
+    let ambient = if coefficient > 0.0 { heat / coefficient } else { own.ambient };
+    Convection { coefficient, ambient }
+}
+
 /// Replaces radiation of a face by the convection equivalent at a temperature [K]. On a face with a `flux` only that
 /// remains.
 fn convect(face: &mut Face, temperature: f64) {
@@ -201,12 +233,10 @@ fn convect(face: &mut Face, temperature: f64) {
     if face.flux.is_some() {
         return;
     }
-    let radiative = radiative_coefficient(emissivity, temperature, ambient);
-    let beside = face.convection.unwrap_or(Convection { coefficient: 0.0, ambient });
-    let coefficient = beside.coefficient + radiative;
-    if coefficient > 0.0 {
-        let ambient = (beside.coefficient * beside.ambient + radiative * ambient) / coefficient;
-        face.convection = Some(Convection { coefficient, ambient });
+    let coefficient = radiative_coefficient(emissivity, temperature, ambient);
+    let both = beside(face.convection, Convection { coefficient, ambient });
+    if both.coefficient > 0.0 {
+        face.convection = Some(both);
     }
 }
 
