@@ -241,6 +241,37 @@ start = {{ heat_flux = 4000.0, pressure = 3.0, x = 0.3, y = -0.2 }}
 }
 
 /// A thin clamped plate under pressure over its whole top.
+/// Blocks of one linear element across half of them, whose outer face holds what the plane of symmetry holds, too.
+#[test]
+fn directions_without_a_free_node_are_at_rest() {
+    let text = |law: &str, symmetry: &str| {
+        format!(
+            "name = \"Held\"\nstop_time = 1e-2\nstep = 1e-2\n[body.plate]\nkind = \"solid\"\n\
+             shape = {{ box = [2e-3, 2e-3, 0.4e-3] }}\nmaterial = {{ {law}, density = 4000.0, specific_heat = 500.0, \
+             conductivity = 20.0, young = 3e11, poisson = 0.2, expansion = 8e-6 }}\ninitial_temperature = 300.0\n\
+             mesh = {{ spacing = 1e-3, depth_spacing = 1e-4, growth = 1.0, order = 1 }}\n{symmetry}\n\
+             [body.plate.faces]\nleft = {{ clamped = true }}\nright = {{ clamped = true }}\nfront = {{ roller = true }}\n\
+             back = {{ roller = true }}\ntop = {{ flux = 1e5 }}\n{}",
+            probe("c", "plate", [0.0; 3], "\"stress\", \"displacement\"")
+        )
+    };
+    let laws = [
+        "model = \"thermoelastic\"",
+        "model = \"elastoplastic\", yield_stress = 1e12",
+        "model = \"viscoelastic\", shear_relaxation = [{ fraction = 0.5, time = 1e9 }]",
+    ];
+    for law in laws {
+        let [mut quarter, mut whole] = ["symmetry = \"quarter\"", "symmetry = \"none\""]
+            .map(|symmetry| Trial::new(&text(law, symmetry)));
+        [&mut quarter, &mut whole].into_iter().for_each(|trial| trial.step(1e-2));
+        for key in ["stress_xx", "stress_yy", "displacement_z"] {
+            let [own, wanted] =
+                [&mut quarter, &mut whole].map(|trial| trial.get(&format!("c.{key}")));
+            assert!(off(own, wanted) < 1e-6 && wanted != 0.0, "{law} {key}: {own} {wanted}");
+        }
+    }
+}
+
 fn clamped_plate(poisson: f64, order: usize) -> f64 {
     let text = format!(
         r#"

@@ -148,6 +148,9 @@ impl<T: Float + AsPrimitive<f64> + Send + Sync> Real for T {}
 impl Block<f64> {
     /// Scales the numbers to about one.
     fn normalized(mut self) -> Self {
+        if self.is_empty() {
+            return self;
+        }
         for shapes in &mut self.shapes {
             let largest = shapes.norm_max();
             *shapes *= faer::Scale(largest.recip());
@@ -190,12 +193,21 @@ impl<T: Real> Block<T>
 where
     f64: AsPrimitive<T>,
 {
+    /// Returns true if all nodes are held in this direction.
+    fn is_empty(&self) -> bool {
+        self.free.is_empty() || self.shapes.iter().any(|shapes| shapes.ncols() == 0)
+    }
+
     fn entries(&self) -> usize {
         let of = |columns: &Columns<T>| (1 + columns.lower.len()) * columns.inverse.len();
         self.columns.iter().map(of).sum()
     }
 
     fn apply(&self, [nx, ny, _]: [usize; 3], residual: &[f64], out: &mut [f64], team: &Team) {
+        if self.is_empty() {
+            out.fill(0.0);
+            return;
+        }
         let [x, y] = self.shapes.each_ref().map(Mat::as_ref);
         let (mx, my) = (x.ncols(), y.ncols());
         // Planes of modes: those of one mode along y are together in each of them.
