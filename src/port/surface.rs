@@ -154,6 +154,12 @@ impl Surface {
         }
     }
 
+    /// Prescribed temperatures that go from some values to others over a step.
+    pub fn following([begin, end]: [&[f64]; 2]) -> Self {
+        let drift = begin.iter().zip(end).map(|(begin, end)| end - begin).collect();
+        Self { drift, ..Self::held(begin) }
+    }
+
     /// Temperatures that somebody else computed for a solid which received the mean fluxes of all
     /// past steps; they continue as the heat spreads in it.
     pub fn remembered(

@@ -82,6 +82,11 @@ struct Wall {
 }
 
 impl Wall {
+    /// Temperatures at the beginning and at the end of a step [K].
+    fn over(&self, acts: &Acts) -> [Vec<f64>; 2] {
+        [0.0, acts.duration].map(|time| acts.path.at(0, time)[self.inputs.clone()].to_vec())
+    }
+
     fn check(&self, inputs: &[f64]) -> Result<(), BodyError> {
         match self.inputs.clone().find(|&index| inputs[index] <= 0.0) {
             Some(index) => {
@@ -171,10 +176,11 @@ impl DropletBody {
             return droplet.advance_above(state, surface, dt, allowance);
         }
         let temperatures = match &self.below {
-            Below::Wall(wall) => acts.path.at(0, 0.5 * dt)[wall.inputs.clone()].to_vec(),
-            Below::Nothing | Below::Body { .. } => Vec::new(),
+            Below::Wall(wall) => wall.over(acts),
+            Below::Nothing | Below::Body { .. } => Default::default(),
         };
-        droplet.advance_within(state, &temperatures, dt, allowance).map(|()| Vec::new())
+        let surface = droplet.surface(state, temperatures.each_ref().map(Vec::as_slice));
+        droplet.advance_above(state, &surface, dt, allowance).map(|_| Vec::new())
     }
 
     /// Releases the drops that the inputs request.

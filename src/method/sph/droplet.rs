@@ -214,19 +214,8 @@ impl DropletSph {
         wall_temperature: &[f64],
         duration: f64,
     ) -> Result<(), Failure> {
-        self.advance_within(state, wall_temperature, duration, &Allowance::default())
-    }
-
-    /// Same as [`Self::advance`], as part of a step with a limited amount of work.
-    pub fn advance_within(
-        &self,
-        state: &mut Vec<f64>,
-        wall_temperature: &[f64],
-        duration: f64,
-        allowance: &Allowance,
-    ) -> Result<(), Failure> {
-        let surface = self.surface(state, wall_temperature);
-        self.advance_above(state, &surface, duration, allowance).map(|_| ())
+        let surface = self.surface(state, [wall_temperature; 2]);
+        self.advance_above(state, &surface, duration, &Allowance::default()).map(|_| ())
     }
 
     /// Advances by `duration` [s] above a surface that responds to the heat it receives. Returns
@@ -309,13 +298,15 @@ impl DropletSph {
         coldest + self.reference_temperature()
     }
 
-    /// The wall at temperatures [K] known at the beginning of a step.
-    fn surface(&self, state: &[f64], temperature: &[f64]) -> Surface {
+    /// The wall over a step with prescribed temperatures [K] at its beginning and its end. One with a response of its own
+    /// goes on from the mean of both as the heat spreads in it.
+    pub fn surface(&self, state: &[f64], [begin, end]: [&[f64]; 2]) -> Surface {
         if self.below.is_empty() {
-            return Surface::held(temperature);
+            return Surface::following([begin, end]);
         }
         let memory = ledger_of(state, self.head()).memory;
-        Surface::remembered(temperature, self.below.clone(), &memory)
+        let mean: Vec<f64> = begin.iter().zip(end).map(|(a, b)| 0.5 * (a + b)).collect();
+        Surface::remembered(&mean, self.below.clone(), &memory)
     }
 
     /// Heat and impulse that the wall received during the last step; zero before the first.

@@ -201,9 +201,7 @@ impl Body for ReplayBody {
     ) -> Result<Option<Given>, BodyError> {
         let (released, asked) = self.released(state, acts.path, acts.duration)?;
         let held = match &self.below {
-            Below::Wall(wall) => {
-                Surface::held(&acts.path.at(0, 0.5 * acts.duration)[wall.inputs.clone()])
-            }
+            Below::Wall(wall) => Surface::following(wall.over(acts).each_ref().map(Vec::as_slice)),
             Below::Nothing | Below::Body { .. } => Surface::default(),
         };
         let surface = acts.below.unwrap_or(&held);
