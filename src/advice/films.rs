@@ -1,6 +1,7 @@
 //! Replayed drops on surfaces for which their records are unreliable.
 
 use super::{Path, Reviewer, number};
+use crate::closed_form::DropImpact;
 use crate::limits::two_digits;
 use crate::scene::{Droplet, DropletMethod, Scene, Solid};
 use crate::warning;
@@ -12,6 +13,7 @@ pub fn review(reviewer: &mut Reviewer) {
         thin(reviewer, &path, (name, droplet));
         stacked(reviewer, (name, droplet));
         risky(reviewer, (name, droplet));
+        cut(reviewer, (name, droplet));
         if droplet.method == DropletMethod::Film {
             insulated(reviewer, &path, (name, droplet));
             depleted(reviewer, &path, (name, droplet));
@@ -36,6 +38,34 @@ fn risky(reviewer: &mut Reviewer, (name, droplet): (&str, &Droplet)) {
         let finding = warning::film_risk_follows_step(solid, number(scene.step), two_digits(most));
         reviewer.warn(&Path::default().key("step"), finding);
     }
+}
+
+/// Parts of the momentum and of the largest radius that a record may leave out.
+const LEFT_OUT: [f64; 2] = [0.01, 0.05];
+
+/// Warns of records that end while the drop still comes down or spreads.
+fn cut(reviewer: &mut Reviewer, (name, droplet): (&str, &Droplet)) {
+    let Some(duration) = droplet.record.as_ref().and_then(|record| record.duration) else { return };
+    let speed = droplet.normal_speed_at_contact();
+    if speed <= 0.0 {
+        return;
+    }
+    let impact = DropImpact { speed, ..droplet.impact() };
+    let largest = 0.5 * droplet.diameter * impact.largest_spread();
+    let wetted = impact.wetted_radius(largest, duration) / largest;
+    let given = impact.momentum_given(duration);
+    if 1.0 - given < LEFT_OUT[0] && 1.0 - wetted < LEFT_OUT[1] {
+        return;
+    }
+    let whole = Droplet { record: None, ..droplet.clone() }.recorded_time(speed);
+    let percent = |part: f64| format!("{:.0}", 100.0 * part);
+    let finding = warning::record_cut_short(
+        number(duration),
+        percent(given),
+        percent(wetted),
+        two_digits(whole),
+    );
+    reviewer.warn(&Path::default().key("body").key(name).key("record").key("duration"), finding);
 }
 
 /// Largest number of films on one place that were compared with particles (`docs/fidelity.md`).

@@ -108,6 +108,11 @@ rules! {
      meanwhile";
     "did you mean `sph`?"
 
+    Check record_cut_short(duration, given, wetted, usual)
+    "the record ends {duration} s after contact, when the drop is expected to have given {given} % of its momentum and to \
+     have wetted {wetted} % of its largest radius: the rest of the momentum is left out, and of the heat what the rest \
+     of the surface would take"; "leave out `duration`, which is {usual} s then"
+
     Check film_cools_through(fourier, usual)
     "the change of temperature under the middle of the drop is expected to be too small, by a fifth to nine tenths, and \
      heat is off by up to a half, as this film has cooled through while the drop still comes down (a(D/U)/δ² = {fourier} of what \

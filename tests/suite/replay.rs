@@ -234,6 +234,43 @@ fn at_last_all_heat_has_been_given() {
     }
 }
 
+/// A wall that warms over a step has its temperature of the moment at which a drop touches it, in steps of any length.
+#[test]
+fn drops_meet_the_wall_as_it_is_when_they_touch_it() {
+    let rings = "[[wall]]\nname = \"wall\"\nunder = \"drop\"\nfootprint = { rings = { count = 2, radius = 3e-4 } }\n\
+                 start = { temperature = 300.0 }\n";
+    for (method, most) in [("record", 1e-3), ("film", 1e-3), ("sph", 0.02)] {
+        let mut trial = Trial::new(&(drop(method, "symmetry = \"axisymmetric\"") + rings));
+        let start = trial.state.clone();
+        let heats = [1, 40].map(|steps| {
+            trial.restart(&start);
+            let whole = 2e-5;
+            for n in 0..steps {
+                for ring in ["wall.temperature[1]", "wall.temperature[2]"] {
+                    trial.set(ring, 300.0 + 40.0 * f64::from(n) / f64::from(steps));
+                    trial.set_derivative(ring, 1, 40.0 / whole);
+                }
+                trial.step(whole / f64::from(steps));
+            }
+            trial.get("drop.heat")
+        });
+        assert!(off(heats[0], heats[1]) < most, "{method}: {heats:?}");
+    }
+}
+
+/// A record that ends while the drop still comes down leaves out some of its momentum and heat, which is said.
+#[test]
+fn records_that_end_early_are_warned_of() {
+    for method in ["record", "film"] {
+        for (duration, says) in [("1e-6", true), ("2e-4", false)] {
+            let keys = format!("record = {{ duration = {duration} }}");
+            let found = warned(method, 30.0, &keys, "radius = 1.5e-4");
+            let cut = found.iter().any(|one| one.to_string().contains("the record ends"));
+            assert_eq!(cut, says, "{method} {duration}: {found:?}");
+        }
+    }
+}
+
 #[test]
 fn what_cells_got_is_what_the_drop_gave() {
     let mut trial = Trial::new(&(drop("record", "arrivals = [{ x = 4.2e-4, y = -1e-5 }]") + TILES));
