@@ -24,6 +24,8 @@ pub enum Direct {
     TemperaturesAndTractions,
     /// All inputs of the body itself.
     OwnInputs,
+    /// All inputs of loads on the body and of its faces.
+    Drives,
 }
 
 /// A value of one body.

@@ -93,25 +93,28 @@ fn direct_inputs(scene: &Scene, layout: &InputLayout, reach: Reach) -> Vec<bool>
     if reach.direct == Direct::OwnInputs {
         direct[layout.of_body(reach.body)].fill(true);
     }
+    let follows_heat = reach.direct == Direct::Drives;
     for face in &layout.faces {
-        if face.body == reach.body && face.kind == FaceInputKind::Temperature {
+        let acts = follows_heat || face.kind == FaceInputKind::Temperature;
+        if face.body == reach.body && acts {
             direct[face.index] = true;
         }
     }
-    if reach.direct == Direct::TemperaturesAndTractions {
+    if follows_heat || reach.direct == Direct::TemperaturesAndTractions {
         for (load, inputs) in scene.load.iter().zip(&layout.loads) {
             if load.body_and_face().0 == reach.body {
-                mark_traction(inputs, &mut direct);
+                mark_amounts(inputs, follows_heat, &mut direct);
             }
         }
     }
     direct
 }
 
-fn mark_traction(inputs: &LoadInputs, direct: &mut [bool]) {
-    let tractions = inputs.amounts.iter().filter(|(channel, _)| !channel.is_heat());
+/// Marks the tractions of a load, its heat too where that is followed, and where they act.
+fn mark_amounts(inputs: &LoadInputs, follows_heat: bool, direct: &mut [bool]) {
+    let followed = inputs.amounts.iter().filter(|(channel, _)| follows_heat || !channel.is_heat());
     let mut any = false;
-    for (_, range) in tractions {
+    for (_, range) in followed {
         direct[range.clone()].fill(true);
         any = true;
     }

@@ -1,8 +1,23 @@
 //! Derivatives of the readings of a reduced solid, exact as its equations are scalar.
 
 use super::totals::{Total, total};
+use super::values::Kind;
 use super::{Measured, ReducedBody, ReducedMemo, STORED, drives_of, reduced};
 use crate::body::{BodyError, Linear, Memo, Reading};
+
+impl ReducedBody {
+    /// Rate of a bound as drives change that are larger than ever before.
+    fn rate_of_bound(&self, state: &[f64], [drives, changes]: [&[f64]; 2], kind: Kind) -> f64 {
+        let [.., first] = self.places();
+        let grows = |((size, drive), change): ((&f64, &f64), &f64)| match drive.abs() > *size {
+            true => drive.signum() * change,
+            false => 0.0,
+        };
+        let rates: Vec<f64> = state[first..].iter().zip(drives).zip(changes).map(grows).collect();
+        let largest = self.bound(&self.sizes(state, drives), kind);
+        largest.map_or(0.0, |(place, _)| self.system().bound(&rates, place))
+    }
+}
 
 impl Linear for ReducedBody {
     fn change(&self, inputs: &[f64], rates: &[f64]) -> Memo {
@@ -45,8 +60,8 @@ impl Linear for ReducedBody {
             }
             Reading::Mean { field, cell, .. } => rate(self.values.mean(field, cell)),
             Reading::Total(place) => match total(place) {
-                Total::Bound(_) => 0.0,
-                _ => self.total(rates, place),
+                Total::Bound(kind) => self.rate_of_bound(state, [drives, changes], kind),
+                _ => self.total(rates, drives, place),
             },
             Reading::Peak { .. } | Reading::Flaw { .. } | Reading::Cell { .. } | Reading::Error => {
                 // It has neither running maxima nor flaws nor a wall, and its bounds report its error.

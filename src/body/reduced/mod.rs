@@ -141,19 +141,30 @@ impl ReducedBody {
         self.system().from_unknowns(&state[..order], STORED) + state[order]
     }
 
-    /// Largest error bound of the values of a kind.
-    fn bound(&self, sizes: &[f64], kind: Kind) -> f64 {
+    /// Largest error bound of the values of a kind, and the place of a value with that bound.
+    fn bound(&self, sizes: &[f64], kind: Kind) -> Option<(usize, f64)> {
         let places = self.kinds.iter().enumerate().filter(|(_, own)| **own == kind);
-        places.map(|(place, _)| self.system().bound(sizes, place)).fold(0.0, f64::max)
+        let bounds = places.map(|(place, _)| (place, self.system().bound(sizes, place)));
+        bounds.max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    fn total(&self, state: &[f64], place: usize) -> f64 {
-        let [_, brought, sizes] = self.places();
+    /// Largest sizes of the drives so far, among them the present ones.
+    fn sizes(&self, state: &[f64], drives: &[f64]) -> Vec<f64> {
+        let [.., first] = self.places();
+        let mut sizes = state[first..].to_vec();
+        note_sizes(&mut sizes, drives);
+        sizes
+    }
+
+    fn total(&self, state: &[f64], drives: &[f64], place: usize) -> f64 {
+        let [_, brought, _] = self.places();
         match total(place) {
             Total::HeatIn => state[brought],
             Total::HeatStored => self.stored(state),
             Total::HeatLost => state[brought] - self.stored(state),
-            Total::Bound(kind) => self.bound(&state[sizes..], kind),
+            Total::Bound(kind) => {
+                self.bound(&self.sizes(state, drives), kind).map_or(0.0, |(_, bound)| bound)
+            }
         }
     }
 
@@ -367,7 +378,7 @@ impl Body for ReducedBody {
                 Measured::Stress(measure, _, stress) => measure(stress),
             },
             Reading::Mean { field, cell, .. } => value(self.values.mean(field, cell)),
-            Reading::Total(place) => self.total(state, place),
+            Reading::Total(place) => self.total(state, drives, place),
             Reading::Peak { .. } | Reading::Flaw { .. } | Reading::Cell { .. } | Reading::Error => {
                 // It has neither running maxima nor flaws nor a wall, and its bounds report its error.
                 return Err(BodyError::NoSuchReading);
@@ -380,6 +391,7 @@ impl Body for ReducedBody {
             Reading::Point { quantity, .. } | Reading::Mean { quantity, .. } => {
                 point_quantities()[quantity].descriptor.direct != Direct::Nothing
             }
+            Reading::Total(place) => matches!(total(place), Total::Bound(_)),
             _ => false,
         }
     }

@@ -61,7 +61,7 @@ const fn heat(key: &'static str, words: &'static str) -> Descriptor {
 }
 
 const fn bound(key: &'static str, words: &'static str, quantity: Quantity) -> Descriptor {
-    Descriptor { key, words, quantity, direct: Direct::Nothing }
+    Descriptor { key, words, quantity, direct: Direct::Drives }
 }
 
 /// The totals that a reduced body of a scene offers, each with its place in the table.
