@@ -1,7 +1,7 @@
 //! Rings about the impact position of a drop, on the cells of a wall.
 //!
-//! A ring is represented by equidistant points on circles that halve its area, with equal weights.
-//! So everything arrives where cells partition unity.
+//! A ring is represented by equidistant points on circles that halve its area, with equal weights, which are summed in
+//! each cell. So everything arrives where cells partition unity.
 
 use std::f64::consts::TAU;
 
@@ -45,7 +45,7 @@ impl Footprint {
                 let at = (inner + share * (outer - inner)).sqrt();
                 ring.add_circle(cells, centre, at, width);
             }
-            ring
+            Ring { parts: by_cell(ring.parts), outside: by_cell(ring.outside) }
         };
         Self { rings: (0..rings).map(ring).collect() }
     }
@@ -94,6 +94,20 @@ impl Ring {
             self.outside.push(part(cover.nearest, cover.outside));
         }
     }
+}
+
+/// Sums the parts in each cell.
+fn by_cell(mut parts: Vec<Part>) -> Vec<Part> {
+    parts.sort_by_key(|part| part.cell);
+    parts.dedup_by(|next, sum| {
+        let same = next.cell == sum.cell;
+        if same {
+            sum.weight += next.weight;
+            (0..2).for_each(|axis| sum.outward[axis] += next.outward[axis]);
+        }
+        same
+    });
+    parts
 }
 
 /// The two functions linear between nodes that are nonzero at a place; `None` beyond the nodes.

@@ -12,6 +12,7 @@ mod bytes;
 mod course;
 mod film;
 mod footprint;
+mod footprints;
 mod lateral;
 mod limit;
 mod profile;

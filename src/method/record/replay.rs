@@ -2,8 +2,11 @@
 
 mod extremes;
 
+use std::sync::Arc;
+
 use super::course::Course;
 use super::footprint::{Footprint, Part, Ring};
+use super::footprints::Footprints;
 use super::lateral::Lateral;
 use super::limit::{Limit, Parts, Side, Uneven};
 use super::profile::Amounts;
@@ -35,6 +38,7 @@ pub struct Replay {
     /// Areas of the cells [m²].
     areas: Vec<f64>,
     lateral: Lateral,
+    footprints: Footprints,
 }
 
 /// A drop that has been released.
@@ -72,7 +76,7 @@ impl Replay {
     pub fn new(plan: ReplayPlan) -> Self {
         let areas = plan.cells.areas(Domain::whole(3));
         let lateral = Lateral::of(&plan.cells, &areas, plan.diffusivity);
-        Self { plan, areas, lateral }
+        Self { plan, areas, lateral, footprints: Footprints::default() }
     }
 
     pub fn course(&self) -> &Course {
@@ -220,9 +224,11 @@ impl Replay {
         moments
     }
 
-    fn footprint(&self, drop: &Drop) -> Footprint {
+    fn footprint(&self, drop: &Drop) -> Arc<Footprint> {
         let course = &self.plan.course;
-        Footprint::of(&self.plan.cells, drop.place, course.rings(), course.radius())
+        self.footprints.at(drop.place, || {
+            Footprint::of(&self.plan.cells, drop.place, course.rings(), course.radius())
+        })
     }
 
     /// Exchange of the cells during the last step.
@@ -325,16 +331,11 @@ impl Replay {
         let mut exchange = WallExchange::none(self.plan.cells.len());
         exchange.duration = ledger.duration;
         let mut falls = vec![0.0; exchange.heat.len()];
-        // Drops released at once land on one place.
-        let mut last: Option<([f64; 2], Footprint)> = None;
         let down = |(_, drop): &(usize, &Drop)| drop.is_down() && ledger.duration > 0.0;
         for (n, drop) in drops.iter().enumerate().filter(down) {
             let Some(mut rings) = self.given(ledger, drop, &before[n]) else { continue };
-            let (_, footprint) = match last.take().filter(|(place, _)| *place == drop.place) {
-                Some(known) => last.insert(known),
-                None => last.insert((drop.place, self.footprint(drop))),
-            };
-            look(n, footprint, &mut rings);
+            let footprint = self.footprint(drop);
+            look(n, &footprint, &mut rings);
             // What lies beyond a body keeps its heat.
             let keeps = self.plan.cells.end_with_the_body();
             for (ring, given) in footprint.rings.iter().zip(&rings) {
