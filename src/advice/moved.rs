@@ -54,7 +54,8 @@ pub fn implausible_place(scene: &Scene, name: &str, value: f64) -> Option<Warnin
 fn implausible_radius(scene: &Scene, load: &Load, (name, value): (&str, f64)) -> Option<Warning> {
     let body = load.body_and_face().0;
     let apart = spacing(scene.solid_under(load)?, load) / along(scene, body);
-    (value < NODES_PER_RADIUS * apart).then(|| {
+    let is_smaller = value < load.footprint.half_width(load.start.radius);
+    (is_smaller && value < NODES_PER_RADIUS * apart).then(|| {
         let (apart, spacing) = (format!("{apart:.1e}"), number(value / NODES_PER_RADIUS));
         let finding = warning::load_shrunk_below_mesh(apart, &load.name, spacing);
         finding.at(place_of_input(name, value))
