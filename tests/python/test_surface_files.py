@@ -281,6 +281,28 @@ def test_units_and_scenes_tell_the_same_cells(scene, name, shape, location):
             assert surface.areas == pytest.approx(of_scene.areas, rel=1e-12)
 
 
+@pytest.mark.parametrize(
+    "footprint",
+    [
+        "disc = { radius = 6e-5 }",
+        "ring = { inner = 2e-5, outer = 6e-5 }",
+        "rings = { count = 3, radius = 6e-5 }",
+    ],
+)
+def test_a_load_of_a_scene_has_its_radius_at_the_start(tmp_path, footprint):
+    """The cells are those that the unit of the scene tells; all radii grow in proportion."""
+    text = (SCENES / "plate.toml").read_text()
+    start = "start = { radius = '48 um' }"
+    text = text.replace("disc = { radius = 6e-5 } }", f"{footprint} }}\n{start}")
+    path = tmp_path / "scene.toml"
+    path.write_text(text)
+    of_scene = Surface.of(path, "spot")
+    hole = 16e-6 if footprint.startswith("ring =") else 0.0
+    assert of_scene.areas.sum() == pytest.approx(np.pi * ((48e-6) ** 2 - hole**2), rel=1e-12)
+    with Unit(path) as unit:
+        assert Surface.of(unit, "spot").areas == pytest.approx(of_scene.areas, rel=1e-12)
+
+
 def check_field(tmp_path, text, keys):
     """A field with these keys lies where the unit of the scene has it."""
     path = tmp_path / "scene.toml"

@@ -154,13 +154,15 @@ def _of_scene(path: Path, name: str) -> Surface:
         return Surface.grid(entry["grid"], _size(scene, entry, path, name), z=z)
     match footprint:
         case {"rings": {"count": count, "radius": radius}}:
-            return Surface.rings(count, *_metres(radius), at, z=z)
+            return Surface.rings(count, _outer(entry, radius), at, z=z)
         case {"tiles": {"count": count, "size": size}}:
             return Surface.tiles(count, _metres(*size), at, z=z)
         case {"disc": {"radius": radius}}:
-            return Surface.rings(1, *_metres(radius), at, z=z)
+            return Surface.rings(1, _outer(entry, radius), at, z=z)
         case {"ring": {"inner": inner, "outer": outer}}:
-            return Surface.ring_edges(_metres(inner, outer), at, z=z)
+            inner, own = _metres(inner, outer)
+            outer = _outer(entry, outer)
+            return Surface.ring_edges((inner * (outer / own), outer), at, z=z)
     raise SurfaceError(
         f"{path}: `{name}` has no rings, tiles, disc or grid to map to, but {footprint or entry}"
     )
@@ -181,6 +183,12 @@ def _middle(entry: dict[str, Any]) -> tuple[float, ...]:
     """Returns the middle of the footprint of a field, or of a load at the start [m]."""
     start = entry.get("start", {})
     return _metres(*entry.get("at", (start.get("x", 0.0), start.get("y", 0.0))))
+
+
+def _outer(entry: dict[str, Any], own: Any) -> float:
+    """Outer radius [m] of a round footprint: its own, or that of a load at the start."""
+    (radius,) = _metres(entry.get("start", {}).get("radius", own))
+    return radius
 
 
 def _size(scene: dict[str, Any], entry: dict[str, Any], path: Path, name: str) -> tuple[float, ...]:
