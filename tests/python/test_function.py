@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from impinge import Connection, Function, Master, Unit
-from impinge.master import Graded, MasterWarning
+from impinge.master import Bond, Graded, MasterWarning
 from linear_unit import make
 from slab import SCENE
 
@@ -451,7 +451,7 @@ def test_a_sampled_controller_goes_as_a_loop_by_hand(folder, scheme, rollback):
         rollback=rollback,
     )
     units = {"body": plant, "pid": pid}
-    options = {"scheme": scheme, "step": 0.05, "energy": ["pid.power"]}
+    options = {"scheme": scheme, "step": 0.05, "energy": [Bond("pid.power", area=1.0)]}
     with Master(units, CONTROLLED, **options) as master:
         result = master.run(5.0)
     assert result["body.y"].values == pytest.approx(temperatures, rel=1e-12)

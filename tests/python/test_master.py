@@ -305,6 +305,47 @@ def test_a_power_is_multiplied_by_no_area(pack):
     assert passed == pytest.approx(3e-7, rel=1e-9)
 
 
+FLAT = {"stop_time = 1e-4": 'stop_time = 1e-4\nnaming = "flat"'}
+
+
+@pytest.mark.parametrize(
+    ("fmi", "edits", "flux", "heat"),
+    [
+        (2, {}, "patch.heat_flux[2,3]", "block.heat_in"),
+        (3, {}, "patch.heat_flux[2,3]", "block.heat_in"),
+        (2, FLAT, "patch_heat_flux_2_3", "block_heat_in"),
+        (3, FLAT, "patch_heat_flux[2,3]", "block_heat_in"),
+    ],
+)
+def test_a_flux_into_one_tile_has_the_area_of_that(pack, fmi, edits, flux, heat):
+    """Names are structured or flat; what passes is what the plate itself counts."""
+    law = Function(lambda: 1e6, {}, {"y": "W/m2"}, name="law")
+    options = {"step": 1e-5, "energy": ["law.y"], "outputs": [f"plate.{heat}"]}
+    units = {"law": law, "plate": pack("tiles", edits, fmi)}
+    with Master(units, [("law.y", f"plate.{flux}")], **options) as master:
+        result = master.run(1e-4)
+    known = 1e6 * 1e-4 * 1.1e-4 * 0.9e-4 / 6
+    assert result["energy_passed.law.y"].values[-1] == pytest.approx(known, rel=1e-9)
+    assert result[f"plate.{heat}"].values[-1] == pytest.approx(known, rel=1e-9)
+
+
+def test_rings_of_flat_names_have_radii(pack):
+    drop = pack("drop", {"step = 1e-7": 'step = 1e-7\nnaming = "flat"'}, 3)
+    with Master({"drop": drop}, outputs=["drop.wall_heat_flux"], step=1e-7) as master:
+        outer = master.run(2e-7)["drop.wall_heat_flux:outer"]
+    assert np.diff(outer.values, prepend=0.0) == pytest.approx(np.full(4, outer.values[0]))
+
+
+def test_an_area_that_no_unit_tells_is_warned_of(folder):
+    law = Function(lambda: 1e6, {}, {"y": "W/m2"}, name="law")
+    store = make(folder, "plain", [0.0], [1.0], [1.0], x=[0.0], u_unit="W/m2")
+    for given, notes in (("law.y", 1), (Bond("law.y", area=1.0), 0)):
+        options = {"step": 0.1, "energy": [given]}
+        with Master({"law": law, "store": store}, [("law.y", "store.u")], **options) as master:
+            assert sum("no unit tells the area of law.y" in note for note in master.notes) == notes
+            assert master.run(1.0)["energy_passed.law.y"].values[-1] == pytest.approx(1e6)
+
+
 LAW = {"d": -4e3, "e": 4e3 * 350.0}
 
 

@@ -243,6 +243,22 @@ def test_cells_tell_where_they_are_and_how_large(pack):
         assert unit.coordinates("patch")["y"][1] == 0.0
 
 
+@both
+def test_flat_names_have_the_cells_of_structured_ones(pack, fmi):
+    said = "stop_time = 1e-4"
+    named = pack("tiles", {said: f'{said}\nnaming = "flat"'}, fmi)
+    with Unit(pack("tiles", fmi=fmi)) as unit, Unit(named) as flat:
+        for name in ("patch_heat_flux_2_3", "patch_heat_flux[2,3]", "patch_heat_flux", "patch"):
+            assert flat.cells(name) == unit.cells("patch.heat_flux")
+        one = "patch_heat_flux_2_3" if fmi == 2 else "patch_heat_flux[2,3]"
+        assert flat.areas(one) == unit.areas("patch.heat_flux[2,3]")
+        assert flat.areas(one) == pytest.approx([1.1e-4 * 0.9e-4 / 6])
+        assert flat.areas("patch").sum() == pytest.approx(1.1e-4 * 0.9e-4)
+        for wrong in ("patch_heat_flux_3_1", "patch_x", "centre_temperature"):
+            with pytest.raises(UnitError):
+                flat.areas(wrong)
+
+
 def test_scenes_are_built_once_for_each_content(pack, folder, tmp_path):
     scene = tmp_path / "scene.toml"
     text = (pack("drop").parent / "scene.toml").read_text()

@@ -181,6 +181,10 @@ class FunctionUnit:
         """A function has no cells."""
         raise UnitError(f"{self._label} tells no cells of `{name}`")
 
+    def areas(self, name: str) -> np.ndarray:
+        """A function has no areas."""
+        raise UnitError(f"{self._label} tells no areas of `{name}`")
+
     def coordinates(self, name: str) -> dict[str, np.ndarray]:
         """A function has no places."""
         raise UnitError(f"{self._label} tells no places of `{name}`")

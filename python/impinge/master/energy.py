@@ -28,7 +28,8 @@ class Bond:
     effort: the output that the other unit gives back, such as a velocity [m/s], whose product with
         the flux is the power; None where the flux itself is one, as of heat.
     area: by which the flux is multiplied [m²]; of each cell for families. If left out it is read
-        from the cells of either unit, and 1 where there are none or the flux is no power per area.
+        from the cells of either unit, and 1 where there are none, which a warning says of powers
+        per area, or the flux is no power per area.
     total: an output that counts the energy [J] that has left the source or come to the target: it
         knows what happened within steps. Without it, fluxes between the ends of a step are taken
         to follow the polynomial through what the source says at these.
@@ -66,7 +67,10 @@ class Balance:
                 self.effort = _link(given.effort, links)
         power = _check(given, self.link, self.effort, units)
         ends = [self.link] if self.effort is None else [self.link, self.effort]
-        self.area = _area(given, power, self.link, units) * prod(_factor(k, units) for k in ends)
+        area = _area(given, power, self.link, units)
+        is_per_area = power is not None and power[1] == 0
+        self.lacks_area = area is None and is_per_area
+        self.area = (1.0 if area is None else area) * prod(_factor(k, units) for k in ends)
         self._total = None
         if given.total is not None:
             unit, variable = split(given.total, units)
@@ -199,14 +203,17 @@ def _written(found: np.ndarray) -> str:
 
 def _area(
     given: Bond, power: np.ndarray | None, link: Link, units: Mapping[str, AnyUnit]
-) -> np.ndarray:
+) -> np.ndarray | None:
+    """The area of each value of a link [m²]; None where no unit tells it or it does not count."""
     if given.area is not None:
         return np.broadcast_to(np.asarray(given.area, float).ravel(), (link.size,))
     if power is not None and power[1] != 0:  # of the whole cell, or per length or volume
-        return np.ones(link.size)
+        return None
     for unit, variable in ((link.target_unit, link.target), (link.source_unit, link.source)):
         try:
-            return np.asarray(units[unit].cells(variable)["area"], float).ravel()
-        except (UnitError, KeyError):
+            areas = units[unit].areas(variable)
+        except UnitError:
             continue
-    return np.ones(link.size)
+        if link.size in (1, len(areas)):  # a map may lead from cells to other ones
+            return areas
+    return None

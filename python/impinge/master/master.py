@@ -139,6 +139,7 @@ class Master:
             )
             exchange = Exchange(self.participants, self.links, self.units)
             balances = [Balance(bond(each), self.links, self.units) for each in energy]
+            self._tell_of_areas(balances)
             sources = [link.connection.source for link in self.links]
             record = Record(self.units, [*sources, *outputs])
             step = self._proposed_step() if step is None else step
@@ -259,6 +260,15 @@ class Master:
         self.held = [
             p.name for p in self.participants.values() if self.order and p.writer and not p.order
         ]
+
+    def _tell_of_areas(self, balances: Sequence[Balance]) -> None:
+        """Warns of powers per area whose area no unit tells."""
+        for balance in balances:
+            if balance.lacks_area:
+                self._notes.add(
+                    f"energy: no unit tells the area of {balance.name}, a power per m2: 1 m2 is"
+                    " taken (Bond(…, area=…) sets it)"
+                )
 
     def _proposed_step(self) -> float:
         proposed = [unit.default_step for unit in self.units.values() if unit.default_step]

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Mapping
 from math import isfinite, prod
 from typing import Any
 
+import numpy as np
+
 from impinge.reading import parse_json
+from impinge.unit.variable import indices_of, stem_of
 
 PLACE = "resources/cells.json"
 _PER_CELL = ("area", "inner", "outer", "x", "y", "z")
@@ -27,6 +32,38 @@ def parse_cells(content: bytes) -> dict[str, dict[str, Any]]:
         except ValueError as error:
             raise ValueError(f"family `{name}`: {error}") from None
     return families
+
+
+def place_of(
+    families: Mapping[str, dict[str, Any]], name: str
+) -> tuple[str, tuple[int, ...]] | None:
+    """The family that goes by a name or has a variable of it, and the indices, from 1, of the
+    element that it names: none of a whole array. Names are structured, `patch.heat_flux[1,2]`, or
+    flat, `patch_heat_flux_1_2`. None where there is no such family.
+    """
+    stem, indices = stem_of(name), indices_of(name)
+    for key in (name, stem, stem.rpartition(".")[0]):
+        if key in families:
+            return key, indices
+    for key, family in families.items():
+        for quantity in family["quantities"]:
+            flat = re.escape(f"{key}.{quantity}".replace(".", "_"))
+            found = re.fullmatch(rf"{flat}((?:_[1-9][0-9]*)*)", stem)
+            if found:
+                return key, indices or tuple(map(int, found[1].split("_")[1:]))
+    return None
+
+
+def areas_of(family: Mapping[str, Any], indices: tuple[int, ...]) -> np.ndarray:
+    """The areas [m²] of all cells, or of the one with these indices, counted from 1; none where
+    the family does not tell them.
+    """
+    areas = np.asarray(family.get("area", []), float).ravel()
+    count = tuple(family.get("count", ()))
+    if len(indices) != len(count) or prod(count) != len(areas) or not indices:
+        return areas
+    place = np.ravel_multi_index([index - 1 for index in indices], count)
+    return areas[[place]]
 
 
 def _check(family: Any) -> None:

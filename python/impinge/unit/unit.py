@@ -18,6 +18,7 @@ from impinge.errors import StepDiscarded, UnitError
 from impinge.measure import Measure
 from impinge.summary import Summary, listed, name_with_unit, variables
 from impinge.unit.access import PathWriter, Reader, Writer
+from impinge.unit.cells import areas_of, place_of
 from impinge.unit.fmi2 import Fmi2
 from impinge.unit.fmi3 import Fmi3
 from impinge.unit.log import Listener, Log
@@ -241,18 +242,36 @@ class Unit:
     def cells(self, name: str) -> dict[str, Any]:
         """The cells of a family (`rings`, or a variable of it) as `resources/cells.json` has them:
         kind, footprint, count, areas [m²] and places [m], last index fastest."""
+        return self._cells(name)[1]
+
+    def _cells(self, name: str) -> tuple[str, dict[str, Any], tuple[int, ...]]:
+        """The name of a family and its cells, and the indices of the element that `name` means."""
         families = self.package.cell_families
-        for key in (name, stem_of(name), stem_of(name).rpartition(".")[0]):
-            if key in families:
-                return families[key]
-        known = f"; it has {', '.join(families)}" if families else ""
-        raise UnitError(f"{self.name} tells no cells of `{name}`{known}")
+        found = place_of(families, name)
+        if found is None:
+            known = f"; it has {', '.join(families)}" if families else ""
+            raise UnitError(f"{self.name} tells no cells of `{name}`{known}")
+        family, indices = found
+        return family, families[family], indices
+
+    def areas(self, name: str) -> np.ndarray:
+        """The areas [m²] of a family's cells, flat, or that of an element's cell, at the start of
+        loads whose radius is an input. Raises `UnitError` if they are not told."""
+        _, cells, indices = self._cells(name)
+        if indices:
+            self.variable(name)  # or there is no such element
+        areas = areas_of(cells, indices)
+        if not len(areas):
+            raise UnitError(f"{self.name} tells no areas of `{name}`")
+        return areas
 
     def coordinates(self, name: str) -> dict[str, np.ndarray]:
         """The coordinates x, y, z [m] of a family's cells or points: those that it has."""
         stem = stem_of(name)
-        for key in (stem, stem.rpartition(".")[0]):
-            found = {axis: self.variables.get(f"{key}.{axis}") for axis in "xyz"}
+        place = place_of(self.package.cell_families, name)
+        flat = [f"{place[0]}_"] if place else []
+        for prefix in (f"{stem}.", f"{stem.rpartition('.')[0]}.", *flat):
+            found = {axis: self.variables.get(prefix + axis) for axis in "xyz"}
             constant = {a: v for a, v in found.items() if v and v.variability == "constant"}
             if constant:
                 return {a: np.array(v.start, dtype=float) for a, v in constant.items()}

@@ -119,10 +119,9 @@ def read_variables(description: Any, fmi: int) -> tuple[dict[str, Variable], dic
 
 def element_of(array: Variable, name: str) -> Variable | None:
     """The element `name` = `array[i,j]` of an array of FMI 3.0, counted from 1."""
-    found = _INDICES.match(name)
-    if not found or not array.shape or len(array.references) != 1:
+    indices = [index - 1 for index in indices_of(name)]
+    if not indices or not array.shape or len(array.references) != 1:
         return None
-    indices = [int(index) - 1 for index in found["indices"].split(",")]
     if len(indices) != len(array.shape):
         return None
     if any(not 0 <= i < count for i, count in zip(indices, array.shape, strict=True)):
@@ -144,6 +143,12 @@ def stem_of(name: str) -> str:
     """The name without indices."""
     found = _INDICES.match(name)
     return found["stem"] if found else name
+
+
+def indices_of(name: str) -> tuple[int, ...]:
+    """The indices that a name ends with, counted from 1; none of a whole array."""
+    found = _INDICES.match(name)
+    return tuple(int(index) for index in found["indices"].split(",")) if found else ()
 
 
 def _number(text: Any) -> float | None:
@@ -222,8 +227,7 @@ def _families(singles: Iterable[Variable]) -> dict[str, str]:
         if not found or single.shape:
             taken.add(single.name)
             continue
-        indices = tuple(int(index) for index in found["indices"].split(","))
-        groups.setdefault(found["stem"], []).append((indices, single))
+        groups.setdefault(found["stem"], []).append((indices_of(single.name), single))
     stems = {}
     for stem, group in groups.items():
         ranks = {len(indices) for indices, _ in group}
@@ -241,16 +245,10 @@ def _families(singles: Iterable[Variable]) -> dict[str, str]:
     return stems
 
 
-def _indices(name: str) -> tuple[int, ...]:
-    found = _INDICES.match(name)
-    assert found
-    return tuple(int(index) for index in found["indices"].split(","))
-
-
 def _join(stem: str, members: list[Variable]) -> Variable:
-    members = sorted(members, key=lambda member: _indices(member.name))
+    members = sorted(members, key=lambda member: indices_of(member.name))
     first = members[0]
-    shape = _indices(members[-1].name)
+    shape = indices_of(members[-1].name)
     starts = [member.start for member in members]
     start = None if any(s is None for s in starts) else np.array(starts).reshape(shape)
     return Variable(
