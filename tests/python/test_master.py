@@ -329,6 +329,35 @@ def test_a_flux_into_one_tile_has_the_area_of_that(pack, fmi, edits, flux, heat)
     assert result[f"plate.{heat}"].values[-1] == pytest.approx(known, rel=1e-9)
 
 
+@pytest.mark.parametrize("fmi", [2, 3])
+@pytest.mark.parametrize("naming", ["structured", "flat"])
+def test_areas_of_a_flux_follow_the_radius_of_its_load(pack, fmi, naming):
+    """What passes is what the plate counts: the radius is set before the run, held or driven."""
+    edits = {"stop_time = 1e-4": f'stop_time = 1e-4\nnaming = "{naming}"'}
+    mark = "." if naming == "structured" else "_"
+    edits["rings = { count = 4, radius = 8e-5 }"] = "ring = { inner = 2e-5, outer = 6e-5 }"
+    plate, name = pack("rings", edits, fmi), f"splat{mark}radius"
+    law = Function(lambda: 1e6, {}, {"y": "W/m2"}, name="law")
+    links = [("law.y", f"plate.splat{mark}heat_flux")]
+    count = f"plate.plate{mark}heat_in"
+    energy = ["law.y", Bond(links[0][1], total=count)]
+    options = {"step": 1e-5, "energy": energy, "outputs": [count]}
+    for given, inputs, mean_square in (
+        ({name: 9e-5}, {}, 8.1e-9),
+        ({}, {f"plate.{name}": 9e-5}, 8.1e-9),
+        ({}, {f"plate.{name}": lambda t: 4e-5 + 0.6 * t}, 5.2e-9),
+    ):
+        units = {"law": law, "plate": plate}
+        options |= {"inputs": inputs, "parameters": {"plate": given}}
+        with Master(units, links, **options) as master:
+            result = master.run(1e-4)
+        known = 1e6 * 1e-4 * pi * mean_square * (1.0 - 1.0 / 9.0)
+        assert result[count].values[-1] == pytest.approx(known, rel=2e-3)
+        passed = result["energy_passed.law.y"].values[-1]
+        assert passed == pytest.approx(result[count].values[-1], rel=1e-3)
+        assert result.attrs[f"energy_residual.{links[0][1]}"] < 1e-3
+
+
 def test_rings_of_flat_names_have_radii(pack):
     drop = pack("drop", {"step = 1e-7": 'step = 1e-7\nnaming = "flat"'}, 3)
     with Master({"drop": drop}, outputs=["drop.wall_heat_flux"], step=1e-7) as master:

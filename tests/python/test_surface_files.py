@@ -303,6 +303,24 @@ def test_a_load_of_a_scene_has_its_radius_at_the_start(tmp_path, footprint):
         assert Surface.of(unit, "spot").areas == pytest.approx(of_scene.areas, rel=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("scene", "name", "area"),
+    [("plate", "spot", np.pi * (9e-5) ** 2), ("tiles", "patch", 1.1e-4 * 0.9e-4 / 6)],
+)
+def test_a_load_of_a_unit_is_where_and_as_large_as_it_is_now(scene, name, area):
+    """By parameters and by inputs; a closed unit knows its start alone."""
+    path = SCENES / f"{scene}.toml"
+    start = Surface.of(path, name)
+    size = {f"{name}.radius": 9e-5} if scene == "plate" else {}
+    with Unit(path, parameters=size) as unit:
+        unit[f"{name}.x"], unit[f"{name}.y"] = 3e-5, -5e-5
+        now = Surface.of(unit, name)
+        moved = now.coordinates - start.coordinates
+        assert moved == pytest.approx(np.tile([3e-5, -5e-5, 0.0], (now.size, 1)), abs=1e-18)
+        assert now.areas == pytest.approx(np.full(now.shape, area), rel=1e-12)
+    assert Surface.of(unit, name).areas == pytest.approx(start.areas, rel=1e-12)
+
+
 def check_field(tmp_path, text, keys):
     """A field with these keys lies where the unit of the scene has it."""
     path = tmp_path / "scene.toml"

@@ -185,6 +185,10 @@ class FunctionUnit:
         """A function has no areas."""
         raise UnitError(f"{self._label} tells no areas of `{name}`")
 
+    def placement(self, name: str) -> dict[str, Variable]:
+        """A function has no loads."""
+        return {}
+
     def coordinates(self, name: str) -> dict[str, np.ndarray]:
         """A function has no places."""
         raise UnitError(f"{self._label} tells no places of `{name}`")

@@ -14,6 +14,7 @@ from impinge.master.any_unit import AnyUnit
 from impinge.master.connection import Link, split
 from impinge.master.errors import MasterError
 from impinge.measure import BASE, KELVIN
+from impinge.unit.access import Reader
 
 _NOT_M = [0, 2, 3, 4, 5, 6]  # metres are counted by themselves, and radians are pure numbers
 _POWER = np.array([1, -3, 0, 0, 0, 0])
@@ -29,7 +30,8 @@ class Bond:
         the flux is the power; None where the flux itself is one, as of heat.
     area: by which the flux is multiplied [m²]; of each cell for families. If left out it is read
         from the cells of either unit, and 1 where there are none, which a warning says of powers
-        per area, or the flux is no power per area.
+        per area, or the flux is no power per area. Cells of a load grow with its radius, of which
+        the mean over each step counts.
     total: an output that counts the energy [J] that has left the source or come to the target: it
         knows what happened within steps. Without it, fluxes between the ends of a step are taken
         to follow the polynomial through what the source says at these.
@@ -48,6 +50,41 @@ def bond(given: Any) -> Bond:
     )
 
 
+class _Area:
+    """The areas of the values of a flux [m²], of a load at the radius that it has over a step.
+
+    start: the radius that `values` belong to [m]; None of cells that do not grow. The radius is the
+    mean over a step of what the master sets, at `place` among all inputs, or what `read` returns.
+    """
+
+    def __init__(self, values: np.ndarray):
+        self.values = values
+        self.start: float | None = None
+        self.place: slice | None = None
+        self.read: Reader | None = None
+
+    @classmethod
+    def of_cells(
+        cls, name: str, variable: str, units: Mapping[str, AnyUnit], places: Mapping[str, slice]
+    ) -> _Area:
+        """The areas of the cells of a variable of the unit of this name."""
+        unit = units[name]
+        area = cls(unit.areas(variable))
+        radius = unit.placement(variable).get("radius")
+        if radius is not None:
+            area.start = radius.start
+            area.place = places.get(f"{name}.{radius.name}")
+            area.read = unit.reader([radius.name])
+        return area
+
+    def __call__(self, arrived: np.ndarray) -> np.ndarray:
+        """arrived: means over a step of the inputs that the master sets."""
+        if self.start is None:
+            return self.values
+        radius = self.read() if self.place is None else arrived[self.place]
+        return self.values * (float(radius[0]) / self.start) ** 2
+
+
 class Balance:
     """The energy that leaves through a bond, and the part of it that does not arrive.
 
@@ -58,7 +95,14 @@ class Balance:
     S. Sadjina, L. Kyllingstad, S. Skjong, E. Pedersen (2017), doi 10.1007/s00366-016-0492-8.
     """
 
-    def __init__(self, given: Bond, links: list[Link], units: Mapping[str, AnyUnit]):
+    def __init__(
+        self,
+        given: Bond,
+        links: list[Link],
+        units: Mapping[str, AnyUnit],
+        places: Mapping[str, slice] | None = None,
+    ):
+        """places: where inputs that the master sets stand among all of them, by `unit.variable`."""
         self.name = given.flux if given.effort is None else f"{given.flux}*{given.effort}"
         self.link = _link(given.flux, links)
         self.effort = None
@@ -67,10 +111,9 @@ class Balance:
                 self.effort = _link(given.effort, links)
         power = _check(given, self.link, self.effort, units)
         ends = [self.link] if self.effort is None else [self.link, self.effort]
-        area = _area(given, power, self.link, units)
-        is_per_area = power is not None and power[1] == 0
-        self.lacks_area = area is None and is_per_area
-        self.area = (1.0 if area is None else area) * prod(_factor(k, units) for k in ends)
+        self._area = _area(given, power, self.link, units, places or {})
+        self.lacks_area = self._area is None and power is not None and power[1] == 0
+        self._factor = prod(_factor(k, units) for k in ends)
         self._total = None
         if given.total is not None:
             unit, variable = split(given.total, units)
@@ -93,13 +136,14 @@ class Balance:
         if self.effort is not None:
             place = self.effort.place
             came, left = came * given[place], left * arrived[place]
-        energy = size * float(np.sum(self.area * left))
+        area = self._factor * (1.0 if self._area is None else self._area(arrived))
+        energy = size * float(np.sum(area * left))
         if self._total is not None:
             before, self._counted = self._counted, self._count()
             energy = self._counted - before
-            lost = energy - size * float(np.sum(self.area * came))
+            lost = energy - size * float(np.sum(area * came))
         else:
-            lost = size * float(np.sum(self.area * (left - came)))
+            lost = size * float(np.sum(area * (left - came)))
         self.passed += energy
         self.low, self.high = min(self.low, self.passed), max(self.high, self.passed)
         self.moved += abs(energy)
@@ -116,7 +160,9 @@ class Balance:
         return self.largest / (self.high - self.low) if self.high > self.low else 0.0
 
 
-def powers(links: Sequence[Link], units: Mapping[str, AnyUnit]) -> list[Balance]:
+def powers(
+    links: Sequence[Link], units: Mapping[str, AnyUnit], places: Mapping[str, slice]
+) -> list[Balance]:
     """Balances of all pairs of connections to and fro whose product is a power, as forces and
     velocities, where both are known to be by their units of measurement."""
     sources = [link.connection.source for link in links]
@@ -128,7 +174,7 @@ def powers(links: Sequence[Link], units: Mapping[str, AnyUnit]) -> list[Balance]
             if (one.source_unit, one.target_unit) == ends and one.size == other.size:
                 names = one.connection.source, other.connection.source
                 if _is_power(*(_exponents(k.connection.source, units, k) for k in (one, other))):
-                    found.append(Balance(Bond(*names), list(links), units))
+                    found.append(Balance(Bond(*names), list(links), units, places))
     return found
 
 
@@ -202,18 +248,22 @@ def _written(found: np.ndarray) -> str:
 
 
 def _area(
-    given: Bond, power: np.ndarray | None, link: Link, units: Mapping[str, AnyUnit]
-) -> np.ndarray | None:
+    given: Bond,
+    power: np.ndarray | None,
+    link: Link,
+    units: Mapping[str, AnyUnit],
+    places: Mapping[str, slice],
+) -> _Area | None:
     """The area of each value of a link [m²]; None where no unit tells it or it does not count."""
     if given.area is not None:
-        return np.broadcast_to(np.asarray(given.area, float).ravel(), (link.size,))
+        return _Area(np.broadcast_to(np.asarray(given.area, float).ravel(), (link.size,)))
     if power is not None and power[1] != 0:  # of the whole cell, or per length or volume
         return None
     for unit, variable in ((link.target_unit, link.target), (link.source_unit, link.source)):
         try:
-            areas = units[unit].areas(variable)
+            area = _Area.of_cells(unit, variable, units, places)
         except UnitError:
             continue
-        if link.size in (1, len(areas)):  # a map may lead from cells to other ones
-            return areas
+        if link.size in (1, len(area.values)):  # a map may lead from cells to other ones
+            return area
     return None

@@ -138,7 +138,9 @@ class Master:
                 max_iterations,
             )
             exchange = Exchange(self.participants, self.links, self.units)
-            balances = [Balance(bond(each), self.links, self.units) for each in energy]
+            places = {link.connection.target: link.place for link in self.links}
+            places |= {function.name: place for place, function in drives}
+            balances = [Balance(bond(each), self.links, self.units, places) for each in energy]
             self._tell_of_areas(balances)
             sources = [link.connection.source for link in self.links]
             record = Record(self.units, [*sources, *outputs])
@@ -161,7 +163,7 @@ class Master:
             schedule=Schedule(step, graded, jumps, self.adaptive, least, largest_step),
             watch=Watch(self.units, self.links, exchange.loops, scheme, iteration_tolerance),
             balances=balances,
-            powers=powers(self.links, self.units),
+            powers=powers(self.links, self.units, places),
             record=record,
             notes=self._notes,
             time=start,

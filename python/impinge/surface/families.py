@@ -23,10 +23,11 @@ from .surface import Surface
 def family(unit: Any, name: str, z: float | None = None) -> Surface:
     """The surface of a family of a unit: of a load, wall or field `name`.
 
-    `unit` has a method ``cells(name)`` (an :class:`impinge.Unit`), or is the path of a .fmu file or
-    of a folder it was unzipped into, whose ``resources/cells.json`` is read, or of a scene (.toml),
-    where `name` may be a face, ``plate.bottom``, too, which is one cell. `z` is the height of the
-    face [m] where they do not tell it: 0, that of tops, if it is not given.
+    `unit` has a method ``cells(name)`` (an :class:`impinge.Unit`, whose loads are where, and as
+    large as, its inputs say now), or is the path of a .fmu file or of a folder it was unzipped
+    into, whose ``resources/cells.json`` is read, or of a scene (.toml), both with loads as they
+    start. Of a scene `name` may be a face, ``plate.bottom``, too, which is one cell. `z` is the
+    height of the face [m] where they do not tell it: 0, that of tops, if it is not given.
 
     Raises
     ------
@@ -34,7 +35,7 @@ def family(unit: Any, name: str, z: float | None = None) -> Surface:
         If there is no such family, or if its footprint has no cells, as a Gaussian has none.
     """
     if hasattr(unit, "cells"):
-        return from_cells(unit.cells(name), name, z)
+        return from_cells(_present_cells(unit, name), name, z)
     path = Path(unit)
     with reading(path, SurfaceError):
         if path.suffix == ".toml":
@@ -44,6 +45,24 @@ def family(unit: Any, name: str, z: float | None = None) -> Surface:
         if name not in families:
             raise SurfaceError(f"{path}: `{name}` is none of its families: {', '.join(families)}")
         return from_cells(families[name], name, z)
+
+
+def _present_cells(unit: Any, name: str) -> dict[str, Any]:
+    """The cells of a unit; of an open one those of a load where, and as large as, it is now."""
+    cells = dict(unit.cells(name))
+    inputs = unit.placement(name) if getattr(unit, "is_open", False) else {}
+    present = {key: unit[variable.name] for key, variable in inputs.items()}
+    at = cells.get("at", (0.0, 0.0))
+    if inputs:
+        cells["at"] = [present.get(axis, start) for axis, start in zip("xy", at, strict=True)]
+    for axis, start in zip("xy", at, strict=True):
+        if axis in present and axis in cells:
+            cells[axis] = np.add(cells[axis], present[axis] - start)
+    if "radius" in present:
+        growth = present["radius"] / inputs["radius"].start
+        for key, power in (("inner", 1), ("outer", 1), ("area", 2)):
+            cells[key] = np.multiply(cells[key], growth**power)
+    return cells
 
 
 def _read_cells(path: Path) -> dict[str, Any]:

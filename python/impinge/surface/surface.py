@@ -166,9 +166,10 @@ class Surface:
     def of(cls, unit: Any, name: str, z: float | None = None) -> Surface:
         """The cells or points of a unit's load, wall or field.
 
-        `unit` is an :class:`impinge.Unit`, or the path of a unit (.fmu), of a folder of one or of a
-        scene (.toml), of which only the geometry is read; `z` the height [m] of a face that is no
-        top. See :func:`impinge.surface.families.family`.
+        `unit` is an :class:`impinge.Unit`, whose loads are where, and as large as, its inputs say
+        now, or the path of a unit (.fmu), of a folder of one or of a scene (.toml), of which only
+        the geometry at the start is read; `z` the height [m] of a face that is no top.
+        See :func:`impinge.surface.families.family`.
         """
         from .families import family
 

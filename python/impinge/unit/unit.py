@@ -265,6 +265,19 @@ class Unit:
             raise UnitError(f"{self.name} tells no areas of `{name}`")
         return areas
 
+    def placement(self, name: str) -> dict[str, Variable]:
+        """The inputs that place a load's cells, as far as there are any: `x` and `y` of the centre
+        and the outer `radius`, with which all radii grow in proportion. A tunable parameter may
+        stand for each."""
+        family, cells, _ = self._cells(name)
+        found = {}
+        for key in ("x", "y", "radius") if cells.get("kind") == "load" else ():
+            for mark in "._":
+                variable = self.variables.get(f"{family}{mark}{key}")
+                if variable is not None and variable.causality in ("input", "parameter"):
+                    found[key] = variable
+        return found
+
     def coordinates(self, name: str) -> dict[str, np.ndarray]:
         """The coordinates x, y, z [m] of a family's cells or points: those that it has."""
         stem = stem_of(name)
