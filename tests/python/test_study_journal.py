@@ -232,6 +232,8 @@ import numpy as np
 from scipy.interpolate import Akima1DInterpolator, CubicSpline, PchipInterpolator
 from scipy.stats import norm
 from impinge.study.functions import hash_of_function
+import settings
+from settings import Plant, Settings
 
 VALUE = float(sys.argv[1])
 LIST, DICT, SET = [VALUE], {"a": VALUE}, {VALUE, 7.0, "a", "b"}
@@ -249,6 +251,7 @@ class Slotted:
 
 class Kind(enum.Enum):
     ONE = 1
+    TWO = VALUE
 
 class Base:
     gain = VALUE
@@ -280,7 +283,22 @@ class Derived:
     def __call__(self, t):
         return self.gain * t
 
+settings.POWER = Settings.POWER = Plant.POWER = VALUE
+
+def local():
+    class Held:
+        gain = VALUE
+    return lambda t: Held.gain * t
+
 calls = {
+    "module": lambda t: settings.POWER * t,
+    "class": lambda t: Settings.POWER * t,
+    "class_of_a_module": lambda t: settings.Plant.Part.gain * t,
+    "base_of_a_class": lambda t: Plant.gain * t,
+    "class_given": lambda t, of=Plant: of.gain * t,
+    "class_method": Settings.law,
+    "member": lambda t: Kind.TWO.value * t,
+    "class_held": local(),
     "partial": functools.partial(power, a=VALUE),
     "cubic": CubicSpline(X, VALUE * X),
     "pchip": PchipInterpolator(X, VALUE * X),
@@ -304,10 +322,32 @@ for name, call in calls.items():
 """
 
 
+SETTINGS = """
+import sys
+import threading
+
+LOCK = threading.Lock()  # whose state nothing tells, and which no function uses
+
+class Settings:
+    gain = float(sys.argv[1])
+    @classmethod
+    def law(cls, t):
+        return cls.gain * t
+    @property
+    def other(self):
+        return sys.argv[1]
+
+class Plant(Settings):
+    class Part(Settings):
+        pass
+"""
+
+
 def hashes(folder, value, seed):
     """Hashes of all functions, in a process with its own order of sets."""
     script = folder / "functions.py"
-    script.write_text(FUNCTIONS.replace("POWER", value))
+    (folder / "settings.py").write_text(SETTINGS)
+    script.write_text(FUNCTIONS.replace("return POWER", f"return {value}"))
     environment = {**os.environ, "PYTHONHASHSEED": seed, "PYTHONPATH": os.pathsep.join(sys.path)}
     command = [sys.executable, script, value]
     ran = subprocess.run(command, env=environment, check=True, capture_output=True, text=True)

@@ -23,7 +23,8 @@ _INSTALLED = {"site-packages", "dist-packages"}
 
 def hash_of_function(function: Callable[..., Any]) -> str:
     """Returns a hash of a function's instructions, its constants and what it holds from where it
-    was made, but not of what other functions that it calls do.
+    was made, be it in modules and classes of the user's, but not of what other functions that it
+    calls do.
 
     Of a callable object these are the methods of its class, unless that is installed, and its
     state. What cannot be described has another hash every time: its rows run again.
@@ -55,6 +56,8 @@ class _Description:
         if isinstance(thing, types.MethodType):
             self.add(thing.__func__)
             self.add(thing.__self__)
+            if isinstance(thing.__func__, types.FunctionType):
+                self._add_attributes("self", thing.__self__, _names(thing.__func__.__code__))
         elif isinstance(thing, types.FunctionType):
             self._add_function(thing)
         elif isinstance(thing, types.CodeType):
@@ -98,10 +101,29 @@ class _Description:
         else:
             self._add_items(function.__kwdefaults__)
         is_installed = _is_installed(function.__module__)
-        for name in sorted(_names(function.__code__) & set(function.__globals__)):
+        names = _names(function.__code__)
+        for name in sorted(names & set(function.__globals__)):
             value = function.__globals__[name]
             if isinstance(value, _CONSTANTS) or not (is_installed or _is_called_by_name(value)):
                 self.add((name, value))
+            self._add_attributes(name, value, names)
+        given = [*(function.__defaults__ or ()), *(function.__kwdefaults__ or {}).values()]
+        held = [cell.cell_contents for cell in function.__closure__ or ()]
+        for number, holder in enumerate([*given, *held]):
+            self._add_attributes(str(number), holder, names)
+
+    def _add_attributes(self, path: str, holder: Any, names: set[str], within: Any = ()) -> None:
+        """Adds data that a function reaches by name through a module or a class, which nobody
+        installed, and through those in it."""
+        if not isinstance(holder, type | types.ModuleType) or _is_installed(_module_of(holder)):
+            return
+        for name in sorted(names):
+            value = _attribute(holder, name)
+            if isinstance(value, type | types.ModuleType):
+                if value not in within:
+                    self._add_attributes(f"{path}.{name}", value, names, (*within, holder))
+            elif not _is_called_by_name(value) and _unwrapped(value)[0] is value:
+                self.add((f"{path}.{name}", value))
 
     def _add_code(self, code: types.CodeType) -> None:
         self._add_word(code.co_code)
@@ -208,6 +230,17 @@ def _is_installed(module: str | None) -> bool:
         return bool(module) and module != "__main__"
     file = getattr(sys.modules.get(module), "__file__", None)
     return bool(file) and not _INSTALLED.isdisjoint(Path(file).parts)
+
+
+def _module_of(holder: type | types.ModuleType) -> str:
+    return holder.__name__ if isinstance(holder, types.ModuleType) else holder.__module__
+
+
+def _attribute(holder: type | types.ModuleType, name: str) -> Any:
+    """An attribute of a class or module, None if it has none; modules make none on demand."""
+    if isinstance(holder, types.ModuleType):
+        return vars(holder).get(name)
+    return getattr(holder, name, None)
 
 
 def _name_of(thing: Any) -> str:
