@@ -260,6 +260,14 @@ def test_tables_jump_where_steps_begin_but_for_rounding(cut):
         assert getattr(line.courses["u"], part).ravel().tolist() == [0, 0, 0, 1, 1, 1]
 
 
+def test_counts_hold_what_they_are_as_steps_of_one_length_begin():
+    table = Table([0.0, 0.7, 2.0], [0.0, 1.0, 3.0])
+    line = timeline(2.0, 1.0, {"u": table}, False, {}, ["u"])
+    assert line.courses["u"].begins.ravel().tolist() == [0.0, 1.0]
+    assert line.courses["u"].middles.ravel().tolist() == [0.0, 1.0]
+    assert "at 0.7 s, within a step" in line.notes[0] and "before is held" in line.notes[0]
+
+
 def test_means_of_tables_are_those_of_all_elements():
     table = Table([0.0, 0.7, 0.7, 2.0], [[0.0, 1.0], [0.0, 1.0], [1.0, 5.0], [1.0, 5.0]])
     line = timeline(2.0, 1.0, {"u": table}, False, {})

@@ -137,6 +137,42 @@ def test_inputs_over_time_bring_in_their_integral(slab, fmi):
         Table([1.0, 0.0], [1.0, 1.0])
 
 
+RELEASE = """
+name = "Release"
+stop_time = 2e-5
+step = 1e-6
+
+[body.drop]
+kind = "droplet"
+diameter = 6e-5
+impact_velocity = 20.0
+initial_temperature = 350.0
+spacing = 1e-5
+release = "input"
+most = 3
+fluid = { density = 1000.0, viscosity = 1e-3, specific_heat = 4180.0, conductivity = 0.6 }
+"""
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_counts_hold_the_value_of_the_last_row(tmp_path, fmi):
+    """A drop is there from the end of the step on that begins with a row that asks for it; so it
+    is with a function, which is asked at the beginning of each step."""
+    scene = tmp_path / "release.toml"
+    scene.write_text(RELEASE)
+    for asked in (
+        Table([0.0, 5e-6, 1.15e-5, 3e-5], [0.0, 1.0, 2.0, 3.0]),
+        lambda t: float(t >= 5e-6) + float(t >= 1.15e-5),
+    ):
+        given = {"drop.release": asked}
+        options = {"outputs": [over_time("drop.released")], "step": 1e-6, "fmi": fmi}
+        table = Study(scene, {}, inputs=given, **options).run(1)
+        assert (table.status == 0).all(), table.message.values
+        found, time = table["drop.released(t)"].values.ravel(), table.time.values
+        expected = (time > 5.5e-6).astype(float) + (time > 1.16e-5)
+        assert found == pytest.approx(expected)
+
+
 def test_extremes_and_functions_of_runs(slab, tmp_path):
     """Under q = q₀ sin 2πt, the heat in a slab is largest at half a period, and back at the end."""
     table = Study(

@@ -116,8 +116,10 @@ def warn_of_inputs(study: Study) -> None:
     if not moving or not study.rows:
         return
     cut = study.package.can.variable_steps
+    discrete = [name for name in moving if study.package.variable(name).is_discrete]
+    sampled = study.rows[0].sampled
     try:
-        line = timeline(experiment.stop, experiment.step, moving, cut, study.rows[0].sampled)
+        line = timeline(experiment.stop, experiment.step, moving, cut, sampled, discrete)
     except Exception:  # rows keep what their functions raise
         return
     for note in line.notes:

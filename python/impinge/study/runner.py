@@ -242,7 +242,8 @@ class Run:
         if self.live.timeline is not None:
             return self.live.timeline
         stop, step = self.experiment.stop, self.experiment.step
-        found = timeline(stop, step, moving, self.unit.can.variable_steps, sampled)
+        discrete = [name for name in moving if self.unit.variable(name).is_discrete]
+        found = timeline(stop, step, moving, self.unit.can.variable_steps, sampled, discrete)
         if not any(callable(s) and takes_parameters(s) for s in moving.values()):
             self.live.timeline = found
         return found
@@ -274,7 +275,8 @@ class Run:
 
     def _advance_moving(self, rows: np.ndarray, reader: Any) -> None:
         """Inputs follow a parabola over each step, as far as the unit can; else they are held at
-        their value in the middle. Values are read under the inputs of their time."""
+        their value in the middle, counts at that of the beginning. Values are read under the inputs
+        of their time."""
         order = self.unit.can.interpolates
         write = self.unit.writer(self.courses)
         courses = self.courses.values()
@@ -287,7 +289,8 @@ class Run:
         follows = {
             variable.name: (variable.shape, place)
             for variable, place in zip(write.variables, write.slices, strict=True)
-            if order and variable.causality == "input"  # tunable parameters have no derivatives
+            # Tunable parameters have no derivatives.
+            if order and variable.causality == "input" and not variable.is_discrete
         }
         is_held = np.ones(first.shape[1], bool)
         for _, place in follows.values():

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import inspect
 import itertools
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -151,12 +151,21 @@ def timeline(
     signals: Mapping[str, Signal],
     cut: bool,
     parameters: Mapping[str, Any],
+    discrete: Collection[str] = (),
 ) -> Timeline:
     """Steps and what inputs that are no constants do over them.
 
     Where a function of time jumps within a step, or a table jumps or changes its slope, the step is
     cut there; the mean over the step is held where the unit takes no steps of other lengths.
+    `discrete` inputs hold over a step what they are at its beginning; of their tables, the last
+    value.
     """
+    signals = {
+        name: replace(signal, hold=True)
+        if name in discrete and isinstance(signal, Table)
+        else signal
+        for name, signal in signals.items()
+    }
     times = parts(stop, step, signals, cut)
     notes: list[str] = []
     functions = {
@@ -193,12 +202,17 @@ def timeline(
             courses[name] = _course_of_table(table, times)
             inside = {} if cut else _bends(table, times)
             mean, does = table.mean, "bends or jumps"
-        for k in inside:
-            courses[name].hold(k, mean(times[k], times[k + 1]))
+        if name in discrete:
+            courses[name] = replace(courses[name], middles=courses[name].begins)
+            held = "what it was before"
+        else:
+            for k in inside:
+                courses[name].hold(k, mean(times[k], times[k + 1]))
+            held = "its mean over the step"
         if inside:
             notes.append(
                 f"input {name} {does} at {next(iter(inside.values())):.6g} s, within a step, and"
-                " the unit takes steps of one length: its mean over the step is held"
+                f" the unit takes steps of one length: {held} is held"
             )
     return Timeline(times, courses, tuple(notes))
 

@@ -66,6 +66,11 @@ class Variable:
         return self.kind in NUMBERS or self.kind == "Boolean"
 
     @property
+    def is_discrete(self) -> bool:
+        """Whether values hold over a step: whole numbers and the like, and counts among reals."""
+        return not (self.is_real or self.kind == "Float32") or self.variability == "discrete"
+
+    @property
     def is_real(self) -> bool:
         """Whether values are real numbers of double precision."""
         return self.kind in ("Real", "Float64")
