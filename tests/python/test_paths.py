@@ -137,6 +137,11 @@ def test_few_runs_find_the_path_of_a_hairpin(found, scene):
     best, _ = found
     assert best.simulations <= 60 and best.ratio > 7.3
     assert best.best.largest < 0.15 * best.diameter and best.best.gap < 0.1 * best.diameter
+    # Objectives of coarser segments are no best ones of finer ones.
+    history = best.history
+    assert history.best[-1] == best.best.objective(best.diameter)
+    fine = history.factor.values == 1.0
+    assert history.best.values[fine][0] == history.objective.values[fine][0]
     # The report has the values that the unit gives on that path.
     steps = np.diff(best.times)
     assert_laid(scene, best, steps)

@@ -49,8 +49,9 @@ class FoundPath:
 
     places [m], times [s] and flow [m³/s] are the motion of the nozzle at `height` [m]; `along` are
     places along the target. `waypoints` are parts of its length and offsets along its normal [m].
-    history: a row for each simulation: objective, best so far, share of the steps that were taken,
-    and the factor by which its segments, or distances of particles, are coarser.
+    history: a row for each simulation: objective, best so far of whole runs with the same factor
+    and run-out, share of the steps that were taken, and the factor by which its segments, or
+    distances of particles, are coarser.
     """
 
     places: np.ndarray
@@ -339,6 +340,7 @@ class _Record:
         self.factor = 1.0
         self.naive: Print | None = None
         self.best: tuple[float, np.ndarray, Print] | None = None
+        self.least = np.inf  # objective of whole runs that may be compared
 
     def at(self, factor: float, run_out: float | None) -> _Record:
         self.factor = factor
@@ -351,12 +353,14 @@ class _Record:
         told = {key: value for key, value in asdict(self.job).items() if key != "folder"}
         self.key = hashlib.sha256((unit + json.dumps(told, sort_keys=True)).encode()).hexdigest()
         self.best = None
+        self.least = np.inf
         self.run_out = 0.0
         naive = self.ranges.naive()
         self.workers = _Workers(self.job, self.processes)
         if self._run_out is None:
             (first,) = self._runs([self._places(naive)], np.inf)
             self.run_out = first.lag
+            self.least = np.inf
         else:
             self.run_out = self._run_out
         places = self._places(naive)
@@ -437,12 +441,14 @@ class _Record:
             one = new[n] if n in new else Print.of(*known[key].values)
             prints.append(one)
             objective = one.objective(self.job.diameter)
-            best = min([objective] + [row[1] for row in self.rows[-1:]])
+            if one.part == 1.0:
+                self.least = min(self.least, objective)
             share = one.steps / (len(paths[n]) - 1)
-            self.rows.append((objective, best, share, self.factor))
-            self.bar.set_postfix_str(f"objective {best:.3g}", refresh=False)
+            self.rows.append((objective, self.least, share, self.factor))
+            self.bar.set_postfix_str(f"objective {self.least:.3g}", refresh=False)
             self.bar.update()
-            _LOGGER.info("run %d: objective %.4g, best %.4g", len(self.rows), objective, best)
+            told = (len(self.rows), objective, self.least)
+            _LOGGER.info("run %d: objective %.4g, best %.4g", *told)
         return prints
 
     def _key_of(self, places: np.ndarray, give_up: float) -> str:
