@@ -26,9 +26,9 @@ pub use parameters::{AtStart, MaterialConstant};
 pub use part::{Part, PartVisitor};
 pub use property::{Curve, Property, PropertyError, Table};
 pub use solid::{
-    Creep, Elastic, Elastoplastic, FlowLaw, Law, OfTemperature, Overstress, Parted, PlasticHistory,
-    PointConstants, PointTangent, Relaxation, Response, SolidLaw, Thermoelastic, Viscoelastic,
-    Viscoplastic, admissible, constant, stress, stress_rate,
+    Creep, Elastic, Elastoplastic, FlowLaw, Growth, Law, OfTemperature, Overstress, Parted,
+    PlasticHistory, PointConstants, PointTangent, Relaxation, Response, SolidLaw, Thermoelastic,
+    Viscoelastic, Viscoplastic, admissible, constant, stress, stress_rate,
 };
 
 /// Molar gas constant R [J/(mol K)], exact since the SI of 2019.

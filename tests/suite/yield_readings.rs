@@ -322,6 +322,40 @@ fn coarse_meshes_read_what_a_held_plate_bears() {
     }
 }
 
+/// A film on rollers that is heated: its yield stress saturates as `s = Y(p)`, `p = 2 (α ΔT − s (1 − ν)/E)`, in the body
+/// and in layers.
+#[test]
+fn yield_stress_saturates_in_small_strain() {
+    let material = "{ model = \"elastoplastic\", density = 7800.0, specific_heat = 500.0, conductivity = 50.0, \
+                    young = 200e9, poisson = 0.3, expansion = 12e-6, yield_stress = 200e6, \
+                    hardening = { saturation = 400e6, rate = 100.0 } }";
+    let (modulus, first, saturation, rate) = (200e9 / 0.7, 200e6, 400e6, 100.0);
+    let plastic = |stress: f64| 2.0 * (12e-6 * 500.0 - stress / modulus);
+    let mut wanted = 300e6;
+    for _ in 0..200 {
+        let found = saturation - (saturation - first) * f64::exp(-rate * plastic(wanted));
+        wanted = 0.5 * (wanted + found);
+    }
+    let single = format!("material = {material}");
+    let layers = [0.5e-3, 1.5e-3]
+        .map(|thickness| format!("{{ thickness = {thickness:e}, material = {material} }}"));
+    for of_body in [single, format!("layers = [{}]", layers.join(", "))] {
+        for steps in [1, 10] {
+            let text = format!(
+                "name = \"Film\"\nstop_time = 100.0\nstep = 10.0\n[body.film]\nkind = \"solid\"\n\
+                 shape = {{ box = [4e-3, 4e-3, 2e-3] }}\ninitial_temperature = 300.0\n{of_body}\n\
+                 [body.film.faces]\nsides = {{ roller = true }}\nbottom = {{ roller = true, temperature = 800.0 }}\n\
+                 top = {{ temperature = 800.0 }}\n[[probe]]\nname = \"a\"\nin = \"film\"\nat = [0.0, 0.0, -1e-3]\n\
+                 gives = [\"stress\", \"plastic_strain\"]\n"
+            );
+            let mut trial = Trial::new(&text);
+            (0..steps).for_each(|_| trial.step(100.0 / f64::from(steps)));
+            assert!(off(trial.get("a.stress_xx"), -wanted) < 1e-6, "{steps}: {of_body}");
+            assert!(off(trial.get("a.plastic_strain"), plastic(wanted)) < 1e-6, "{steps}");
+        }
+    }
+}
+
 /// Stress where nothing has yielded is that of the same body with a yield stress out of reach, to the rounding of
 /// steps that are cut elsewhere.
 #[test]

@@ -1,15 +1,15 @@
-//! Small-strain J₂ plasticity with linear isotropic and kinematic hardening.
+//! Small-strain J₂ plasticity with isotropic hardening, linear and saturating, and linear kinematic hardening.
 //!
 //! With the deviator s of stress, the back stress β, `ξ = s − β` and the accumulated plastic strain p:
 //!
-//! - Yield: `‖ξ‖ ≤ √⅔ (σ_y + H_i p)` (R. von Mises 1913).
+//! - Yield: `‖ξ‖ ≤ √⅔ Y(p)` (R. von Mises 1913), `Y = σ_y + H_i p + (σ_∞ − σ_y)(1 − e^(−δp))` (E. Voce 1948).
 //! - Flow: `ε̇ₚ = γ̇ n`, `n = ξ/‖ξ‖`, `ṗ = √⅔ γ̇`.
 //! - Hardening: `β = ⅔ H_k a`, `ȧ = ε̇ₚ` (W. Prager 1956, doi 10.1115/1.4011389, as an energy `⅓ H_k a:a`).
 //! - Elasticity: `σ = 3K (tr ε/3 − ε_T) 1 + 2G dev(ε − εₚ)`, `ε_T = α(T)(T − T_ref)`.
 //!
 //! A step is the radial return of M. L. Wilkins 1964 with the consistent tangent of J. C. Simo and R. L. Taylor 1985
-//! (doi 10.1016/0045-7825(85)90070-2). Hardening is linear, so the return is one division. It is exact for
-//! temperature-dependent constants, because all of them are those of the step's end.
+//! (doi 10.1016/0045-7825(85)90070-2). If hardening is linear, the return is one division; saturation takes Newton's
+//! method. It is exact for temperature-dependent constants, because all of them are those of the step's end.
 
 use std::sync::Arc;
 
@@ -43,8 +43,8 @@ impl Deformation for ElastoplasticLaw {
         true
     }
 
-    fn saturates(&self) -> bool {
-        self.saturating.hardening.is_some()
+    fn saturation(&self) -> Option<Saturation> {
+        self.saturating.hardening
     }
 
     fn large_strain(&self, temperature: f64) -> Option<LargeStrainLaw> {
@@ -54,7 +54,7 @@ impl Deformation for ElastoplasticLaw {
         let hardening = value(&self.yielding.isotropic_hardening).unwrap_or(0.0);
         let kinematic = value(&self.yielding.kinematic_hardening).unwrap_or(0.0);
         let none = Saturation { saturation: yield_stress, rate: 0.0 };
-        let Saturation { saturation, rate } = self.saturating.hardening.unwrap_or(none);
+        let Saturation { saturation, rate } = self.saturation().unwrap_or(none);
         let plastic = Plastic { yield_stress, hardening, saturation, rate, kinematic };
         let deviator = Deviator::Plastic(plastic);
         (saturation >= yield_stress).then_some(LargeStrainLaw { bulk, shear, deviator })
@@ -62,12 +62,9 @@ impl Deformation for ElastoplasticLaw {
 
     fn flow_law(&self, stress_free_temperature: f64) -> Arc<dyn FlowLaw> {
         let never = f64::INFINITY;
-        Arc::new(Elastoplastic::of(
-            &self.elasticity,
-            &self.yielding,
-            never,
-            stress_free_temperature,
-        ))
+        let linear =
+            Elastoplastic::of(&self.elasticity, &self.yielding, never, stress_free_temperature);
+        Arc::new(Elastoplastic { saturating: self.saturation(), ..linear })
     }
 }
 
@@ -94,6 +91,8 @@ pub struct Elastoplastic {
     pub yield_stress: OfTemperature,
     /// Isotropic hardening modulus H_i [Pa].
     pub isotropic: OfTemperature,
+    /// Saturation of the yield stress; `None` if it hardens linearly.
+    pub saturating: Option<Saturation>,
     /// Kinematic hardening modulus H_k [Pa].
     pub kinematic: OfTemperature,
     /// Temperature T_f without thermal strain [K].
@@ -114,10 +113,21 @@ pub struct PointConstants {
     /// Hardening moduli H_i and H_k [Pa].
     pub isotropic: f64,
     pub kinematic: f64,
+    /// Growth of the yield stress that saturates.
+    pub growth: Growth,
     /// Overstress of viscous flow beyond the yield surface.
     pub overstress: Overstress,
     /// Reduced time of the step, in which moduli relax [s].
     pub reduced_time: f64,
+}
+
+/// Growth of a yield stress that saturates, `R (1 − e^(−δp))` at an accumulated plastic strain p.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Growth {
+    /// R = σ_∞ − σ_y [Pa]; 0 without saturation.
+    pub range: f64,
+    /// δ [1].
+    pub rate: f64,
 }
 
 /// Change of a point's stress: `dσ = K dθ 1 + A de + B n (n:de)` with the change θ of volume and e of shape.
@@ -134,6 +144,9 @@ pub struct PointTangent {
 
 /// `√⅔`
 const ROOT: f64 = 0.816_496_580_927_726;
+
+/// Upper limit of iterations, above the number that any root needs.
+const MOST_ITERATIONS: usize = 100;
 
 /// Scalar product of two symmetric tensors given as xx, yy, zz, xy, yz, xz, shears once.
 fn inner(a: &[f64; 6], b: &[f64; 6]) -> f64 {
@@ -181,6 +194,7 @@ impl Elastoplastic {
             expansion_reference: elasticity.expansion_reference.unwrap_or(stress_free_temperature),
             yield_stress: or(&yielding.yield_stress, otherwise),
             isotropic: or(&yielding.isotropic_hardening, 0.0),
+            saturating: None,
             kinematic: or(&yielding.kinematic_hardening, 0.0),
             stress_free_temperature,
         }
@@ -195,22 +209,25 @@ impl Elastoplastic {
             expansion_reference: stress_free_temperature,
             yield_stress: constant(f64::INFINITY),
             isotropic: constant(0.0),
+            saturating: None,
             kinematic: constant(0.0),
             stress_free_temperature,
         }
     }
 
     /// Returns the constants at a temperature [K]; `None` if they are invalid. Invalid are non-positive moduli, ν
-    /// outside of −1 < ν < ½, a negative yield stress, softening, and NaN.
+    /// outside of −1 < ν < ½, a negative yield stress, softening (saturation below the yield stress, too), and NaN.
     pub fn at(&self, temperature: f64) -> Option<PointConstants> {
         let (young, poisson) = ((self.young)(temperature), (self.poisson)(temperature));
+        let yield_stress = (self.yield_stress)(temperature);
         let constants = PointConstants {
             bulk: young / (3.0 * (1.0 - 2.0 * poisson)),
             shear: young / (2.0 * (1.0 + poisson)),
             thermal_strain: self.thermal_strain(temperature),
-            yield_stress: (self.yield_stress)(temperature),
+            yield_stress,
             isotropic: (self.isotropic)(temperature),
             kinematic: (self.kinematic)(temperature),
+            growth: self.saturating.map_or(Growth::NONE, |own| Growth::from(own, yield_stress)),
             overstress: Overstress::NONE,
             reduced_time: 0.0,
         };
@@ -230,10 +247,56 @@ impl Elastoplastic {
     }
 }
 
+impl Growth {
+    /// No growth.
+    pub const NONE: Self = Self { range: 0.0, rate: 1.0 };
+
+    /// Growth from a yield stress [Pa].
+    fn from(Saturation { saturation, rate }: Saturation, yield_stress: f64) -> Self {
+        Self { range: saturation - yield_stress, rate }
+    }
+
+    /// Growth up to an accumulated plastic strain [Pa].
+    fn at(&self, accumulated: f64) -> f64 {
+        -self.range * (-self.rate * accumulated).exp_m1()
+    }
+
+    /// Slope of the growth by the plastic strain [Pa].
+    fn slope(&self, accumulated: f64) -> f64 {
+        self.range * self.rate * (-self.rate * accumulated).exp()
+    }
+
+    /// Flow γ that takes up an excess e [Pa] over the yield surface at an accumulated plastic strain p:
+    /// `e = m γ + √⅔ R e^(−δp) (1 − e^(−√⅔ δγ))`, with a modulus m [Pa] of what is linear.
+    ///
+    /// What is left of e is convex and falls, so that Newton's method from γ = 0 increases to the root.
+    fn part(&self, excess: f64, modulus: f64, accumulated: f64) -> Parted {
+        let rest = Self { range: self.range * (-self.rate * accumulated).exp(), ..*self };
+        let slope = |flow: f64| modulus + rest.slope(ROOT * flow) / 1.5;
+        let mut flow = 0.0_f64;
+        for _ in 0..MOST_ITERATIONS {
+            let left = excess - modulus * flow - ROOT * rest.at(ROOT * flow);
+            let change = left / slope(flow);
+            // Rounding may reverse its sign at the root.
+            if change.is_nan() || change <= 0.5 * f64::EPSILON * flow {
+                break;
+            }
+            flow += change;
+        }
+        Parted { flow, overstress: 0.0, share: modulus / slope(flow) }
+    }
+
+    /// Work of the growth up to an accumulated plastic strain [J/m³].
+    fn work(&self, accumulated: f64) -> f64 {
+        self.range * accumulated - self.at(accumulated) / self.rate
+    }
+}
+
 impl PointConstants {
     fn is_sensible(&self) -> bool {
         let moduli = [self.bulk, self.shear].iter().all(|m| m.is_finite() && *m > 0.0);
-        let hardening = [self.isotropic, self.kinematic].iter().all(|h| h.is_finite() && *h >= 0.0);
+        let hardening = [self.isotropic, self.kinematic, self.growth.range];
+        let hardening = hardening.iter().all(|h| h.is_finite() && *h >= 0.0);
         moduli && hardening && self.thermal_strain.is_finite() && self.yield_stress >= 0.0
     }
 
@@ -271,7 +334,10 @@ impl PointConstants {
             return (trial, tangent);
         }
         let modulus = 2.0 * self.shear + (self.isotropic + self.kinematic) / 1.5;
-        let Parted { flow, overstress, share } = self.overstress.part(excess, modulus);
+        let Parted { flow, overstress, share } = match self.growth {
+            Growth::NONE => self.overstress.part(excess, modulus),
+            growth => growth.part(excess, modulus, old.accumulated),
+        };
         let direction = xi.map(|x| x / size);
         for (i, n) in direction.iter().enumerate() {
             let change = flow * n * if i < 3 { 1.0 } else { 2.0 };
@@ -291,12 +357,13 @@ impl PointConstants {
         (stress, tangent)
     }
 
-    /// Radius of the yield surface at an accumulated plastic strain, `√⅔ (σ_y + H_i p)` [Pa].
+    /// Radius of the yield surface at an accumulated plastic strain, `√⅔ Y(p)` [Pa].
     pub fn radius(&self, accumulated: f64) -> f64 {
-        ROOT * (self.yield_stress + self.isotropic * accumulated)
+        let linear = self.yield_stress + self.isotropic * accumulated;
+        ROOT * (linear + self.growth.at(accumulated))
     }
 
-    /// Distance of a stress [Pa] beyond the yield surface, `‖ξ‖ − √⅔ (σ_y + H_i p)` [Pa]; negative within it.
+    /// Distance of a stress [Pa] beyond the yield surface, `‖ξ‖ − √⅔ Y(p)` [Pa]; negative within it.
     pub fn beyond_yield(&self, stress: &[f64; 6], history: &PlasticHistory) -> f64 {
         let mean = (stress[0] + stress[1] + stress[2]) / 3.0;
         let back = self.back_stress(&history.back_strain);
@@ -317,11 +384,12 @@ impl PointConstants {
         tensor(back_strain).map(|a| self.kinematic / 1.5 * a)
     }
 
-    /// Energy stored by hardening per volume, `½ H_i p² + ⅓ H_k a:a` [J/m³].
+    /// Energy stored by hardening per volume, `½ H_i p² + ⅓ H_k a:a` and the work of the growth [J/m³].
     pub fn hardening_energy(&self, history: &PlasticHistory) -> f64 {
         let back = tensor(&history.back_strain);
         0.5 * self.isotropic * history.accumulated.powi(2)
             + self.kinematic / 3.0 * inner(&back, &back)
+            + self.growth.work(history.accumulated)
     }
 }
 

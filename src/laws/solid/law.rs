@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use super::elastoplastic::respond_at;
 use super::large_strain::{LargeStrainLaw, Thermal};
-use super::{Elasticity, PlasticHistory, PointConstants, Relaxation, Relaxing, Thermoelastic};
+use super::{
+    Elasticity, PlasticHistory, PointConstants, Relaxation, Relaxing, Saturation, Thermoelastic,
+};
 use crate::laws::{Part, Property};
 
 /// Constants of a law as groups of keys.
@@ -48,9 +50,9 @@ pub trait Deformation: Keys {
         false
     }
 
-    /// Returns true if the yield stress saturates, which laws of small strain do not model.
-    fn saturates(&self) -> bool {
-        false
+    /// Saturation of the yield stress; `None` if it does not saturate.
+    fn saturation(&self) -> Option<Saturation> {
+        None
     }
 
     /// Returns the law of large strain at a temperature [K]; `None` if there is none, or constants are missing or

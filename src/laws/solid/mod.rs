@@ -26,7 +26,7 @@ pub use admissible::admissible;
 pub use concrete::{ConcreteLaw, Kcc};
 pub use elasticity::Elasticity;
 pub use elastoplastic::{
-    Elastoplastic, ElastoplasticLaw, OfTemperature, PointConstants, PointTangent, constant,
+    Elastoplastic, ElastoplasticLaw, Growth, OfTemperature, PointConstants, PointTangent, constant,
 };
 pub use law::{Deformation, Elastic, FlowLaw, Keys, Law, Need, Response};
 pub use neo_hookean::NeoHookeanLaw;

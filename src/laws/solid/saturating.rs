@@ -6,13 +6,13 @@ use serde::{Deserialize, Serialize};
 use crate::laws::Part;
 use crate::limits::{plausible, positive, within};
 
-/// Constants of a yield stress that saturates, of solids of large strain.
+/// Constants of a yield stress that saturates.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct Saturating {
     /// Saturation of the yield stress: `σ_∞ − (σ_∞ − σ_y) e^(−δα)` over the plastic strain α, beside
     /// `isotropic_hardening`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("otherwise" = "none", "condition" = "with `strain = \"finite\"`"))]
+    #[schemars(extend("otherwise" = "none"))]
     pub hardening: Option<Saturation>,
 }
 

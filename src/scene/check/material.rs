@@ -1,7 +1,7 @@
 //! Checks the constants of materials: tables, melting, yield and relaxation.
 
 use super::{Checker, number};
-use crate::laws::solid::{Branch, Need, Relaxing};
+use crate::laws::solid::{Branch, Need, Relaxing, Saturation};
 use crate::laws::{Material, Melting, Property, PropertyError, Table, Weibull};
 use crate::scene::locate::Path;
 use crate::scene::types::Body;
@@ -28,6 +28,7 @@ pub fn named(checker: &mut Checker) {
 pub fn check(checker: &mut Checker, path: &Path, material: &Material) {
     sound(checker, path, material);
     needs(checker, path, material, material.law.deformation().needs());
+    saturation(checker, path, material);
 }
 
 /// Checks the constants that are given.
@@ -44,6 +45,22 @@ pub fn sound(checker: &mut Checker, path: &Path, material: &Material) {
         flaws(checker, &path.key("weibull"), &weibull);
     }
     material.law.deformation().relaxing().into_iter().for_each(|own| relaxing(checker, path, own));
+}
+
+/// Refuses a yield stress that falls to its saturation, at a temperature of its table.
+fn saturation(checker: &mut Checker, path: &Path, material: &Material) {
+    let Some(Saturation { saturation, .. }) = material.law.deformation().saturation() else {
+        return;
+    };
+    let properties = material.properties();
+    let found = properties.iter().find(|(key, _)| *key == "yield_stress");
+    let Some((_, yield_stress)) = found else { return };
+    let highest = yield_stress.values().iter().copied().fold(0.0, f64::max);
+    let place = path.key("hardening").key("saturation");
+    if checker.is_fine(&place) && checker.is_fine(&path.key("yield_stress")) {
+        let message = "a body that yields does not soften to its saturated yield stress";
+        checker.require(saturation >= highest, &place, message, format!(">= {}", number(highest)));
+    }
 }
 
 /// Rounding of fractions that are to sum to 1.

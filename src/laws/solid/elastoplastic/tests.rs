@@ -52,6 +52,7 @@ fn laws() -> Vec<Case> {
                 expansion_reference: 300.0,
                 yield_stress: falls(yield_stress),
                 isotropic: falls(isotropic),
+                saturating: None,
                 kinematic: falls(kinematic),
                 stress_free_temperature: 300.0,
             };
@@ -76,12 +77,16 @@ fn laws() -> Vec<Case> {
                     strain: 3.0 * unit / young + 1e-4,
                 });
             }
-            all.push(Case {
-                name: format!("elastoplastic {young:e}, {fall}"),
-                law: Box::new(plastic.clone()),
-                plastic: Some(plastic),
-                strain,
-            });
+            let saturating = Saturation { saturation: 2.0 * unit, rate: 1.0 / strain };
+            for saturating in [None, Some(saturating)] {
+                let plastic = Elastoplastic { saturating, ..plastic.clone() };
+                all.push(Case {
+                    name: format!("elastoplastic {young:e}, {fall}, {saturating:?}"),
+                    law: Box::new(plastic.clone()),
+                    plastic: Some(plastic),
+                    strain,
+                });
+            }
         }
     }
     all
@@ -280,7 +285,10 @@ fn return_to_the_yield_surface_from_any_distance() {
             let xi: [f64; 6] = std::array::from_fn(|i| {
                 response.stress[i] - back[i] - if i < 3 { mean } else { 0.0 }
             });
-            let radius = at.yield_stress + at.isotropic * new.accumulated;
+            let growth = plastic.saturating.map_or(0.0, |own| {
+                (own.saturation - at.yield_stress) * (1.0 - (-own.rate * new.accumulated).exp())
+            });
+            let radius = at.yield_stress + at.isotropic * new.accumulated + growth;
             let equivalent = norm(&xi) / ROOT;
             // Pressure and back stress may be much larger.
             let scale = radius + 1e-3 * (mean.abs() + norm(&back));
@@ -328,6 +336,48 @@ fn bilinear_bar_under_cyclic_strain() {
     }
 }
 
+/// A bar that is drawn: `ε = Y(p)/E + p`.
+#[test]
+fn yield_stress_of_a_bar_saturates_whatever_the_step() {
+    let (young, poisson, first) = (200e9, 0.3, 200e6);
+    for (saturation, rate) in [(400e6, 100.0), (400e6, 1e6), (201e6, 1e-6), (200e6, 5.0)] {
+        for isotropic in [0.0, 2e9] {
+            let law = Elastoplastic {
+                yield_stress: constant(first),
+                isotropic: constant(isotropic),
+                saturating: Some(Saturation { saturation, rate }),
+                ..Elastoplastic::elastic(&Thermoelastic { young, poisson, expansion: 0.0 }, 300.0)
+            };
+            for strain in [0.9e-3, 1.1e-3, 1e-2, 1.0, 1e3] {
+                let mut side = -0.4 * strain;
+                let (old, mut new) = (PlasticHistory::default(), PlasticHistory::default());
+                let mut stress = f64::NAN;
+                for _ in 0..60 {
+                    let six = [side, side, strain, 0.0, 0.0, 0.0];
+                    let response = respond(&law, &six, 300.0, STEP, &old, &mut new);
+                    side -= response.stress[0] / (response.tangent[0][0] + response.tangent[0][1]);
+                    stress = response.stress[2];
+                }
+                let p = strain - stress / young;
+                let grown =
+                    first + isotropic * p + (saturation - first) * (1.0 - (-rate * p).exp());
+                let wanted = if strain * young < first { strain * young } else { grown };
+                let off = (stress / wanted - 1.0).abs();
+                assert!(off < 1e-10 * (1.0 + strain / 1e-3), "{rate} {strain}: {stress} {wanted}");
+            }
+        }
+    }
+}
+
+#[test]
+fn work_of_growth_is_what_its_stress_does() {
+    let growth = Growth { range: 3.0, rate: 7.0 };
+    let count = 10_000;
+    let middle = |i: i32| growth.at((f64::from(i) + 0.5) / f64::from(count)) / f64::from(count);
+    let sum: f64 = (0..count).map(middle).sum();
+    assert!((growth.work(1.0) / sum - 1.0).abs() < 1e-7, "{sum}");
+}
+
 #[test]
 fn constants_out_of_range_are_refused() {
     let law = Thermoelastic { young: 200e9, poisson: 0.3, expansion: 1e-5 };
@@ -340,6 +390,11 @@ fn constants_out_of_range_are_refused() {
         Elastoplastic { yield_stress: constant(-1.0), ..sound.clone() },
         Elastoplastic { yield_stress: constant(f64::NAN), ..sound.clone() },
         Elastoplastic { isotropic: constant(-1e9), ..sound.clone() },
+        Elastoplastic {
+            yield_stress: constant(2e8),
+            saturating: Some(Saturation { saturation: 1e8, rate: 1.0 }),
+            ..sound.clone()
+        },
         Elastoplastic { expansion: constant(f64::INFINITY), ..sound.clone() },
     ] {
         assert!(broken.at(400.0).is_none());
