@@ -271,3 +271,25 @@ fn expansion_at_one_temperature_is_the_mean_from_the_temperature_without_stress(
     // Where both are one, it is the slope there, above the mean from room temperature.
     assert!((4.1e-6..4.5e-6).contains(&silicon(900.0, 900.0)));
 }
+
+/// The reference of the library's coefficient goes with it: a coefficient of the scene counts from the temperature
+/// without stress unless the scene says otherwise, with `at` or without.
+#[test]
+fn expansion_of_a_scene_leaves_the_reference_of_the_library() {
+    let reference = |keys: &str| {
+        let scene = read(&format!(
+            "name = \"Die\"\nstop_time = 1.0\nstep = 0.1\n[body.die]\nkind = \"solid\"\nshape.box = [1e-3, 1e-3, \
+             1e-4]\nmaterial = {{ substance = \"silicon\"{keys} }}\ninitial_temperature = 400.0\n"
+        ));
+        let (_, die) = scene.solids().next().unwrap();
+        let law = die.material.as_ref().unwrap().material().law.deformation();
+        law.elasticity().expansion_reference
+    };
+    let own = "expansion = { temperature = [300.0, 900.0], value = [3e-6, 4e-6] }";
+    assert_eq!(reference(""), Some(293.15));
+    for at in ["", ", at = 400.0"] {
+        assert_eq!(reference(&format!("{at}, {own}")), None, "{at}");
+        let given = format!("{at}, {own}, expansion_reference = 300.0");
+        assert_eq!(reference(&given), Some(300.0), "{at}");
+    }
+}

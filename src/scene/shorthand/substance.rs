@@ -229,6 +229,10 @@ fn expand_table(
     if kind == Kind::Solid && at.is_some() {
         known.remove("melting");
     }
+    if own.contains_key("expansion") {
+        // It is that of the substance's coefficient.
+        known.remove("expansion_reference");
+    }
     let mut taken = at.map(|at| take_at(&mut known, at, free)).unwrap_or_default();
     taken.retain(|(key, _)| !own.contains_key(*key));
     let mut table: DeTable = known;
