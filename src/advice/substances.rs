@@ -1,11 +1,11 @@
 //! Temperatures at which constants of the library do not hold.
 
 use super::{Reviewer, number};
-use crate::laws::Fluid;
+use crate::laws::{Fluid, Property};
 use crate::limits::TEMPERATURE;
 use crate::scene::locate::{Path, Step};
 use crate::scene::schema::Schema;
-use crate::scene::{Droplet, NamedSubstance, Scene};
+use crate::scene::{Body, Droplet, NamedSubstance, Scene};
 use crate::warning;
 
 /// Difference of temperatures [K], and of constants relative to them, below which those of another temperature will do;
@@ -14,7 +14,8 @@ const CLOSE: f64 = 1.0;
 const ALIKE: f64 = 0.02;
 
 /// Warns of each substance whose constants are taken beyond their range, or that a body is colder or hotter than, on
-/// the temperature that is farthest off; and of drops that are of another temperature than their constants.
+/// the temperature that is farthest off; of drops that are of another temperature than their constants; and of solids
+/// whose mean expansion counts from another temperature than theirs without stress.
 pub fn review(reviewer: &mut Reviewer, schema: &Schema) {
     let scene = reviewer.scene;
     for named in &scene.substances {
@@ -42,6 +43,11 @@ pub fn review(reviewer: &mut Reviewer, schema: &Schema) {
                 None => warning::substance_out_of_range(name, low, high, value),
             };
             reviewer.warn(&path, finding);
+        }
+    }
+    for (name, body) in &scene.body {
+        for named in scene.substances_of(name) {
+            expansion(reviewer, (name, body), named);
         }
     }
     for (name, droplet) in scene.droplets() {
@@ -83,6 +89,28 @@ fn drops(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet, named: &NamedS
         let finding = warning::constants_of_other_temperature(name, taken, changed.join(", "));
         reviewer.warn(path, finding);
     }
+}
+
+/// Warns of a body whose temperature without stress was set after its mean expansion had been taken.
+fn expansion(reviewer: &mut Reviewer, (name, body): (&str, &Body), named: &NamedSubstance) {
+    let (Some(&then), Some(now)) = (named.stress_free.get(name), body.temperature_without_stress())
+    else {
+        return;
+    };
+    let means = [then, now].map(|free| named.mean_expansion_from(free));
+    let [Some(old), Some(new)] = means else { return };
+    let keeps = body.materials().iter().any(|choice| {
+        let properties = choice.material().properties();
+        properties.iter().any(|(key, own)| *key == "expansion" && **own == Property::Constant(old))
+    });
+    if (now - then).abs() < CLOSE || (new / old - 1.0).abs() < ALIKE || !keeps {
+        return;
+    }
+    let path = Path::default().key("body").key(name).key("initial_temperature");
+    let [then, now] = [then, now].map(number);
+    let [new, old] = [new, old].map(|value| number(digits(value)));
+    let name = named.substance.name;
+    reviewer.warn(&path, warning::expansion_from_other_temperature(name, then, now, new, old));
 }
 
 fn constant(fluid: &Fluid, key: &str) -> Option<f64> {

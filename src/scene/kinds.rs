@@ -125,7 +125,7 @@ impl Body {
     }
 
     /// The materials of the body and of its layers.
-    pub(super) fn materials(&self) -> Vec<&MaterialChoice> {
+    pub fn materials(&self) -> Vec<&MaterialChoice> {
         let (material, layers) = match self {
             Body::Solid(solid) => (&solid.material, &solid.layers),
             Body::LargeStrain(solid) => (&solid.material, &solid.layers),

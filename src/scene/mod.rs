@@ -16,6 +16,7 @@ mod droplet;
 mod droplet_symmetry;
 mod error;
 mod excerpt;
+mod expansion;
 mod filament;
 mod lattice;
 mod face;
@@ -154,6 +155,7 @@ pub(crate) fn parse_located(source: &mut Source, schema: &Schema) -> Result<Scen
         large_strain::with_names(source, |source| decode::decode(source, schema, misread));
     let mut scene = decoded?;
     scene.substances = source.substances().to_vec();
+    scene.take_mean_expansions();
     scene.in_degrees = shorthand::in_degrees(source);
     scene.store_surfaces_below();
     scene.store_parts();

@@ -31,6 +31,10 @@ rules! {
     "constants of `{name}` were taken at {taken} K, the temperature in the scene; here they would be {there}";
     "set these, too, or change the temperature in the scene"
 
+    Check expansion_from_other_temperature(name, then, now, mean, given)
+    "the mean expansion of `{name}` was taken from {then} K on, the temperature without stress in the scene; from {now} K \
+     it would be {mean} instead of {given}"; "set `expansion`, too, or change the temperature in the scene"
+
     Check light_solid_conducts(conductivity, meant, given)
     "no solid this light conducts {conductivity} W/(m K)"; "did you mean {meant} ({given} g/cm³)?"
 

@@ -293,3 +293,38 @@ fn expansion_of_a_scene_leaves_the_reference_of_the_library() {
         assert_eq!(reference(&given), Some(300.0), "{at}");
     }
 }
+
+/// Bodies that share a material at one temperature each have the mean from their own temperature without stress on, in
+/// layers, too; one whose temperature is set later keeps its mean and is warned of.
+#[test]
+fn bodies_of_one_material_expand_from_their_own_temperature_without_stress() {
+    let body = |name: &str, free: f64, of: &str| {
+        format!(
+            "[body.{name}]\nkind = \"solid\"\nshape.box = [1e-3, 1e-3, 1e-4]\ninitial_temperature = {free:?}\n{of}\n"
+        )
+    };
+    let named = "material = \"die\"";
+    let layers = "layers = [{ thickness = 4e-5, material = \"die\" }, { thickness = 6e-5, material = \"die\" }]";
+    let head = "name = \"Dies\"\nstop_time = 1.0\nstep = 0.1\n";
+    let shared = "[material.die]\nsubstance = \"silicon\"\nat = 400.0\n";
+    let bodies = [("a", 300.0, named), ("b", 900.0, named), ("c", 700.0, layers)];
+    let text: String = bodies.iter().map(|(name, free, of)| body(name, *free, of)).collect();
+    let scene = read(&format!("{head}{shared}{text}"));
+    for (name, free, _) in bodies {
+        let alone = "material = { substance = \"silicon\", at = 400.0 }";
+        let alone = read(&format!("{head}{}", body(name, free, alone)));
+        let expansion = |scene: &Scene| -> Vec<f64> {
+            let materials = scene.solid(name).unwrap().materials_of_layers();
+            materials.into_iter().map(|own| own.at(400.0).expansion.unwrap()).collect()
+        };
+        let wanted = expansion(&alone)[0];
+        assert!(expansion(&scene).iter().all(|found| *found == wanted), "{name}");
+    }
+    let told = |temperature: f64| {
+        let mut scene = scene.clone();
+        *scene.body.get_mut("a").unwrap().initial_temperature_mut() = temperature;
+        let found = impinge::advice::warnings(&scene);
+        found.iter().any(|own| own.finding().id == "expansion_from_other_temperature")
+    };
+    assert_eq!([300.0, 310.0, 900.0].map(told), [false, false, true]);
+}

@@ -1,6 +1,7 @@
 //! Substances of the library in place of a material's or a fluid's table.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use toml::Spanned;
@@ -33,6 +34,10 @@ pub struct NamedSubstance {
     pub at: Option<f64>,
     /// Temperature at which constants of a fluid are taken [K]: the given one, or that of the drop.
     pub taken: Option<f64>,
+    /// Whether the coefficient of expansion is that of the library.
+    pub expands: bool,
+    /// Temperatures without stress of the bodies that have its mean coefficient from there to `at` [K].
+    pub stress_free: BTreeMap<String, f64>,
 }
 
 impl NamedSubstance {
@@ -41,12 +46,32 @@ impl NamedSubstance {
         let end = if kind == Kind::Solid { "solidus" } else { "liquidus" };
         let melting = sheet.constants.get("melting").and_then(|melting| melting.get(end));
         let melts = melting.and_then(toml::Value::as_float);
-        Self { table, kind, substance, valid: sheet.valid, melts, at: None, taken: None }
+        Self {
+            table,
+            kind,
+            substance,
+            valid: sheet.valid,
+            melts,
+            at: None,
+            taken: None,
+            expands: true,
+            stress_free: BTreeMap::new(),
+        }
     }
 
     /// Constants at a temperature [K], of those that depend on it.
     pub fn constants_at(&self, temperature: f64) -> Vec<(&'static str, f64)> {
         take_at(&mut constants(self.substance, &(0..0)), temperature, None)
+    }
+
+    /// Mean coefficient of expansion between a temperature without stress [K] and the one at which constants are taken
+    /// [1/K]; `None` unless the substance has one that counts from a reference.
+    pub fn mean_expansion_from(&self, free: f64) -> Option<f64> {
+        let at = self.at.filter(|_| self.expands)?;
+        let mut table = constants(self.substance, &(0..0));
+        table.get("expansion_reference")?;
+        let taken = take_at(&mut table, at, Some(free));
+        taken.into_iter().find(|(key, _)| *key == "expansion").map(|(_, mean)| mean)
     }
 }
 
@@ -229,7 +254,8 @@ fn expand_table(
     if kind == Kind::Solid && at.is_some() {
         known.remove("melting");
     }
-    if own.contains_key("expansion") {
+    let expands = !own.contains_key("expansion");
+    if !expands {
         // It is that of the substance's coefficient.
         known.remove("expansion_reference");
     }
@@ -246,7 +272,7 @@ fn expand_table(
         source.set_number(place.key(key), value);
     }
     let named = NamedSubstance::new(place.clone(), kind, substance);
-    source.add_substance(NamedSubstance { at: given, taken: at, ..named });
+    source.add_substance(NamedSubstance { at: given, taken: at, expands, ..named });
 }
 
 /// Replaces a constant; of tables within the substance's, such as `frozen`, single keys.
