@@ -266,6 +266,20 @@ mod tests {
     }
 
     #[test]
+    fn a_range_as_narrow_as_rounding_keeps_its_latent_heat() {
+        for width in [0.0, 1e-13, 2e-13, 1e-12, 1e-10, 1e-8, 1e-6] {
+            for solidus in [200.0, 900.0, 3000.0] {
+                let law = alloy(solidus, solidus + width).enthalpy(293.15);
+                let [below, above] = [-1.0, 1.0].map(|off| law.content(solidus + off - 293.15));
+                let sensible =
+                    7800.0 * alloy(0.0, 0.0).specific_heat.integral(solidus - 1.0, solidus + 1.0);
+                let found = (above - below - sensible) / LATENT;
+                assert!((found - 1.0).abs() < 1e-6, "{solidus} {width:e}: {found}");
+            }
+        }
+    }
+
+    #[test]
     fn mixture_enthalpy_is_the_sum_of_its_parts() {
         let (a, b) = (alloy(900.0, 900.0), alloy(700.0, 1100.0));
         let mixture = Enthalpy::of_mixture(&[(0.3, &a), (0.7, &b)], 400.0);

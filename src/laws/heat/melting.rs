@@ -47,7 +47,9 @@ impl Melting {
         }
     }
 
+    /// Returns true if solidus and liquidus are one temperature to rounding.
     pub fn is_isothermal(&self) -> bool {
-        self.solidus == self.liquidus
+        const ROUNDING: f64 = 1e-12;
+        self.liquidus - self.solidus <= ROUNDING * self.liquidus
     }
 }
