@@ -8,8 +8,7 @@ use crate::scene::schema::Schema;
 use crate::scene::{Body, Droplet, NamedSubstance, Scene};
 use crate::warning;
 
-/// Difference of temperatures [K], and of constants relative to them, below which those of another temperature will do;
-/// and distance from a range up to which its constants hold.
+/// Difference of temperatures [K], and of constants relative to them, below which those of another temperature will do.
 const CLOSE: f64 = 1.0;
 const ALIKE: f64 = 0.02;
 
@@ -20,8 +19,8 @@ pub fn review(reviewer: &mut Reviewer, schema: &Schema) {
     let scene = reviewer.scene;
     for named in &scene.substances {
         let [low, high] = named.valid;
-        // Ends of ranges are rounded.
-        let holds = |value: f64| (low - CLOSE..=high + CLOSE).contains(&value);
+        let slack = NamedSubstance::ROUNDED;
+        let holds = |value: f64| (low - slack..=high + slack).contains(&value);
         let at = named.at.filter(|at| !holds(*at));
         let mut outside = at.map(|at| (named.table.clone(), at));
         schema.numbers(reviewer.source, &mut |place, limits, value| {
@@ -58,11 +57,11 @@ pub fn review(reviewer: &mut Reviewer, schema: &Schema) {
     }
 }
 
-/// Returns true if a temperature is one that the body of a substance has from outside or from the start.
+/// Returns true if a temperature is one that the body of a substance has from outside, its bath too, or from the start.
 fn is_met(scene: &Scene, named: &NamedSubstance, path: &Path) -> bool {
     let [Step::Key(root), Step::Key(body), Step::Key(key), ..] = path.steps() else { return false };
     root == "body"
-        && matches!(key.as_str(), "initial_temperature" | "faces")
+        && matches!(key.as_str(), "initial_temperature" | "faces" | "bath")
         && scene.substances_of(body).any(|own| own == named)
 }
 

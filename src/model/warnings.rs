@@ -9,6 +9,9 @@ use crate::warning::{self, Warning};
 
 /// Fraction of the resolved time of a mesh, and of the scene's step, below which a step is too short.
 const SHORT: f64 = 0.5;
+/// Share of the range of nodal temperatures by which the lowest may be too low beside a jump along one axis, of which
+/// it is 2 − √3: `(2 − √3)/(3 − √3)`, rounded up.
+const UNDERSHOOT: f64 = 0.212;
 /// Fraction of the scene's step that rounding may leave.
 const ROUNDING: f64 = 1e-9;
 
@@ -36,10 +39,15 @@ impl Model {
     /// Warns of a state after a step; the tests are quick.
     pub fn warnings(&self, state: &State) -> Vec<Warning> {
         let bodies = self.bodies.iter().zip(&state.bodies).enumerate();
-        let hot = bodies.filter_map(|(place, (body, unknowns))| {
-            self.warning_on_temperature(place, body.hottest(unknowns)?)
+        let extremes = bodies.filter_map(|(place, (body, unknowns))| {
+            self.scene.substances_of(body.name()).next()?;
+            let [lowest, highest] = body.temperature_range(unknowns, &state.inputs)?;
+            let coldest = lowest + UNDERSHOOT * (highest - lowest);
+            let ends = [(coldest, true), (highest, false)];
+            Some(ends.map(|(value, is_cold)| self.warning_beyond(place, value, is_cold)))
         });
-        self.warnings_on(state, Occasion::Step).into_iter().chain(hot).collect()
+        let extremes = extremes.flatten().flatten();
+        self.warnings_on(state, Occasion::Step).into_iter().chain(extremes).collect()
     }
 
     /// Warns of inputs that were set in response to the last step and contradict how it was computed; `before` are
@@ -77,22 +85,34 @@ impl Model {
         self.bodies[output.body].warning_on_value(&output.reading, value)
     }
 
-    /// Warns of a temperature in a body that is above the range of the substances that it consists of [K].
+    /// Warns of a temperature that is read in a solid and is above the range of the substances that it consists of [K].
+    /// Those below are [`Self::warnings`] of a state, as a point beside a jump may be colder than its surroundings.
     pub fn warning_on_temperature(&self, body: usize, value: f64) -> Option<Warning> {
+        self.warning_beyond(body, value, false)
+    }
+
+    /// Warns of a temperature below the range, or above it.
+    fn warning_beyond(&self, body: usize, value: f64, is_cold: bool) -> Option<Warning> {
         let name = self.bodies[body].name();
         let beyond = self.scene.beyond_substance(name, value)?;
+        if beyond.is_cold != is_cold {
+            return None;
+        }
         let melting = beyond.unmelted.map_or(String::new(), |point| {
             format!(", and above the {point} K at which it melts: the model keeps it solid")
         });
         let (temperature, substance) = (format!("{value:.0}"), beyond.substance);
-        let high = beyond.highest;
+        let end = match beyond.is_cold {
+            true => format!("below the {} K from", beyond.end),
+            false => format!("above the {} K up to", beyond.end),
+        };
         let needed = match beyond.unmelted {
             Some(_) => "constants that hold there, and with `melting`,",
             None => "constants that hold there",
         };
-        let finding =
-            warning::solid_beyond_substance(temperature, substance, high, melting, needed);
-        Some(finding.at(name).of_subject(format!("{name} beyond {substance}")))
+        let finding = warning::solid_beyond_substance(temperature, end, substance, melting, needed);
+        let side = if beyond.is_cold { "below" } else { "beyond" };
+        Some(finding.at(name).of_subject(format!("{name} {side} {substance}")))
     }
 
     /// Returns the outputs whose values may give rise to warnings, by name: totals of bodies, probes and flaws.

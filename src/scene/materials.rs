@@ -31,25 +31,31 @@ pub struct MaterialChoice {
 pub struct BeyondSubstance {
     /// Its name in scenes.
     pub substance: &'static str,
-    /// Highest temperature at which constants hold [K].
-    pub highest: f64,
+    /// The end of the range that the temperature is beyond [K].
+    pub end: f64,
+    /// Whether it is the lower end.
+    pub is_cold: bool,
     /// Melting point below the temperature, if the model keeps the body solid [K].
     pub unmelted: Option<f64>,
 }
 
 impl Scene {
-    /// The substance of a solid whose range a temperature [K] exceeds first.
+    /// The substance of a solid whose range a temperature [K] is farthest beyond.
     pub fn beyond_substance(&self, body: &str, temperature: f64) -> Option<BeyondSubstance> {
         let melts = match self.body.get(body)? {
             Body::Solid(solid) => solid.melts(),
             Body::LargeStrain(_) => false,
             _ => return None,
         };
-        let beyond = self.substances_of(body).filter(|named| temperature > named.valid[1]);
-        let named = beyond.min_by(|a, b| a.valid[1].total_cmp(&b.valid[1]))?;
+        let below = |named: &NamedSubstance| named.valid[0] - NamedSubstance::ROUNDED - temperature;
+        let beyond = |named: &NamedSubstance| below(named).max(temperature - named.valid[1]);
+        let all = self.substances_of(body).filter(|named| beyond(named) > 0.0);
+        let named = all.min_by(|a, b| beyond(b).total_cmp(&beyond(a)))?;
+        let is_cold = below(named) > 0.0;
         Some(BeyondSubstance {
             substance: named.substance.name,
-            highest: named.valid[1],
+            end: named.valid[usize::from(!is_cold)],
+            is_cold,
             unmelted: named.melts.filter(|&point| temperature > point && !melts),
         })
     }

@@ -46,8 +46,13 @@ rules! {
      its viscosity ends: it keeps the viscosity of this end";
     "extend the table to the temperatures of the fluid"
 
-    Step solid_beyond_substance(temperature, name, high, melting, needed)
-    "{temperature} K is above the {high} K up to which the library's constants of `{name}` hold{melting}";
+    Step fluid_beyond_substance(time, temperature, x, y, z, end, name)
+    "at {time} s the fluid is at {temperature} K at x = {x}, y = {y}, z = {z} m, beyond the {end} K at which the range of \
+     the library's constants of `{name}` ends: it keeps those of one temperature";
+    "give constants that hold there, or take those of another temperature (`at`)"
+
+    Step solid_beyond_substance(temperature, beyond, name, melting, needed)
+    "{temperature} K is {beyond} which the library's constants of `{name}` hold{melting}";
     "do not rely on temperatures and stresses from here on; a material with {needed} has them"
 
     Step fluid_beyond_edge()

@@ -93,6 +93,24 @@ fn fluid_beyond_its_points_warns_once_in_the_step_that_takes_it_there() {
     }
 }
 
+/// Glycerol neither freezes nor boils on these plates, but the library knows it up to 373 K alone.
+#[test]
+fn fluids_of_the_library_warn_beyond_their_range() {
+    for (plate, is_warned) in [(600.0, true), (310.0, false)] {
+        for method in ["sph", "film"] {
+            let case = ("glycerol", STEAM.1, [300.0, plate], STEAM.3);
+            let text = scene(method, case, false);
+            let (before, rest) = text.split_once("fluid = {").unwrap();
+            let (_, after) = rest.split_once("}\n").unwrap();
+            let mut trial = Trial::new(&format!("{before}fluid = \"glycerol\"\n{after}"));
+            let steps = run(&mut trial);
+            let all: Vec<&String> = steps.iter().flat_map(|(_, messages)| messages).collect();
+            assert_eq!(all.len(), usize::from(is_warned), "{plate} {method}: {all:?}");
+            assert!(all.iter().all(|text| text.contains("beyond the 373.15 K")), "{all:?}");
+        }
+    }
+}
+
 /// The step that warns is the first after which a particle is beyond the point.
 #[test]
 fn particles_warn_with_the_first_step_beyond() {

@@ -493,6 +493,52 @@ fn overheated_bodies_are_warned_of() {
     }
 }
 
+/// Temperatures below a substance's range are warned of during a run, at small strain and at large, and those of a bath
+/// before it; heating from the end of the range is not.
+#[test]
+fn undercooled_bodies_are_warned_of() {
+    let body = |strain: &str, start: f64, top: &str| {
+        format!(
+            "name = \"Cold\"\nstop_time = 10.0\nstep = 1.0\n[body.pad]\nkind = \"solid\"\n\
+             shape = {{ box = [10e-3, 10e-3, 10e-3] }}\nmesh = {{ spacing = 2e-3 }}\n{strain}\n\
+             initial_temperature = {start:?}\nfaces = {{ bottom = {{ roller = true }}, top = {{ {top} }} }}\n"
+        )
+    };
+    let small = "material = \"pdms\"";
+    let large = "strain = \"finite\"\nmaterial = { model = \"neo_hookean\", substance = \"pdms\" }";
+    for strain in [small, large] {
+        // A jump that the mesh does not resolve leaves nodes below their surroundings.
+        for (start, top, is_warned) in [
+            (300.0, "flux = -5e3", true),
+            (300.0, "flux = -10.0", false),
+            (293.15, "flux = 4e3", false),
+            (293.15, "temperature = 420.0", false),
+        ] {
+            let mut trial = Trial::new(&body(strain, start, top));
+            let mut found = Vec::new();
+            for _ in 0..10 {
+                trial.step(1.0);
+                found.extend(trial.model.warnings(&trial.state));
+            }
+            let cold = found.iter().any(|own| own.to_string().contains("below the 293 K from"));
+            assert_eq!(cold, is_warned, "{strain} {top}: {found:?}");
+        }
+    }
+    let plate = |ambient: f64| {
+        let bath = format!(
+            "bath = {{ coefficient = 2000.0, ambient = {ambient:?}, speed = 5e-3, depth = 2e-3 }}"
+        );
+        let text = format!(
+            "name = \"Dip\"\nstop_time = 4.0\nstep = 0.2\ncryogenic = true\n[body.plate]\nkind = \"solid\"\n\
+             shape = {{ box = [24e-3, 2e-3, 30e-3] }}\ninitial_temperature = 300.0\nmaterial = \"alumina-99\"\n\
+             mesh = {{ depth_spacing = 2.5e-3, growth = 1.0 }}\n{bath}\n"
+        );
+        let (_, found) = parse_with_warnings(&text, "scene").unwrap();
+        found.iter().any(|own| own.finding().id == "substance_out_of_range")
+    };
+    assert_eq!([80.0, 293.0].map(plate), [true, false]);
+}
+
 /// Heat passes the shape that a step begins with, where a face that has jumped has drawn it, too.
 #[test]
 fn flux_enters_through_the_deformed_area() {

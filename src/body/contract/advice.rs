@@ -43,13 +43,13 @@ pub trait Advice {
         0.0
     }
 
-    /// Returns the points at which a fluid of the body would freeze or boil, or leaves the table of its viscosity.
+    /// Returns the points at which a fluid of the body would freeze or boil, or leaves what its constants hold for.
     fn watch(&self) -> Option<&Watch> {
         None
     }
 
-    /// Returns the highest temperature of a solid that inputs set or heat, where its state has it [K].
-    fn hottest(&self, _state: &[f64]) -> Option<f64> {
+    /// Returns the lowest and the highest temperature of a solid that inputs set or heat, where its state has them [K].
+    fn temperature_range(&self, _state: &[f64], _inputs: &[f64]) -> Option<[f64; 2]> {
         None
     }
 

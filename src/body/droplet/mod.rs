@@ -157,7 +157,7 @@ impl DropletBody {
                 temperature: droplet.initial_temperature,
                 effusivity: droplet.fluid.effusivity(),
             },
-            watch: Watch::of(name, &droplet.fluid, scene.freezing_of(name).is_some()),
+            watch: Watch::of(scene, (name, &droplet.fluid), scene.freezing_of(name).is_some()),
             notes,
             threads,
         }

@@ -1,9 +1,10 @@
 //! Temperatures beyond which the constants of a fluid do not hold: it would freeze or boil, as the model has no phase
-//! change of droplets, or the table of its viscosity ends.
+//! change of droplets, the table of its viscosity ends, or the range of its substance.
 
 use crate::laws::{Fluid, Melting, Viscosity};
 use crate::method::sph::WarmPlace;
-use crate::scene::{FirstContact, Scene};
+use crate::scene::{FirstContact, NamedSubstance, Scene};
+use crate::substances::Kind;
 use crate::warning::{self, Warning};
 
 /// The way in which a fluid gets beyond its constants.
@@ -15,6 +16,10 @@ pub enum Passage {
     ColdEnd,
     /// Hotter than the table of viscosity.
     HotEnd,
+    /// Colder than what the library's constants hold for.
+    ColdRange,
+    /// Hotter than that.
+    HotRange,
 }
 
 /// The points that a scene sets for the fluid of a droplet.
@@ -23,11 +28,22 @@ pub struct Watch {
     name: String,
     /// [K]
     points: Vec<(Passage, f64)>,
+    /// Name of a substance of the library, and the temperatures between which its constants hold [K].
+    substance: Option<(&'static str, [f64; 2])>,
 }
 
 impl Watch {
     /// `freezes` is true if the model has the fluid's freezing.
-    pub fn of(name: &str, fluid: &Fluid, freezes: bool) -> Self {
+    pub fn of(scene: &Scene, (name, fluid): (&str, &Fluid), freezes: bool) -> Self {
+        let substance = scene.substances_of(name).find(|named| named.kind == Kind::Fluid);
+        let substance = substance.map(|named| (named.substance.name, named.valid));
+        let slack = NamedSubstance::ROUNDED;
+        let ends = substance.map(|(_, [low, high])| [low - slack, high + slack]);
+        // Freezing and boiling say more where they are near. What is frozen has constants of its own.
+        let is_liquid = |low: f64| fluid.freezing_point().is_none_or(|point| point < low - slack);
+        let boils_later = |high: f64| fluid.boils_at.is_none_or(|point| point > high + slack);
+        let low = ends.map(|[low, _]| low).filter(|low| !freezes && is_liquid(*low));
+        let high = ends.map(|[_, high]| high).filter(|high| boils_later(*high));
         let knots = match &fluid.viscosity {
             Viscosity::Table(table) => &table.temperature[..],
             Viscosity::Constant(_) | Viscosity::Law(_) => &[],
@@ -37,9 +53,11 @@ impl Watch {
             (Passage::Boiling, fluid.boils_at),
             (Passage::ColdEnd, knots.first().copied()),
             (Passage::HotEnd, knots.last().copied()),
+            (Passage::ColdRange, low),
+            (Passage::HotRange, high),
         ];
         let set = points.into_iter().filter_map(|(passage, point)| Some((passage, point?)));
-        Self { name: name.to_owned(), points: set.collect() }
+        Self { name: name.to_owned(), points: set.collect(), substance }
     }
 
     /// The passages for which the scene sets a temperature.
@@ -61,8 +79,12 @@ impl Watch {
     ) -> Option<Warning> {
         let (_, point) = self.points.iter().find(|(other, _)| *other == passage)?;
         let (is_beyond, extreme) = match passage {
-            Passage::Freezing | Passage::ColdEnd => (coldest.temperature < *point, coldest),
-            Passage::Boiling | Passage::HotEnd => (hottest.temperature > *point, hottest),
+            Passage::Freezing | Passage::ColdEnd | Passage::ColdRange => {
+                (coldest.temperature < *point, coldest)
+            }
+            Passage::Boiling | Passage::HotEnd | Passage::HotRange => {
+                (hottest.temperature > *point, hottest)
+            }
         };
         let WarmPlace { temperature, place } = extreme;
         let [x, y, z] = place.map(|along| format!("{along:.2e}"));
@@ -73,6 +95,11 @@ impl Watch {
                 Passage::Boiling => warning::fluid_boils(time, temperature, x, y, z, point),
                 Passage::ColdEnd | Passage::HotEnd => {
                     warning::fluid_beyond_viscosity(time, temperature, x, y, z, point)
+                }
+                Passage::ColdRange | Passage::HotRange => {
+                    let (name, [low, high]) = self.substance.unwrap_or_default();
+                    let end = if passage == Passage::ColdRange { low } else { high };
+                    warning::fluid_beyond_substance(time, temperature, x, y, z, end, name)
                 }
             };
             finding.at(&self.name).of_subject(self.subject(passage))

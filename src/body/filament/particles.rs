@@ -59,7 +59,7 @@ impl ParticleFilament {
             nozzle,
             most: filament.most,
             target: plan::target_of(scene, name),
-            watch: Watch::of(name, &filament.fluid, filament.fluid.melting.is_some()),
+            watch: Watch::of(scene, (name, &filament.fluid), filament.fluid.melting.is_some()),
             traction,
             notes: forecast::notes(scene, (name, filament)),
             threads,

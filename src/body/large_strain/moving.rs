@@ -379,9 +379,9 @@ impl Advice for MovingBody {
         self.advised.on_value(reading, value)
     }
 
-    fn hottest(&self, state: &[f64]) -> Option<f64> {
+    fn temperature_range(&self, state: &[f64], _: &[f64]) -> Option<[f64; 2]> {
         let warming = self.warming.as_ref()?;
-        Some(warming.hottest(&self.structure(state).warmth))
+        Some(warming.range(&self.structure(state).warmth))
     }
 }
 

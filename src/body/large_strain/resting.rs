@@ -546,11 +546,11 @@ impl Advice for RestingBody {
         self.advised.on_value(reading, value)
     }
 
-    fn hottest(&self, state: &[f64]) -> Option<f64> {
+    fn temperature_range(&self, state: &[f64], _: &[f64]) -> Option<[f64; 2]> {
         let state = self.structure(state);
         Some(match &self.warming {
-            Some(warming) => warming.hottest(&state.warmth),
-            None => state.temperature,
+            Some(warming) => warming.range(&state.warmth),
+            None => [state.temperature; 2],
         })
     }
 }

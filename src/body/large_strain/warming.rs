@@ -194,7 +194,7 @@ impl Warming {
         if missing.is_nan() || missing.abs() > BALANCE * passed {
             return Err(BodyError::Unbalanced { body: name.to_owned(), missing, passed });
         }
-        let coldest = self.zero + warmth.rise.iter().copied().fold(f64::INFINITY, f64::min);
+        let [coldest, _] = self.range(warmth);
         if coldest <= 0.0 {
             let body = name.to_owned();
             return Err(BodyError::BelowAbsoluteZero { body, temperature: coldest });
@@ -320,9 +320,12 @@ impl Warming {
         self.courses(body, [&at, &at], 0.0)
     }
 
-    /// Highest temperature of a node, or its coefficient, which kernels keep near it [K].
-    pub fn hottest(&self, warmth: &Warmth) -> f64 {
-        self.zero + warmth.rise.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+    /// Lowest and highest temperature of a node, or its coefficient, which kernels keep near it [K].
+    pub fn range(&self, warmth: &Warmth) -> [f64; 2] {
+        let rise = || warmth.rise.iter().copied();
+        let extremes =
+            [rise().fold(f64::INFINITY, f64::min), rise().fold(f64::NEG_INFINITY, f64::max)];
+        extremes.map(|rise| self.zero + rise)
     }
 
     pub fn totals(&self, body: &Deformable, warmth: &Warmth) -> HeatTotals {

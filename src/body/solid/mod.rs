@@ -501,6 +501,13 @@ impl Advice for SolidBody {
             }
         }
     }
+
+    fn temperature_range(&self, state: &[f64], inputs: &[f64]) -> Option<[f64; 2]> {
+        let loads = self.loads.of_faces(inputs, self.solid.mesh());
+        let temperatures = self.solid.temperatures(self.heat_of(state), &loads);
+        let highest = self.solid.hottest(&temperatures).value;
+        Some([self.solid.min_temperature(&temperatures), highest])
+    }
 }
 
 impl Resources for SolidBody {

@@ -41,6 +41,9 @@ pub struct NamedSubstance {
 }
 
 impl NamedSubstance {
+    /// Distance from the range up to which constants hold, as its ends are rounded [K].
+    pub const ROUNDED: f64 = 1.0;
+
     fn new(table: Path, kind: Kind, substance: Substance) -> Self {
         let sheet = substance.sheet();
         let end = if kind == Kind::Solid { "solidus" } else { "liquidus" };

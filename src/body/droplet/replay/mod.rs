@@ -91,7 +91,7 @@ impl ReplayBody {
             demand: DropInputs::of(scene, layout, (name, droplet), FARTHEST),
             arrivals: droplet.arrivals().iter().map(|a| (a.time, falling(droplet, a))).collect(),
             symmetric: droplet.mirrors(),
-            watch: Watch::of(name, &droplet.fluid, false),
+            watch: Watch::of(scene, (name, &droplet.fluid), false),
             contact_share: scene.contact_share(name),
             notes: said,
         })
