@@ -13,7 +13,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::lookup::BodyInput;
-use super::materials::{MaterialChoice, heights};
+use super::materials::{MaterialChoice, SLACK, heights};
 use super::part::Part;
 use super::types::{Disc, FaceName, Layer, PlaneSection, Shape};
 pub use discretisation::{
@@ -412,7 +412,9 @@ impl LargeStrain {
     /// Number of the layer at a height, from the top; at an interface the layer above [m].
     pub fn layer_at(&self, z: f64) -> usize {
         let heights = self.heights_of_layers();
-        heights.iter().position(|[low, _]| z >= *low).unwrap_or(heights.len() - 1)
+        let [.., thickness] = self.extents();
+        let slack = SLACK * thickness;
+        heights.iter().position(|[low, _]| z >= low - slack).unwrap_or(heights.len() - 1)
     }
 
     /// Effects of the temperature on each layer, from the top.
