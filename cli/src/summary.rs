@@ -51,6 +51,8 @@ pub struct Balance {
     largest: f64,
     /// Largest acceptable relative residual.
     expected: f64,
+    /// Heat, or heat per length of a plane model.
+    quantity: Quantity,
 }
 
 impl Balance {
@@ -78,12 +80,11 @@ impl Balance {
     }
 
     fn row(&self) -> [String; 5] {
-        let joule = |value| engineering(value, "J");
         [
             self.body.clone(),
-            joule(self.heat_in),
-            joule(self.stored),
-            joule(self.lost),
+            shown(self.heat_in, self.quantity),
+            shown(self.stored, self.quantity),
+            shown(self.lost, self.quantity),
             format!("{:.1e}", self.residual()),
         ]
     }
@@ -97,6 +98,7 @@ pub struct BalanceOutputs {
     /// Heat given to the body below, which is lost, too; `None` for bodies that have no such output.
     given: Option<Output>,
     expected: f64,
+    quantity: Quantity,
 }
 
 impl BalanceOutputs {
@@ -110,8 +112,11 @@ impl BalanceOutputs {
                 Some(output.clone())
             };
             let outputs = [output("heat_in")?, output("heat_stored")?, output("heat_lost")?];
+            let given = output("heat");
             let expected = expected_residual(scene, body);
-            Some(Self { body: body.clone(), outputs, given: output("heat"), expected })
+            let heat_in = registry.find(&format!("{body}.heat_in"))?;
+            let quantity = registry.variables[heat_in].quantity?;
+            Some(Self { body: body.clone(), outputs, given, expected, quantity })
         };
         scene.body.keys().filter_map(of_body).collect()
     }
@@ -129,8 +134,8 @@ impl BalanceOutputs {
         let (heat_in, stored, lost) =
             (heat_in?, stored?, lost? + given.transpose()?.unwrap_or(0.0));
         let largest = [heat_in, stored, lost].into_iter().map(f64::abs).fold(0.0, f64::max);
-        let (body, expected) = (self.body.clone(), self.expected);
-        Ok(Balance { body, heat_in, stored, lost, largest, expected })
+        let Self { expected, quantity, .. } = *self;
+        Ok(Balance { body: self.body.clone(), heat_in, stored, lost, largest, expected, quantity })
     }
 }
 
@@ -150,8 +155,9 @@ pub fn balance_table(balances: &[Balance]) -> String {
 /// and reservoirs, and some of solids.
 pub fn totals_table(model: &Model, state: &State, cache: &mut Cache) -> Result<String, ModelError> {
     let mut rows = Vec::new();
-    let registry = Registry::of(model.scene());
-    for variable in &registry.variables {
+    let registry = Registry::structured(model.scene());
+    let named = Registry::of(model.scene()).variables;
+    for (variable, named) in registry.variables.iter().zip(named) {
         let Slot::Output(output) = &variable.slot else { continue };
         let Some(quantity) = variable.quantity else { continue };
         let is_total = matches!(output.reading, Reading::Total(_));
@@ -169,7 +175,7 @@ pub fn totals_table(model: &Model, state: &State, cache: &mut Cache) -> Result<S
                 }
                 _ => shown(value, quantity),
             };
-            rows.push([variable.name.clone(), value]);
+            rows.push([named.name, value]);
         }
     }
     Ok(table(["at the end", "value"], &rows))
@@ -233,7 +239,15 @@ mod tests {
 
     fn balance(heat_in: f64, stored: f64, lost: f64) -> Balance {
         let largest = [heat_in, stored, lost].into_iter().map(f64::abs).fold(0.0, f64::max);
-        Balance { body: "plate".into(), heat_in, stored, lost, largest, expected: BALANCED }
+        Balance {
+            body: "plate".into(),
+            heat_in,
+            stored,
+            lost,
+            largest,
+            expected: BALANCED,
+            quantity: Quantity::Energy,
+        }
     }
 
     #[test]

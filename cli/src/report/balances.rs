@@ -101,7 +101,8 @@ impl Of<'_> {
     /// True of a single drop that is there from the start: later ones add to mass and momentum.
     fn is_alone(&self) -> bool {
         let droplet = self.droplet;
-        !droplet.is_on_demand() && !droplet.is_replayed() && droplet.drops() == 1
+        let is_there = || self.first("mass").is_some_and(|mass| mass > 0.0);
+        !droplet.is_on_demand() && !droplet.is_replayed() && droplet.drops() == 1 && is_there()
     }
 
     /// Unit of an amount, per metre of depth in a plane model.

@@ -92,8 +92,11 @@ enum Part {
 impl Part {
     fn of(droplet: &Droplet, frames: &[Frame]) -> Self {
         let all = || frames.iter().flat_map(|frame| (0..frame.count()).map(move |i| frame.at(i)));
-        if all().all(|[_, y, _]| y == 0.0) {
-            return if all().all(|[x, ..]| x >= 0.0) { Self::Meridian } else { Self::Plane };
+        if droplet.dimension == 2 {
+            return Self::Plane;
+        }
+        if all().all(|[x, y, _]| x >= 0.0 && y == 0.0) {
+            return Self::Meridian;
         }
         let is_central = !droplet.is_on_demand() && droplet.landings().all(|[_, y]| y == 0.0);
         if is_central { Self::Section } else { Self::Side }

@@ -86,8 +86,10 @@ fn revolved(position: &[f64]) -> [Vec<f64>; 3] {
     let turn =
         points.windows(2).position(|two| two[1][0].hypot(two[1][1]) < two[0][0].hypot(two[0][1]));
     let radii = turn.map_or(points.len(), |last| last + 1);
-    let mut heights: Vec<f64> = points.iter().step_by(radii.max(1)).map(|point| point[2]).collect();
-    heights.dedup();
+    // A row for each angle; heights of interfaces come twice.
+    let rows: Vec<f64> = points.iter().step_by(radii.max(1)).map(|point| point[2]).collect();
+    let angles = rows.iter().take_while(|&height| height == &rows[0]).count();
+    let heights = rows.into_iter().step_by(angles.max(1)).collect();
     [points.iter().take(radii).map(|point| point[0]).collect(), vec![0.0], heights]
 }
 
