@@ -91,6 +91,31 @@ fn implicit_states_continue_bit_for_bit_and_forged_ones_are_refused() {
     assert!(refused * 10 >= 2 * count * 9, "{refused} of {}", 2 * count);
 }
 
+/// Work that is rounding, before anything moves and after a return to rest, has no cause; more than that is refused.
+#[test]
+fn states_at_rest_are_accepted_before_and_after_motion() {
+    for (top, input, size) in [
+        ("displacement = [0.0, 0.0, 0.0], roller = true", "pad.top.displacement_z", 1e-3),
+        ("pressure = 0.0", "pad.top.pressure", 1e4),
+    ] {
+        let keys = format!(
+            "{BLOCK}\ninertia = true\nmotion = \"implicit\"\n\
+             faces = {{ bottom = {{ roller = true }}, top = {{ {top} }} }}"
+        );
+        let mut trial = Trial::new(&rubber(&keys));
+        for part in [0.0, 1.0, 2.0, 1.0, 0.0, 0.0, 0.0] {
+            trial.set(input, part * size);
+            trial.step(1.0);
+            assert_eq!(trial.model.check_state(&trial.state), Ok(()), "{input} {part}");
+        }
+        // Fields begin with time, steps, the length of the last one and works.
+        let mut forged = trial.state.clone();
+        forged.bodies[0][3] += 1e-6;
+        let refusal = trial.model.check_state(&forged).unwrap_err().to_string();
+        assert!(refusal.contains("no cause"), "{refusal}");
+    }
+}
+
 /// Pressures that jump by as much as the body is stiff add no energy: such steps are halved.
 #[test]
 fn violent_steps_gain_no_energy() {

@@ -369,6 +369,32 @@ fn states_at_rest_on_the_plane_are_accepted() {
     }
 }
 
+/// Nothing gives a body momentum along z: what it has is rounding. Momentum of a node is none.
+#[test]
+fn states_without_momentum_along_z_are_accepted() {
+    let flies = "start = { velocity = [1.0, 0.0, 0.0], height = 0.03 }\nsymmetry = \"none\"";
+    let flies = gel(&format!("{BALL}\n{flies}").replace("2e-3", "4e-3"));
+    let block =
+        "shape = { box = [10e-3, 10e-3, 10e-3] }\nmesh = { spacing = 4e-3 }\ninertia = true";
+    let keys = "motion = \"explicit\"\nstart = { height = 0.03 }\nfaces = { top = { temperature = 393.15 } }";
+    let warms = gel(&format!("{block}\n{keys}"));
+    let warms = warms.replace("poisson = 0.4", "poisson = 0.4, expansion = 1e-4");
+    for (text, dt) in [(flies, 1e-3), (warms, 0.05)] {
+        let mut trial = Trial::new(&text);
+        for n in 0..3 {
+            assert_eq!(trial.model.check_state(&trial.state), Ok(()), "{n} steps of {text}");
+            trial.step(dt);
+        }
+        let count = trial.state.bodies[0].len();
+        let own = &trial.state.bodies[0];
+        let Some(first) = (0..count).find(|&n| (own[n] - 1.0).abs() < 1e-9) else { continue };
+        let mut forged = trial.state.clone();
+        forged.bodies[0][first + 2] = 0.1;
+        let refusal = trial.model.check_state(&forged).unwrap_err().to_string();
+        assert!(refusal.contains("momentum along z"), "{refusal}");
+    }
+}
+
 #[test]
 fn what_tears_a_mesh_is_refused_and_changes_nothing() {
     let text = gel(&format!("{BALL}\nstart = {{ velocity = [0.0, 0.0, -60.0] }}"));

@@ -224,6 +224,22 @@ fn impossible_states_are_refused() {
     }
 }
 
+/// Work is rounding before a beam is bent and after it is straight again.
+#[test]
+fn states_after_an_elastic_cycle_are_accepted() {
+    let mut trial = Trial::new(&beam("control = \"displacement\""));
+    for displacement in [0.0, 1e-6, 2e-6, 1e-6, 0.0, 0.0] {
+        trial.set("beam.displacement", displacement);
+        trial.step(0.1);
+        assert_eq!(trial.model.check_state(&trial.state), Ok(()), "{displacement}");
+    }
+    let mut forged = trial.state.clone();
+    let work = forged.bodies[0].len() - 3;
+    forged.bodies[0][work] += 1e-6;
+    let refusal = trial.model.check_state(&forged).unwrap_err().to_string();
+    assert!(refusal.contains("no cause"), "{refusal}");
+}
+
 /// Pulls or bends over a time [s] in equal steps; returns the loads.
 fn move_over(trial: &mut Trial, name: &str, (to, time): (f64, f64), steps: usize) -> Vec<f64> {
     let body = name.split('.').next().unwrap().to_owned();

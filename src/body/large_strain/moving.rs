@@ -43,6 +43,8 @@ pub struct MovingBody {
 /// Share of the momentum or energy that a balance may miss.
 const MOMENTUM: f64 = 1e-6;
 const ENERGY: f64 = 0.1;
+/// Rounding of the forces of many steps over those of the body's stiffness.
+const ROUNDING: f64 = 1e-12;
 
 impl MovingBody {
     /// `on` holds the cells of a body below and the link with it.
@@ -148,14 +150,16 @@ impl MovingBody {
         let gravity = self.dynamics.gravity[2];
         let fallen = now.mass * gravity * ledger.time;
         let missing = now.momentum[2] - start.momentum[2] - fallen - ledger.impulse_to_plane;
-        let scale = start.momentum[2].abs() + fallen.abs() + ledger.impulse_to_plane.abs();
+        let own = [&now, &start].map(|of| (2.0 * of.mass * of.kinetic).sqrt());
+        let moving = own[0] + own[1] + self.rounding_of_momentum() / MOMENTUM;
+        let scale = moving + fallen.abs() + ledger.impulse_to_plane.abs();
         if self.faces.loaded() == 0 && missing.abs() > MOMENTUM * scale {
             return Err(format!("{missing:.1e} N s of momentum along z have no cause"));
         }
         for axis in (0..2).filter(|&axis| !self.dynamics.symmetric()[axis]) {
             let dragged = motion.friction.impulse[axis];
             let missing = now.momentum[axis] - start.momentum[axis] + dragged;
-            let scale = scale + start.momentum[axis].abs() + dragged.abs();
+            let scale = scale + dragged.abs();
             if self.faces.loaded() == 0 && missing.abs() > MOMENTUM * scale {
                 return Err(format!("{missing:.1e} N s of momentum along the plane have no cause"));
             }
@@ -166,7 +170,8 @@ impl MovingBody {
         let internal = copies * (ledger.internal_work + touch + motion.friction.heat);
         let work = now.mass * gravity * (now.centre - start.centre) + copies * ledger.load_work;
         let missing = now.kinetic + internal - start.kinetic - work;
-        let known = start.kinetic + work.abs() + copies * ledger.internal_work.abs();
+        let works = work.abs() + copies * ledger.internal_work.abs();
+        let known = start.kinetic + now.stored.abs() + works;
         let scale = known + copies * self.rounding();
         if missing.abs() > ENERGY * scale {
             return Err(format!("{missing:.1e} J of energy have no cause"));
@@ -178,6 +183,14 @@ impl MovingBody {
     fn rounding(&self) -> f64 {
         let body = &self.dynamics.body;
         f64::EPSILON * body.wave_modulus() * body.space.volume.weights.iter().sum::<f64>()
+    }
+
+    /// Momentum of the body that is rounding [N s]: a part of its mass at the speed of its waves.
+    fn rounding_of_momentum(&self) -> f64 {
+        let body = &self.dynamics.body;
+        let mass = body.mass.iter().sum::<f64>();
+        let stiffness = body.wave_modulus() * body.space.volume.weights.iter().sum::<f64>();
+        ROUNDING * copies(self.mirrors) * (mass * stiffness).sqrt()
     }
 
     fn sums(&self, motion: &Motion, snapshot: &Snapshot) -> Sums {

@@ -70,6 +70,7 @@ impl Fields for Swinging {
             ),
             (body("load_work", "work of loads on faces [J]"), from_mut(&mut ledger.load_work)),
             (body("face_work", "work of held faces [J]"), from_mut(&mut ledger.face_work)),
+            (body("turnover", "sum of the sizes of all works [J]"), from_mut(&mut ledger.turnover)),
             (body("cut", "shortest part of a step with a jolt [s]"), from_mut(&mut self.cut)),
             (
                 body("waves_until", "time until which waves of a jolt cross the body [s]"),
@@ -111,8 +112,9 @@ const CROSSINGS: f64 = 5.0;
 const ITERATIONS: f64 = 5.0;
 /// Part of the work of the stresses from which on loads, not moved faces, have bent a body.
 const BY_LOADS: f64 = 0.5;
-/// Share of the energy that a balance may miss.
+/// Share of the energy that a balance may miss, and that of all works, as forces balance to a part of their size.
 const ENERGY: f64 = 1e-5;
+const UNBALANCED: f64 = 1e-9;
 
 impl SwingingBody {
     pub fn new(
@@ -292,6 +294,9 @@ impl SwingingBody {
         if ledger.time < 0.0 || ledger.steps < 0.0 {
             return Err("time and steps are not negative".to_owned());
         }
+        if !(0.0..f64::INFINITY).contains(&ledger.turnover) {
+            return Err("the sum of the sizes of works is finite and not negative".to_owned());
+        }
         let of = |motion: &Motion| self.snapshot(motion).map_err(|error| error.to_string());
         let (now, start) = (of(motion)?, of(&self.start.motion)?);
         let copies = copies(self.mirrors);
@@ -300,7 +305,8 @@ impl SwingingBody {
         let works = [fallen, copies * ledger.load_work, copies * ledger.face_work, -inside];
         let missing = now.kinetic - start.kinetic - works.iter().sum::<f64>();
         let scale = start.kinetic + works.iter().map(|work| work.abs()).sum::<f64>();
-        if missing.is_nan() || missing.abs() > ENERGY * scale {
+        let unbalanced = UNBALANCED * ledger.turnover + self.dynamics.rounding_of_energy;
+        if missing.is_nan() || missing.abs() > ENERGY * scale + copies * unbalanced {
             return Err(format!("{missing:.1e} J of energy have no cause"));
         }
         Ok(())

@@ -14,8 +14,9 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::reader::SolidReader;
 use crate::body::BodyError;
-use crate::laws::Constants;
+use crate::laws::Property;
 use crate::laws::fracture::{CrackGrowth, crack_row};
+use crate::laws::solid::Elasticity;
 use crate::math::gauss::gauss_on;
 use crate::math::lagrange::interpolation_weights;
 use crate::method::fem::{Component, Functional, Geometry, Mesh, NodalSum, Plan, SolidFem};
@@ -45,12 +46,41 @@ pub struct Crack {
     across: [f64; 6],
     points: Vec<[f64; 3]>,
     extent: Extent,
-    /// `E/(1 − ν²)` [Pa]
-    plane_modulus: f64,
+    front: Front,
+    elastic: Elastic,
     /// [Pa √m]
     toughness: f64,
-    /// Elements over the depth, of edge cracks of a given depth on meshes that do not resolve the heat of a step.
-    elements: Option<f64>,
+    /// Distances from the mouth at which elements end [m], of edge cracks on meshes that do not resolve the heat of a
+    /// step.
+    elements: Option<Vec<f64>>,
+}
+
+/// Places at which a crack grows.
+enum Front {
+    /// The tip of an edge crack, which moves from its mouth along a unit vector.
+    Tip { mouth: [f64; 3], inward: [f64; 3] },
+    /// Points of the rim of a penny.
+    Rim(Vec<[f64; 3]>),
+}
+
+/// Young's modulus and Poisson's ratio.
+struct Elastic {
+    young: Property,
+    poisson: Property,
+    /// [K]
+    initial_temperature: f64,
+}
+
+impl Elastic {
+    /// `E/(1 − ν²)` at a temperature [Pa].
+    fn plane_modulus(&self, temperature: f64) -> f64 {
+        let poisson = self.poisson.value(temperature);
+        self.young.value(temperature) / (1.0 - poisson * poisson)
+    }
+
+    fn is_constant(&self) -> bool {
+        self.young.is_constant() && self.poisson.is_constant()
+    }
 }
 
 /// Extent of a crack.
@@ -206,21 +236,27 @@ impl Crack {
         let across = [x * x, y * y, z * z, 2.0 * x * y, 2.0 * y * z, 2.0 * x * z];
         let layer = flaw.layer(solid);
         let material = solid.materials_of_layers()[layer];
-        let Constants { young, poisson, .. } = material.at(solid.initial_temperature);
-        let (young, poisson) = (young?, poisson?);
-        let plane_modulus = young / (1.0 - poisson * poisson);
+        let Elasticity { young, poisson, .. } = material.law.deformation().elasticity().clone();
+        let initial_temperature = solid.initial_temperature;
+        let elastic = Elastic { young: young?, poisson: poisson?, initial_temperature };
         let toughness = material.fracture.toughness.unwrap_or(0.0);
-        let (points, extent, elements) = match flaw.shape {
+        let (points, extent, front, elements) = match flaw.shape {
             FlawShape::Penny => {
                 let radius = flaw.depth.given()?;
                 let (points, extent) =
                     penny(flaw, radius, radii_of_penny(&plan.mesh, flaw, radius));
-                (points, extent, None)
+                (points, extent, Front::Rim(rim(flaw, radius).collect()), None)
             }
-            FlawShape::Edge => edge(flaw, solid, plan, flaw.face(&solid.shape)?),
+            FlawShape::Edge => {
+                let face = flaw.face(&solid.shape)?;
+                let inward = flaw.inward(face);
+                let (points, extent) = edge(flaw, solid, plan, face);
+                let front = Front::Tip { mouth: flaw.at, inward };
+                (points, extent, front, Some(element_ends(&plan.mesh, flaw.at, inward)))
+            }
         };
         let name = flaw.name.clone();
-        Some(Self { name, across, points, extent, plane_modulus, toughness, elements })
+        Some(Self { name, across, points, extent, front, elastic, toughness, elements })
     }
 
     /// K of a given depth as a sum of stress components; `None` if the depth is searched.
@@ -258,24 +294,53 @@ impl Crack {
         Ok(Intensity { value: value.max(0.0), depth })
     }
 
-    /// Returns the elements over the depth if they are too few for the stress there.
+    /// Returns the elements over the depth that is given, or from which the crack grows, if they are too few for the
+    /// stress there.
     pub fn too_few_elements(&self) -> Option<Coarse<'_>> {
-        let depth = match self.extent {
-            Extent::Given { depth, .. } | Extent::Growing { start: depth, .. } => depth,
-            Extent::Searched { .. } => return None,
-        };
-        let elements = self.elements.filter(|&elements| elements < LEAST_ELEMENTS)?;
-        Some(Coarse { name: &self.name, elements, finer: depth / (2.0 * LEAST_ELEMENTS) })
+        match self.extent {
+            Extent::Given { depth, .. } | Extent::Growing { start: depth, .. } => {
+                self.too_few_elements_over(depth)
+            }
+            Extent::Searched { .. } => None,
+        }
     }
 
-    /// Energy release rate `G = K²(1 − ν²)/E` of plane strain [J/m²].
-    pub fn energy_release_rate(&self, intensity: f64) -> f64 {
-        intensity * intensity / self.plane_modulus
+    /// The same over a depth that was found [m]; `None` where the crack is closed.
+    pub fn too_few_elements_over(&self, depth: f64) -> Option<Coarse<'_>> {
+        let elements = elements_over(self.elements.as_ref()?, depth);
+        (depth > 0.0 && elements < LEAST_ELEMENTS).then(|| Coarse {
+            name: &self.name,
+            elements,
+            finer: depth / (2.0 * LEAST_ELEMENTS),
+        })
     }
 
-    /// Rate of change of the energy release rate.
+    /// Energy release rate `G = K²(1 − ν²)/E` of plane strain [J/m²], with constants at the present temperature of the
+    /// front, the mean one of the rim of a penny.
+    pub fn energy_release_rate(&self, reader: &mut SolidReader, intensity: Intensity) -> f64 {
+        let Intensity { value, depth } = intensity;
+        value * value / self.elastic.plane_modulus(self.temperature(reader, depth))
+    }
+
+    /// Rate of change of the energy release rate of a crack with constants of elasticity that are no tables.
     pub fn energy_release_change(&self, intensity: f64, rate: f64) -> f64 {
-        2.0 * intensity * rate / self.plane_modulus
+        2.0 * intensity * rate / self.elastic.plane_modulus(self.elastic.initial_temperature)
+    }
+
+    /// Temperature of the front at a depth, at which constants are taken [K].
+    fn temperature(&self, reader: &mut SolidReader, depth: f64) -> f64 {
+        let initial = self.elastic.initial_temperature;
+        if self.elastic.is_constant() {
+            return initial;
+        }
+        let rise = match &self.front {
+            Front::Tip { mouth, inward } => reader.rise_at(below(*mouth, *inward, depth), false),
+            Front::Rim(points) => {
+                let rises = points.iter().map(|&point| reader.rise_at(point, false));
+                rises.sum::<f64>() / points.len() as f64
+            }
+        };
+        initial + rise
     }
 
     /// Toughness over stress intensity.
@@ -350,36 +415,37 @@ impl Crack {
     }
 }
 
-/// Points of an edge crack, its extent, and the number of elements over a given depth.
-fn edge(
-    flaw: &Flaw,
-    solid: &Solid,
-    plan: &Plan,
-    face: FaceName,
-) -> (Vec<[f64; 3]>, Extent, Option<f64>) {
+/// Points of an edge crack, and its extent.
+fn edge(flaw: &Flaw, solid: &Solid, plan: &Plan, face: FaceName) -> (Vec<[f64; 3]>, Extent) {
     let inward = flaw.inward(face);
     let given = flaw.depth.given();
     let reach = given.filter(|_| flaw.growth.is_none());
     let reach = reach.unwrap_or_else(|| flaw.reach(solid, face));
     let line = Line::of(&plan.mesh, flaw, inward, reach);
-    // On an interface the layer above counts, so the deepest point stays within its own.
-    let inside = 1.0 - 1e-12;
-    let points = line
-        .distances()
-        .into_iter()
-        .map(|distance| std::array::from_fn(|i| flaw.at[i] + inside * distance * inward[i]));
+    let points = line.distances().into_iter().map(|distance| below(flaw.at, inward, distance));
     let points = points.collect();
     let searched = |line: &Line| {
         let trials = line.trials().into_iter();
         trials.map(|depth| (depth, line.weights(depth))).collect()
     };
-    let elements = given.map(|depth| elements_over(&plan.mesh, flaw.at, inward, depth));
     let extent = match (given, flaw.growth) {
         (Some(depth), None) => Extent::Given { depth, weights: line.weights(depth) },
         (Some(start), Some(law)) => Extent::Growing { start, trials: searched(&line), line, law },
         (None, _) => Extent::Searched { trials: searched(&line), line },
     };
-    (points, extent, elements)
+    (points, extent)
+}
+
+/// The point at a distance from the mouth of an edge crack. On an interface the layer above counts, so the deepest point
+/// stays within its own.
+fn below(mouth: [f64; 3], inward: [f64; 3], distance: f64) -> [f64; 3] {
+    let inside = 1.0 - 1e-12;
+    std::array::from_fn(|i| mouth[i] + inside * distance * inward[i])
+}
+
+/// Points of the rim of a penny.
+fn rim(flaw: &Flaw, radius: f64) -> impl Iterator<Item = [f64; 3]> {
+    (0..RIM).map(move |turn| flaw.on_plane(radius, turn as f64 / RIM as f64))
 }
 
 /// Distances from the mouth of an edge crack, above zero and ascending, at which elements end [m].
@@ -407,9 +473,8 @@ fn element_ends(mesh: &Mesh, at: [f64; 3], inward: [f64; 3]) -> Vec<f64> {
     ends
 }
 
-/// Number of elements over a depth, the last one in part.
-fn elements_over(mesh: &Mesh, at: [f64; 3], inward: [f64; 3], depth: f64) -> f64 {
-    let ends = element_ends(mesh, at, inward);
+/// Number of elements over a depth, the last one in part, by their ends.
+fn elements_over(ends: &[f64], depth: f64) -> f64 {
     let complete = ends.partition_point(|&end| end <= depth);
     let last = if complete == 0 { 0.0 } else { ends[complete - 1] };
     complete as f64 + ends.get(complete).map_or(0.0, |next| (depth - last) / (next - last))
@@ -417,8 +482,8 @@ fn elements_over(mesh: &Mesh, at: [f64; 3], inward: [f64; 3], depth: f64) -> f64
 
 /// Number of radii at which a penny of a radius has points, by the finest elements that it crosses.
 fn radii_of_penny(mesh: &Mesh, flaw: &Flaw, radius: f64) -> usize {
-    let rim = (0..RIM).map(|turn| flaw.on_plane(radius, turn as f64 / RIM as f64));
-    let places: Vec<_> = rim.chain([flaw.at]).map(|point| mesh.locate(point).0).collect();
+    let places: Vec<_> =
+        rim(flaw, radius).chain([flaw.at]).map(|point| mesh.locate(point).0).collect();
     let elements_along = |axis: usize| {
         let along = places.iter().map(|place| place[axis]);
         let low = along.clone().fold(f64::INFINITY, f64::min);

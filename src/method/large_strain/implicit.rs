@@ -24,7 +24,7 @@ pub struct ImplicitDynamics {
     held: Vec<[bool; 3]>,
     /// Bounds on the rounding of internal forces [N] and of the energy stored [J].
     rounding: f64,
-    rounding_of_energy: f64,
+    pub rounding_of_energy: f64,
 }
 
 /// Conditions over a step.
@@ -321,6 +321,7 @@ impl ImplicitDynamics {
         let way = difference(&u, &motion.displacement);
         let mut reactions = vec![[0.0; 3]; u.len()];
         let ledger = &mut motion.ledger;
+        let before = ledger.works();
         for (node, held) in self.held.iter().enumerate() {
             let mass = self.body.mass[node];
             for a in 0..3 {
@@ -337,6 +338,8 @@ impl ImplicitDynamics {
                 }
             }
         }
+        let changes = ledger.works().into_iter().zip(before);
+        ledger.turnover += changes.map(|(after, before)| (after - before).abs()).sum::<f64>();
         ledger.time += dt;
         ledger.steps += 1.0;
         motion.displacement = u;

@@ -33,6 +33,8 @@ pub struct Ledger {
     /// Work of the loads on faces, and of the faces that are held or moved [J].
     pub load_work: f64,
     pub face_work: f64,
+    /// Sum of the sizes of these works in all implicit steps [J].
+    pub turnover: f64,
     /// Impulse of the body on the plane [N s].
     pub impulse_to_plane: f64,
     /// Time at which the body last left the plane [s]; 0 before.
@@ -42,6 +44,13 @@ pub struct Ledger {
     pub outside: f64,
     /// Length of the last step [s].
     pub duration: f64,
+}
+
+impl Ledger {
+    /// Work of the stresses, of loads, and of faces that are held or moved [J].
+    pub fn works(&self) -> [f64; 3] {
+        [self.internal_work, self.load_work, self.face_work]
+    }
 }
 
 impl Fields for Motion {

@@ -177,6 +177,13 @@ impl Equilibrium {
         trial.size.max(self.strength)
     }
 
+    /// Bound on the energy that forces leave which balance to a part of their size [J]: that part of the energy of all
+    /// links at their strength.
+    pub fn rounding_of_energy(&self) -> f64 {
+        let of_link = |link: &Link| link.axial * (link.softening.onset * link.length).powi(2);
+        TOLERANCE * 0.5 * self.links.iter().map(of_link).sum::<f64>()
+    }
+
     pub fn residual(&self, trial: &Trial, force: f64) -> Vec<f64> {
         let mut residual = trial.forces.clone();
         for &(at, part) in &self.pattern.frame.load {

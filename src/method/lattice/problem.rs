@@ -284,7 +284,7 @@ impl Lattice {
         let energies = [state.work, state.dissipated + state.released, self.elastic_energy(state)];
         let missing = energies[0] - energies[1] - energies[2];
         let size = energies.iter().fold(0.0, |sum, energy| sum + energy.abs());
-        match missing.abs() <= ENERGY * size {
+        match missing.abs() <= ENERGY * size + self.equilibrium.rounding_of_energy() {
             true => Ok(()),
             false => Err(format!("{missing:.1e} J of {:.1e} J of work have no cause", energies[0])),
         }
