@@ -65,6 +65,25 @@ fn shocked_edge_cracks_have_the_intensity_of_the_half_plane() {
     assert!(off(trial.get("worst.depth"), 1.1305 * diffusion()) < 0.05);
 }
 
+/// Constants that are tables are taken at the present temperature of the front.
+#[test]
+fn energy_is_released_with_the_present_constants() {
+    let penny = "at = [0.0, 0.0, -5e-3]\nnormal = [1.0, 0.0, 0.0]\ndepth = 1e-4\nshape = \"penny\"";
+    let flaws = [scratch("edge", "1e-4"), scratch("worst", "\"worst\""), flaw("penny", penny)];
+    let table = "young = { temperature = [540.0, 573.15], value = [680e9, 340e9] }";
+    let text = plate(1.0, "stress_free_temperature = 613.15", &flaws.concat())
+        .replace("536.25", "540.0")
+        .replace("bottom = { temperature = 573.15", "bottom = { temperature = 540.0")
+        .replace("young = 340e9", table);
+    let mut trial = Trial::new(&text);
+    trial.step(1e3);
+    for name in ["edge", "worst", "penny"] {
+        let [found, release] = ["stress_intensity", "energy_release_rate"]
+            .map(|key| trial.get(&format!("{name}.{key}")));
+        assert!(off(release, energy_release(found, 680e9, 0.22)) < 1e-6, "{name}: {release}");
+    }
+}
+
 /// Cracks of a row that are far apart are alone; those of a dense one have the energy `pσ²/(2E′)` of the stress at
 /// their tip, and worst depths are less deep.
 #[test]

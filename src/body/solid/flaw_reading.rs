@@ -12,7 +12,7 @@ use crate::scene::{Flaw, FlawGives};
 struct FlawQuantity {
     descriptor: Descriptor,
     of: Offered,
-    read: fn(&Crack, Intensity) -> f64,
+    read: fn(&mut SolidReader, &Crack, Intensity) -> f64,
     /// Rate of change, from the intensity and its rate.
     rate: fn(&Crack, Intensity, f64) -> Option<f64>,
 }
@@ -35,7 +35,7 @@ const QUANTITIES: [FlawQuantity; 5] = [
             Quantity::StressIntensity,
         ),
         of: Offered::By(FlawGives::StressIntensity),
-        read: |_, own| own.value,
+        read: |_, _, own| own.value,
         rate: |_, _, rate| Some(rate),
     },
     FlawQuantity {
@@ -45,7 +45,7 @@ const QUANTITIES: [FlawQuantity; 5] = [
             Quantity::EnergyPerArea,
         ),
         of: Offered::By(FlawGives::EnergyReleaseRate),
-        read: |crack, own| crack.energy_release_rate(own.value),
+        read: |reader, crack, own| crack.energy_release_rate(reader, own),
         rate: |crack, own, rate| Some(crack.energy_release_change(own.value, rate)),
     },
     FlawQuantity {
@@ -55,13 +55,13 @@ const QUANTITIES: [FlawQuantity; 5] = [
             Quantity::Ratio,
         ),
         of: Offered::By(FlawGives::Safety),
-        read: |crack, own| crack.safety(own.value),
+        read: |_, crack, own| crack.safety(own.value),
         rate: |crack, own, rate| Some(crack.safety_change(own.value, rate)),
     },
     FlawQuantity {
         descriptor: descriptor("depth", "depth of highest stress intensity", Quantity::Length),
         of: Offered::Searched,
-        read: |_, own| own.depth,
+        read: |_, _, own| own.depth,
         rate: |_, _, _| None,
     },
     FlawQuantity {
@@ -70,7 +70,7 @@ const QUANTITIES: [FlawQuantity; 5] = [
             ..descriptor("grown_depth", "depth after slow growth", Quantity::Length)
         },
         of: Offered::Growing,
-        read: |_, own| own.depth,
+        read: |_, _, own| own.depth,
         rate: |_, _, _| None,
     },
 ];
@@ -129,7 +129,7 @@ pub fn read(reader: &mut SolidReader, flaw: usize, quantity: usize) -> Result<f6
         (None, Some(signed)) => crack.opened(signed),
         (None, None) => crack.worst(reader)?,
     };
-    Ok((QUANTITIES[quantity].read)(crack, intensity))
+    Ok((QUANTITIES[quantity].read)(reader, crack, intensity))
 }
 
 /// Rate of change of a quantity of a flaw of given depth. A closed crack stays closed, unless it is about to open.
