@@ -65,6 +65,26 @@ fn shocked_edge_cracks_have_the_intensity_of_the_half_plane() {
     assert!(off(trial.get("worst.depth"), 1.1305 * diffusion()) < 0.05);
 }
 
+/// Stress that falls off within the first element has its worst crack there: below the first of the depths that an
+/// element has, and above those that are given.
+#[test]
+fn worst_depths_are_found_within_the_first_element() {
+    let depths = [1e-5, 2e-5, 4e-5, 6e-5, 8e-5, 1e-4, 1.5e-4, 2e-4, 3e-4];
+    let given = depths.iter().enumerate();
+    let given = given.map(|(i, depth)| scratch(&format!("s{i}"), &format!("{depth:e}")));
+    let flaws: String = given.chain([scratch("worst", "\"worst\"")]).collect();
+    let mut trial = Trial::new(&plate(1.0, COARSE, &flaws));
+    trial.step(5e-4);
+    let [worst, depth] =
+        ["stress_intensity", "depth"].map(|key| trial.get(&format!("worst.{key}")));
+    assert!(depth > 0.0 && depth < 2e-4, "{depth}");
+    for (i, given) in depths.into_iter().enumerate() {
+        let found = trial.get(&format!("s{i}.stress_intensity"));
+        assert!(found <= 1.002 * worst, "{found} at {given:e}, {worst} at {depth:e}");
+    }
+    assert!(trial.warnings_on_values().contains(&"flaw_unresolved"));
+}
+
 /// Constants that are tables are taken at the present temperature of the front.
 #[test]
 fn energy_is_released_with_the_present_constants() {

@@ -36,6 +36,8 @@ const RADII_OF_ELEMENTS: f64 = 4.0;
 const RIM: usize = 16;
 /// Depths that are tried in an element.
 const TRIALS: usize = 4;
+/// Halves of the first of them that are tried.
+const HALVINGS: i32 = 3;
 /// Number of elements over the depth of a crack below which the mesh is too coarse for it.
 const LEAST_ELEMENTS: f64 = 2.0;
 
@@ -208,6 +210,12 @@ impl Line {
             (1..=TRIALS).map(move |i| from + (to - from) * i as f64 / TRIALS as f64)
         };
         self.ends.windows(2).flat_map(of_element).collect()
+    }
+
+    /// Depths above the first of these, halves of each other: stress may peak at the mouth, within the first element.
+    fn shallow_trials(&self) -> Vec<f64> {
+        let first = self.ends[1] / TRIALS as f64;
+        (1..=HALVINGS).rev().map(|halving| first * 0.5_f64.powi(halving)).collect()
     }
 }
 
@@ -402,10 +410,11 @@ impl Crack {
             return Ok(best);
         }
         best = Intensity { value: tried[place], depth: trials[place].0 };
-        // The vertex of the parabola through the best trial and its neighbours.
-        if place > 0 && place + 1 < tried.len() {
-            let [a, b, c] = [place - 1, place, place + 1].map(|i| (trials[i].0, tried[i]));
-            let depth = vertex(a, b, c);
+        // The vertex of the parabola through the best trial and its neighbours; no crack is that of the first one.
+        if place + 1 < tried.len() {
+            let at = |i: usize| (trials[i].0, tried[i]);
+            let before = place.checked_sub(1).map_or((0.0, 0.0), at);
+            let depth = vertex(before, at(place), at(place + 1));
             let value = dot(&line.weights(depth), &stresses);
             if value > best.value {
                 best = Intensity { value, depth };
@@ -424,14 +433,19 @@ fn edge(flaw: &Flaw, solid: &Solid, plan: &Plan, face: FaceName) -> (Vec<[f64; 3
     let line = Line::of(&plan.mesh, flaw, inward, reach);
     let points = line.distances().into_iter().map(|distance| below(flaw.at, inward, distance));
     let points = points.collect();
-    let searched = |line: &Line| {
-        let trials = line.trials().into_iter();
-        trials.map(|depth| (depth, line.weights(depth))).collect()
+    let weighted = |line: &Line, depths: Vec<f64>| {
+        depths.into_iter().map(|depth| (depth, line.weights(depth))).collect()
     };
     let extent = match (given, flaw.growth) {
         (Some(depth), None) => Extent::Given { depth, weights: line.weights(depth) },
-        (Some(start), Some(law)) => Extent::Growing { start, trials: searched(&line), line, law },
-        (None, _) => Extent::Searched { trials: searched(&line), line },
+        (Some(start), Some(law)) => {
+            let trials = weighted(&line, line.trials());
+            Extent::Growing { start, trials, line, law }
+        }
+        (None, _) => {
+            let trials = weighted(&line, [line.shallow_trials(), line.trials()].concat());
+            Extent::Searched { trials, line }
+        }
     };
     (points, extent)
 }

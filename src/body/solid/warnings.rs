@@ -76,15 +76,24 @@ pub fn of_large_strain(body: &SolidBody, reading: &Reading, value: f64) -> Optio
     large.map(|what| warning::strain_is_large(what).at(&body.name))
 }
 
-/// Warns of a worst depth of a flaw that its formula does not hold for.
+/// Warns of a worst depth of a flaw that its formula does not hold for, or over which the mesh is too coarse.
 pub fn of_worst_depth(body: &SolidBody, reading: &Reading, value: f64) -> Option<Warning> {
     let Reading::Flaw { flaw, quantity } = *reading else { return None };
-    let (name, reach) = body.crack(flaw).ok()?.searched()?;
+    let crack = body.crack(flaw).ok().filter(|_| flaw_reading::is_worst_depth(quantity))?;
+    let (name, reach) = crack.searched()?;
     let part = value / reach;
-    (flaw_reading::is_worst_depth(quantity) && part > Flaw::SHALLOW).then(|| {
+    if part > Flaw::SHALLOW {
         let finding = warning::flaw_worst_is_deep(name, percent(part), percent(Flaw::SHALLOW));
-        finding.at(&body.name).of_subject(format!("{name} is deep"))
-    })
+        return Some(finding.at(&body.name).of_subject(format!("{name} is deep")));
+    }
+    let coarse = crack.too_few_elements_over(value)?;
+    Some(unresolved(body, coarse).of_subject(format!("{name} is shallow")))
+}
+
+/// Warns of a flaw along which the mesh is too coarse.
+fn unresolved(body: &SolidBody, Coarse { name, elements, finer }: Coarse) -> Warning {
+    let finding = warning::flaw_unresolved(name, format!("{elements:.1}"), format!("{finer:.0e}"));
+    finding.at(&body.name)
 }
 
 /// Returns `None` unless all of the body but its cracks is damaged alike, and that damage counts beside theirs.
@@ -100,17 +109,12 @@ pub fn of_even_damage(body: &SolidBody, state: &[f64]) -> Option<Finding> {
 /// Returns the flaws along which the mesh is too coarse, and those that have grown too deep for their formula.
 pub fn of_flaws(body: &SolidBody, state: &[f64]) -> Vec<Warning> {
     let coarse = body.cracks.iter().filter_map(|(_, crack)| crack.too_few_elements());
-    let unresolved = |Coarse { name, elements, finer }| {
-        let finding =
-            warning::flaw_unresolved(name, format!("{elements:.1}"), format!("{finer:.0e}"));
-        finding.at(&body.name)
-    };
     let grown = body.grown_parts(state).filter(|(_, part)| *part > Flaw::SHALLOW);
     let has_grown = |(name, part): (&str, f64)| {
         let finding = warning::flaw_has_grown(name, percent(part), percent(Flaw::SHALLOW));
         finding.at(&body.name).of_subject(format!("{name} has grown"))
     };
-    coarse.map(unresolved).chain(grown.map(has_grown)).collect()
+    coarse.map(|own| unresolved(body, own)).chain(grown.map(has_grown)).collect()
 }
 
 /// Returns `None` if nothing melts or the front keeps the tolerance.
