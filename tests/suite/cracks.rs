@@ -79,6 +79,26 @@ fn notched_strip_breaks_at_its_notch() {
     assert!(off(trial.get("plate.crack_growth"), length - 0.15e-3) < 1e-9);
 }
 
+/// A crack in the plane of symmetry breaks one row of elements, half of which is meshed, and costs as much as elsewhere.
+#[test]
+fn cracks_in_the_plane_of_symmetry_cost_what_others_do() {
+    let law = ", fracture = { model = \"at1\", strength = 300e6, energy = 45.0 }";
+    let run = |symmetry: &str| {
+        let notch = "notches = [{ from = [0.0, 0.0], to = [0.0, -0.15e-3] }]";
+        let shape = format!("{STRIP}\nsymmetry = \"{symmetry}\"\n{notch}");
+        let mut trial = Trial::new(&scene(&shape, &alumina(law), HELD, ""));
+        [0.05, 0.75].map(|part| {
+            cool(&mut trial, part * 300e6 / (YOUNG * EXPANSION));
+            ["dissipated_energy", "crack_length"].map(|name| trial.get(&format!("plate.{name}")))
+        })
+    };
+    let [[start, at_rest], [dissipated, length]] = run("quarter");
+    let [[whole_start, _], [whole, _]] = run("none");
+    assert!(off(start, whole_start) < 0.02, "{start} J, {whole_start} J of the whole");
+    assert!(off(dissipated, whole) < 0.02, "{dissipated} J, {whole} J of the whole");
+    assert!(off(at_rest, 0.15e-3) < 1e-12 && off(length, 0.4e-3) < 0.03, "{at_rest} {length}");
+}
+
 /// Time and place of the first crack.
 const FIRST: [&str; 3] = ["plate.first_crack_time", "plate.first_crack_x", "plate.first_crack_z"];
 

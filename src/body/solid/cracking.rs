@@ -79,6 +79,7 @@ impl Cracking {
         let along_y = if mesh.mirrored[1] { 2.0 } else { 1.0 };
         let along: &[usize] = if plan.cracks_in_section { &IN_SECTION } else { &IN_SPACE };
         let nodes = |axis: usize| mesh.axes[axis].nodes.clone();
+        let mirrored = |axis: usize| axis < 2 && mesh.mirrored[axis];
         let held = held(plan, along);
         let width = (plan.cracks_in_section && mesh.geometry == Geometry::Box)
             .then_some(along_y * thickness);
@@ -88,12 +89,17 @@ impl Cracking {
                 (Geometry::Box, true) => Form::PlaneStress { thickness },
                 (Geometry::Box, false) => Form::PlaneStrain { thickness },
             };
-            let domain = Domain { axes: IN_SECTION.map(nodes), form };
+            let domain =
+                Domain { axes: IN_SECTION.map(nodes), form, mirrored: IN_SECTION.map(mirrored) };
             let problem = DamageProblem::<2, 4, 4>::new(Elements::new(domain, law), held, threads);
             let notched = Notched::of(&problem, &plan.notches, (mesh, width));
             (Box::new(problem), notched)
         } else {
-            let domain = Domain { axes: IN_SPACE.map(nodes), form: Form::Space };
+            let domain = Domain {
+                axes: IN_SPACE.map(nodes),
+                form: Form::Space,
+                mirrored: IN_SPACE.map(mirrored),
+            };
             let problem = DamageProblem::<3, 8, 6>::new(Elements::new(domain, law), held, threads);
             (Box::new(problem), None)
         };

@@ -237,13 +237,14 @@ impl Section {
     }
 
     /// Number of ends within the section of the cracks that have a node among those broken from the start: two of each,
-    /// less the sides that it touches.
+    /// less the sides that it touches. A crack along a plane of symmetry at the first side does not end there.
     pub fn ends(&self, damage: &[f64], from_start: &[bool]) -> usize {
         let [columns, rows] = self.grid().counts;
         let of_region = |region: &Vec<usize>| {
+            let is_along_plane = self.mirrored[0] && region.iter().all(|node| node % columns <= 1);
             let is_at = |side: usize| {
                 region.iter().any(|node| match side {
-                    0 => node % columns == 0,
+                    0 => node % columns == 0 && !is_along_plane,
                     1 => node % columns == columns - 1,
                     2 => node / columns == 0,
                     _ => node / columns == rows - 1,
@@ -265,8 +266,11 @@ mod tests {
     /// Nodes a millimetre apart, those of a list broken.
     fn with_broken(nodes: &[[usize; 2]]) -> (Section, Vec<f64>) {
         let axis = |count: usize| (0..count).map(|i| i as f64 * 1e-3).collect();
-        let section =
-            Section { axes: [axis(9), axis(5)], form: Form::PlaneStrain { thickness: 1.0 } };
+        let section = Section {
+            axes: [axis(9), axis(5)],
+            form: Form::PlaneStrain { thickness: 1.0 },
+            mirrored: [false; 2],
+        };
         let mut damage = vec![0.5; 45];
         nodes.iter().for_each(|[i, j]| damage[i + 9 * j] = 1.0);
         (section, damage)
@@ -373,6 +377,18 @@ mod tests {
         let (_, other) = with_broken(&[[2, 4], [2, 3], [5, 2], [6, 2], [8, 1], [8, 2]]);
         let ends = [&start, &through, &other].map(|damage| section.ends(damage, &from_start));
         assert_eq!(ends, [3, 0, 3]);
+    }
+
+    #[test]
+    fn cracks_along_a_plane_of_symmetry_end_below_it() {
+        let along = [[0, 4], [1, 4], [0, 3], [1, 3]];
+        let (section, start) = with_broken(&[&along[..], &[[0, 1], [1, 1], [2, 1]]].concat());
+        let from_start = broken(&start);
+        let through: Vec<[usize; 2]> = (0..5).flat_map(|j| [[0, j], [1, j]]).collect();
+        let (_, through) = with_broken(&through);
+        let section = Section { mirrored: [true, false], ..section };
+        let ends = |damage: &[f64]| section.ends(damage, &from_start);
+        assert_eq!([&start, &through].map(|damage| ends(damage)), [2, 0]);
     }
 
     #[test]

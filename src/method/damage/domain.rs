@@ -27,6 +27,8 @@ pub struct Domain<const D: usize> {
     /// Coordinates of nodes along x (or r) and z, or along x, y and z [m], ascending.
     pub axes: [Vec<f64>; D],
     pub form: Form,
+    /// True for axes that begin at a plane of symmetry; their first element is half of one that stands across it.
+    pub mirrored: [bool; D],
 }
 
 /// A quadrature point of an element of `C` corners.
@@ -133,9 +135,11 @@ impl<const D: usize> Domain<D> {
         })
     }
 
-    /// Size of an element across a crack [m]: the geometric mean of its edges.
+    /// Size of an element across a crack [m]: the geometric mean of its edges, which planes of symmetry do not halve.
     pub fn mean_size(&self, element: [usize; D]) -> f64 {
-        let volume: f64 = self.size(element).iter().product();
+        let is_half = |axis: &usize| self.mirrored[*axis] && element[*axis] == 0;
+        let parts = 1 << (0..D).filter(is_half).count();
+        let volume = f64::from(parts) * self.size(element).iter().product::<f64>();
         if D == 2 { volume.sqrt() } else { volume.cbrt() }
     }
 

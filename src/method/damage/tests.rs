@@ -40,7 +40,8 @@ impl Bar {
         // One row of squares.
         let height = LENGTH / elements as f64;
         let axes = [even(LENGTH, elements), vec![0.0, height]];
-        let section = Section { axes, form: Form::PlaneStress { thickness: 1.0 } };
+        let section =
+            Section { axes, form: Form::PlaneStress { thickness: 1.0 }, mirrored: [false; 2] };
         let columns = elements + 1;
         let mut held = vec![false; 2 * 2 * columns];
         for row in 0..2 {
@@ -174,10 +175,13 @@ fn stiffness_is_the_derivative_of_forces() {
         let mut law = law(Dissipation::At1, split);
         law.elastic.is_plane_stress = false;
         for form in [Form::Axisymmetric, Form::PlaneStrain { thickness: 0.5 }] {
-            derivative::<2, 4, 4>(&Domain { axes: [x.clone(), z.clone()], form }, law);
+            derivative::<2, 4, 4>(
+                &Domain { axes: [x.clone(), z.clone()], form, mirrored: [false; 2] },
+                law,
+            );
         }
         let axes = [x.clone(), y.clone(), z.clone()];
-        derivative::<3, 8, 6>(&Domain { axes, form: Form::Space }, law);
+        derivative::<3, 8, 6>(&Domain { axes, form: Form::Space, mirrored: [false; 3] }, law);
     }
 }
 
@@ -190,9 +194,16 @@ fn cracks_in_space_are_those_of_plane_strain_between_fixed_planes() {
     let (columns, layers) = (14, 8);
     let mut law = law(Dissipation::At1, Split::NoTension);
     law.elastic.is_plane_stress = false;
-    let section =
-        Domain { axes: [even(columns), even(layers)], form: Form::PlaneStrain { thickness: h } };
-    let space = Domain { axes: [even(columns), even(1), even(layers)], form: Form::Space };
+    let section = Domain {
+        axes: [even(columns), even(layers)],
+        form: Form::PlaneStrain { thickness: h },
+        mirrored: [false; 2],
+    };
+    let space = Domain {
+        axes: [even(columns), even(1), even(layers)],
+        form: Form::Space,
+        mirrored: [false; 3],
+    };
     // Both ends are held along x, the lowest layer along z.
     let [nx, nz] = section.grid().counts;
     let is_end = |i: usize| i == 0 || i == columns;
@@ -252,7 +263,11 @@ fn bar_in_space_breaks_at_its_strength_with_the_energy_of_its_section() {
     let count = 61;
     let h = LENGTH / count as f64;
     let along = (0..=count).map(|i| h * i as f64).collect();
-    let domain = Domain { axes: [along, vec![0.0, h], vec![0.0, h]], form: Form::Space };
+    let domain = Domain {
+        axes: [along, vec![0.0, h], vec![0.0, h]],
+        form: Form::Space,
+        mirrored: [false; 3],
+    };
     let nodes = domain.grid().nodes();
     let mut held = vec![false; 3 * nodes];
     let is_end = |node: usize| [0, count].contains(&(node % (count + 1)));
@@ -292,7 +307,11 @@ fn bar_in_space_breaks_at_its_strength_with_the_energy_of_its_section() {
 fn damage_is_that_of_all_nodes() {
     let law = GradientDamage { scatter: 0.2, ..law(Dissipation::At1, Split::NoTension) };
     let even = |count: usize| (0..=count).map(|i| 0.01 * i as f64).collect::<Vec<_>>();
-    let domain = Domain { axes: [even(60), even(40)], form: Form::PlaneStress { thickness: 1.0 } };
+    let domain = Domain {
+        axes: [even(60), even(40)],
+        form: Form::PlaneStress { thickness: 1.0 },
+        mirrored: [false; 2],
+    };
     let nodes = domain.grid().nodes();
     let problem = SectionProblem::new(Elements::new(domain, law), vec![false; 2 * nodes], 1);
     let team = Team::new(1);

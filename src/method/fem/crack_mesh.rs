@@ -1,4 +1,4 @@
-//! Meshes of bodies that crack: uniform, as cracks may run anywhere.
+//! Meshes of bodies that crack: uniform, as cracks may run anywhere, also along planes of symmetry.
 
 use crate::method::mesh::{Axis, Geometry, Layering, Mesh, Weight};
 use crate::scene::{Mesh as MeshKeys, Shape, Solid};
@@ -9,14 +9,22 @@ pub fn crack_mesh(solid: &Solid, mirrored: [bool; 2], length: f64, factors: [f64
     let Solid { shape, mesh: keys, .. } = solid;
     let usual = keys.spacing_of_cracks(length);
     let [along, through] = [0, 1].map(|way| usual[way] / factors[way]);
-    let low = |axis: usize, half: f64| if mirrored[axis] { 0.0 } else { -half };
+    let lateral = |own: usize, half: f64, spacing: f64| match mirrored[own] {
+        true => half_axis(half, spacing),
+        false => axis([-half, half], spacing, Weight::Uniform),
+    };
     let height = axis([-shape.thickness(), 0.0], through, Weight::Uniform);
     let layering = Layering::default();
     match *shape {
         Shape::Box([lx, ly, _]) => {
-            let x = axis([low(0, lx / 2.0), lx / 2.0], along, Weight::Uniform);
-            let across = if solid.cracks_in_space() { along } else { ly };
-            let y = axis([low(1, ly / 2.0), ly / 2.0], across, Weight::Uniform);
+            let x = lateral(0, lx / 2.0, along);
+            let y = match solid.cracks_in_space() {
+                true => lateral(1, ly / 2.0, along),
+                false => {
+                    let low = if mirrored[1] { 0.0 } else { -ly / 2.0 };
+                    axis([low, ly / 2.0], ly, Weight::Uniform)
+                }
+            };
             Mesh { axes: [x, y, height], mirrored, geometry: Geometry::Box, layering }
         }
         Shape::Disc(disc) => {
@@ -35,4 +43,14 @@ fn axis([start, end]: [f64; 2], spacing: f64, weight: Weight) -> Axis {
         i => start + (end - start) * i as f64 / count as f64,
     };
     Axis::from_element_ends(&(0..=count).map(place).collect::<Vec<_>>(), 1, weight)
+}
+
+/// Half of an odd number of equal linear elements, at most `spacing` long [m]: half of the middle one stands beside the
+/// plane of symmetry at zero, so that a crack there breaks one row of elements, as it does elsewhere.
+fn half_axis(half: f64, spacing: f64) -> Axis {
+    let count = MeshKeys::elements_of_cracks(2.0 * half, spacing) | 1;
+    let place = |i: usize| half * (2 * i + 1) as f64 / count as f64;
+    let inner = (0..count / 2).map(place);
+    let ends: Vec<f64> = [0.0].into_iter().chain(inner).chain([half]).collect();
+    Axis::from_element_ends(&ends, 1, Weight::Uniform)
 }
