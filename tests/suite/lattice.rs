@@ -178,6 +178,30 @@ fn pulled_strips_have_the_stiffness_of_bars() {
     }
 }
 
+/// Strips are as long as they should be, whatever part of a column is left at their ends: mass and compliance follow
+/// the length.
+#[test]
+fn hexagons_fill_strips_of_any_length() {
+    for (arrangement, bound) in [("across", 0.005), ("along", 0.015)] {
+        let mut moduli = Vec::new();
+        for length in [0.1, 0.105, 0.11, 0.117, 0.125, 0.2] {
+            let material = format!("young = 30e9, poisson = 0.0, {STRONG}");
+            let keys = format!("spacing = 1e-2\narrangement = \"{arrangement}\"");
+            let text = pulled(&material, &keys);
+            let mut trial =
+                Trial::new(&text.replace("length = 0.2", &format!("length = {length}")));
+            let mass = 2300.0 * length * 0.1 * 0.05;
+            assert!((trial.get("strip.mass") / mass - 1.0).abs() < 1e-12, "{arrangement} {length}");
+            trial.set("strip.displacement", 1e-7);
+            trial.step(0.1);
+            moduli.push(trial.get("strip.force") * length / (30e9 * 0.1 * 0.05 * 1e-7));
+        }
+        let last = moduli[moduli.len() - 1];
+        let even = moduli.iter().all(|own| (own / last - 1.0).abs() < bound);
+        assert!(even && last > 0.93 && last < 1.0, "{arrangement}: {moduli:?}");
+    }
+}
+
 /// A saved state continues to the bit, in another instance and on other numbers of threads.
 #[test]
 fn states_continue_to_the_bit() {

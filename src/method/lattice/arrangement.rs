@@ -154,9 +154,7 @@ impl Strip {
                 let facet = spacing / 3.0_f64.sqrt();
                 let pairs = neighbours(&places, HORIZON * spacing);
                 let pairs = pairs.into_iter().map(|ends| Pair { ends, facet }).collect();
-                let area = COLUMN * spacing * spacing;
-                let cell = Cell { area, moment: GYRATION * spacing * spacing * area };
-                let cells = vec![cell; places.len()];
+                let cells = self.cells_of_hexagons(&places, spacing);
                 (places, pairs, cells)
             }
         };
@@ -210,6 +208,39 @@ impl Strip {
         self.columns().flat_map(of_column).collect()
     }
 
+    /// Cells of hexagons. Those of the outermost columns extend to the ends of the strip.
+    fn cells_of_hexagons(&self, places: &[[f64; 2]], spacing: f64) -> Vec<Cell> {
+        let area = COLUMN * spacing * spacing;
+        let cell = Cell { area, moment: GYRATION * spacing * spacing * area };
+        let beyond = 0.5 * (self.length * self.depth - places.len() as f64 * area).max(0.0);
+        let outermost = outermost(places) - ROUNDING * spacing;
+        let in_column = places.iter().filter(|[x, _]| *x > outermost).count().max(1) as f64;
+        // The part beyond each is a rectangle.
+        let (more, height) = (beyond / in_column, self.depth / in_column);
+        let width = more / height;
+        let lever = 0.5 * (self.column() + width);
+        let moment = more * (lever * lever + (width * width + height * height) / 12.0);
+        let stretched = Cell { area: area + more, moment: cell.moment + moment };
+        places.iter().map(|[x, _]| if x.abs() > outermost { stretched } else { cell }).collect()
+    }
+
+    /// Part of the stiffness of links that those of hexagons to the platens at the ends have, at a Poisson's ratio: they
+    /// stand for the strip up to its ends. A platen holds one column of links across, and two of links along, of which
+    /// diagonals and links of both rows bear the load in the proportion of their stiffness.
+    pub fn part_to_platens(&self, places: &[[f64; 2]], poisson: f64) -> f64 {
+        let beyond = (0.5 * self.length - outermost(places)).max(0.0) / self.column();
+        // Stiffness across over that along a link.
+        let across = (1.0 - 3.0 * poisson) / (1.0 + poisson);
+        match self.arrangement {
+            Arrangement::Across => 1.0 / (1.0 + beyond),
+            Arrangement::Along => {
+                let per_column = 1.25 + 0.75 * across;
+                (2.25 + 0.75 * across) / (0.5 + per_column * (2.0 + beyond))
+            }
+            Arrangement::Random { .. } => 1.0,
+        }
+    }
+
     fn is_in_notch(&self, [x, y]: [f64; 2]) -> bool {
         self.notch.is_some_and(|notch| {
             y < notch.depth && (x - notch.at).abs() <= 0.5 * notch.width + ROUNDING * self.spacing
@@ -226,6 +257,11 @@ impl Strip {
         let lower = 0.5 * (a[1] + b[1] - height);
         ((notch.depth - lower) / height).clamp(0.0, 1.0)
     }
+}
+
+/// Distance of the outermost places from x = 0 [m].
+fn outermost(places: &[[f64; 2]]) -> f64 {
+    places.iter().fold(0.0, |most, [x, _]| most.max(x.abs()))
 }
 
 /// Pairs of places nearer than a distance [m], the lower number first, ascending.

@@ -201,7 +201,8 @@ fn beams_swing_at_the_frequency_of_timoshenko() {
 #[test]
 fn damping_takes_energy_at_its_rate() {
     let length = 0.1;
-    let period = 2.0 * length / (30e9_f64 / DENSITY).sqrt();
+    // Of ten rows those at the faces lack half a link.
+    let period = 2.0 * length / (0.95 * 30e9_f64 / DENSITY).sqrt();
     let damping = 0.3 / period;
     let lattice = moving(strip(length, 0.02, 2e-3, 0.0), damping);
     let mut motion = lattice.initial_state();

@@ -355,6 +355,12 @@ pub(super) fn links(plan: &LatticePlan, particles: &Particles, loaded: &[usize])
     let reach = PROTECTED * particles.spacing;
     let is_far = |i: usize| loaded.iter().all(|&j| distance(places[i], places[j]) > reach);
     let far: Vec<bool> = (0..places.len()).map(is_far).collect();
+    let mut is_loaded = vec![false; places.len()];
+    loaded.iter().for_each(|&i| is_loaded[i] = true);
+    let to_platens = match plan.support {
+        Support::Ends => plan.strip.part_to_platens(places, plan.sheet.poisson),
+        Support::ThreePoint { .. } => 1.0,
+    };
     let sheet = match plan.strip.arrangement {
         Arrangement::Random { .. } => plan.sheet.of_random_links(),
         _ => plan.sheet,
@@ -362,7 +368,9 @@ pub(super) fn links(plan: &LatticePlan, particles: &Particles, loaded: &[usize])
     let of_pair = |(number, pair): (usize, &super::Pair)| {
         let [a, b] = pair.ends.map(|i| places[i]);
         let length = distance(a, b);
-        let [axial, flexural] = sheet.stiffness(length, pair.facet);
+        let [a_is_loaded, b_is_loaded] = pair.ends.map(|i| is_loaded[i]);
+        let part = if a_is_loaded == b_is_loaded { 1.0 } else { to_platens };
+        let [axial, flexural] = sheet.stiffness(length, pair.facet).map(|own| part * own);
         let strength =
             crate::laws::fracture::scattered(plan.scatter, plan.seed, [number as u64, 0]);
         let flexural = flexural.max(SPIN * axial * length * length);
