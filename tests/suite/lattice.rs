@@ -202,6 +202,22 @@ fn hexagons_fill_strips_of_any_length() {
     }
 }
 
+/// A notch without width cuts links beside a column that stands where it is, and takes out no particles.
+#[test]
+fn cuts_at_a_column_are_like_those_beside_it() {
+    let column = 0.75_f64.sqrt() * 76.2e-3 / 8.0;
+    let run = |at: f64| {
+        let notch = format!("depth = 19e-3, at = {at:e}, width = 0.0");
+        let text = beam("control = \"opening\"").replace("depth = 19e-3, width = 2e-3", &notch);
+        let mut trial = Trial::new(&text);
+        let mass = trial.get("beam.mass");
+        (mass, open(&mut trial, "beam.opening", 1e-6, 1)[0])
+    };
+    let (beside, at) = (run(2.5 * column - 1e-6), run(2.5 * column));
+    assert!((at.0 / beside.0 - 1.0).abs() < 1e-12, "{at:?} {beside:?}");
+    assert!((at.1 / beside.1 - 1.0).abs() < 1e-9, "{at:?} {beside:?}");
+}
+
 /// A saved state continues to the bit, in another instance and on other numbers of threads.
 #[test]
 fn states_continue_to_the_bit() {

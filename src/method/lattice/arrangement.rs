@@ -40,6 +40,23 @@ pub struct Notch {
     pub width: f64,
 }
 
+impl Notch {
+    /// Side of its middle on which a place x [m] is, −1 on the left and 1 on the right. A particle in the plane of a cut
+    /// without width is on the right, and one above a wider notch on neither.
+    pub fn side(&self, x: f64) -> f64 {
+        match x - self.at {
+            0.0 if self.width > 0.0 => 0.0,
+            from => {
+                if from < 0.0 {
+                    -1.0
+                } else {
+                    1.0
+                }
+            }
+        }
+    }
+}
+
 /// Particles with the pairs of neighbours.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Particles {
@@ -242,7 +259,7 @@ impl Strip {
     }
 
     fn is_in_notch(&self, [x, y]: [f64; 2]) -> bool {
-        self.notch.is_some_and(|notch| {
+        self.notch.filter(|notch| notch.width > 0.0).is_some_and(|notch| {
             y < notch.depth && (x - notch.at).abs() <= 0.5 * notch.width + ROUNDING * self.spacing
         })
     }
@@ -250,7 +267,7 @@ impl Strip {
     /// Part of the facet of a link that is in the notch: the facet stands across the middle of the link.
     fn part_in_notch(&self, facet: f64, [a, b]: [[f64; 2]; 2]) -> f64 {
         let Some(notch) = self.notch else { return 0.0 };
-        if (a[0] - notch.at) * (b[0] - notch.at) >= 0.0 {
+        if notch.side(a[0]) * notch.side(b[0]) >= 0.0 {
             return 0.0;
         }
         let height = facet * (b[0] - a[0]).abs() / distance(a, b);

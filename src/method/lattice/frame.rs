@@ -160,7 +160,7 @@ impl<'a> Faces<'a> {
     /// Horizontal distance of the sides of a notch at the lower face, which turn with their particles.
     pub fn mouth(&self, notch: Notch, unknown: &[Option<usize>]) -> Option<Combination> {
         let nearest = |side: f64| {
-            let of_side = self.at(notch.at, Face::Lower, |x| (x - notch.at) * side > 0.0);
+            let of_side = self.at(notch.at, Face::Lower, |x| notch.side(x) * side > 0.0);
             of_side.first().map(|(i, _)| *i)
         };
         let sides = [(nearest(-1.0)?, -1.0), (nearest(1.0)?, 1.0)];
