@@ -395,6 +395,24 @@ fn states_without_momentum_along_z_are_accepted() {
     }
 }
 
+/// A quarter of a body that moves by explicit steps may pass its planes, too.
+#[test]
+fn nodes_beyond_a_plane_of_symmetry_are_warned_of() {
+    let trial = Trial::new(&gel(&format!("{BALL}\n{FALLS}\nsymmetry = \"quarter\"")));
+    let is_warned = |state: &impinge::model::State| {
+        let found = trial.model.warnings(state);
+        found.iter().any(|own| own.finding().id == "body_is_through_its_mirror")
+    };
+    assert!(!is_warned(&trial.state));
+    // Nine numbers of the whole body come before the displacements.
+    let through = |node: usize| {
+        let mut state = trial.state.clone();
+        state.bodies[0][9 + 3 * node] = -0.1;
+        is_warned(&state)
+    };
+    assert!((0..5).any(through));
+}
+
 #[test]
 fn what_tears_a_mesh_is_refused_and_changes_nothing() {
     let text = gel(&format!("{BALL}\nstart = {{ velocity = [0.0, 0.0, -60.0] }}"));

@@ -25,7 +25,8 @@ pub use totals::offered_totals;
 pub use trials::SmallTrials;
 
 use crate::body::{BodyError, Reading};
-use crate::method::large_strain::Failure;
+use crate::method::large_strain::{Deformable, Failure, through_mirror};
+use crate::warning::{self, Warning};
 use probes::Probed;
 use snapshot::Snapshot;
 use totals::Sums;
@@ -59,6 +60,16 @@ fn named(body: &str, failure: Failure) -> BodyError {
         Failure::Halted(halt) => BodyError::Halted { body, halt },
         failure => BodyError::LargeStrain { body, failure },
     }
+}
+
+/// Warns of nodes of a body that lie within its mirror image, from displacements of its nodes [m].
+fn warning_on_mirrors(
+    (name, body): (&str, &Deformable),
+    displacement: &[[f64; 3]],
+) -> Option<Warning> {
+    let [x, y, z] = through_mirror(body, displacement)?;
+    let finding = warning::body_is_through_its_mirror(format!("{x:.2e}, {y:.2e}, {z:.2e}"));
+    Some(finding.at(name).whatever_its_numbers())
 }
 
 /// Elements from which on more than one thread is worthwhile.

@@ -6,10 +6,10 @@ use super::probes::Probes;
 use super::snapshot::{Seen, Snapshot, columns, copies};
 use super::totals::Sums;
 use super::warming::{Temperatures, Warming, heat_totals};
-use super::{View, is_large, named, plan};
+use super::{View, is_large, named, plan, warning_on_mirrors};
 use crate::body::{
-    Acts, Advice, Approach, BodyError, Events, Given, Giver, Link, Maxima, Reading, Resources,
-    Structured,
+    Acts, Advice, Approach, BodyError, Events, Given, Giver, Link, Maxima, Occasion, Reading,
+    Resources, Structured,
 };
 use crate::inputs::InputLayout;
 use crate::method::large_strain::{
@@ -386,6 +386,15 @@ impl Approach for MovingBody {}
 impl Advice for MovingBody {
     fn notes(&self) -> Vec<String> {
         self.advised.notes()
+    }
+
+    fn warnings(&self, state: &[f64], occasion: Occasion) -> Vec<Warning> {
+        let displacement = match occasion {
+            Occasion::Step => self.structure(state).displacement,
+            Occasion::Response { .. } | Occasion::End => return Vec::new(),
+        };
+        let own = (&self.name[..], &self.dynamics.body);
+        warning_on_mirrors(own, &displacement).into_iter().collect()
     }
 
     fn warning_on_value(&self, reading: &Reading, value: f64) -> Option<Warning> {

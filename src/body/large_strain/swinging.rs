@@ -9,7 +9,7 @@ use super::probes::Probes;
 use super::snapshot::{Seen, Snapshot, columns, copies};
 use super::totals::Sums;
 use super::warming::Temperatures;
-use super::{View, is_large, named, plan};
+use super::{View, is_large, named, plan, warning_on_mirrors};
 use crate::body::{
     Acts, Advice, Approach, BodyError, Events, Given, Giver, Maxima, Occasion, Reading, Resources,
     Structured,
@@ -17,7 +17,7 @@ use crate::body::{
 use crate::inputs::InputLayout;
 use crate::method::large_strain::{
     Course, Courses, Deformable, Drive, Failure, IMPLICIT_STEPS, IMPLICIT_WORK, ImplicitDynamics,
-    Motion, through_mirror,
+    Motion,
 };
 use crate::method::sph::ParticleFields;
 use crate::runtime::allowance::Allowance;
@@ -333,14 +333,6 @@ impl SwingingBody {
         })
     }
 
-    /// Warns of nodes that lie within the mirror image of their body.
-    fn warning_on_mirrors(&self, state: &[f64]) -> Option<Warning> {
-        let motion = self.structure(state).motion;
-        let [x, y, z] = through_mirror(&self.dynamics.body, &motion.displacement)?;
-        let finding = warning::body_is_through_its_mirror(format!("{x:.2e}, {y:.2e}, {z:.2e}"));
-        Some(finding.at(&self.name).whatever_its_numbers())
-    }
-
     /// Warns of bends beyond yield that the mesh resolves poorly.
     fn warning_on_bends(&self, state: &[f64]) -> Option<Warning> {
         let Motion { ledger, history, .. } = self.structure(state).motion;
@@ -466,7 +458,9 @@ impl Advice for SwingingBody {
     fn warnings(&self, state: &[f64], occasion: Occasion) -> Vec<Warning> {
         match occasion {
             Occasion::Step => {
-                let all = [self.warning_on_mirrors(state), self.warning_on_jolts(state)];
+                let displacement = self.structure(state).motion.displacement;
+                let own = (&self.name[..], &self.dynamics.body);
+                let all = [warning_on_mirrors(own, &displacement), self.warning_on_jolts(state)];
                 all.into_iter().flatten().collect()
             }
             Occasion::Response { .. } => Vec::new(),
