@@ -235,6 +235,21 @@ def test_all_forms_of_vtk_arrays_are_read(tmp_path, form, compressed):
     assert surface.integral(surface.data["q"]) == pytest.approx(5.5)
 
 
+@pytest.mark.parametrize("form", ["ascii", "binary"])
+@pytest.mark.parametrize("is_first", [False, True])
+def test_what_vtk_tells_about_an_array_is_no_part_of_it(tmp_path, form, is_first):
+    """VTK writes the range of norms into the element of an array."""
+    keys = """<InformationKey name="L2_NORM_RANGE" location="vtkDataArray" length="2">
+    <Value index="0">0</Value><Value index="1">2.2</Value></InformationKey>"""
+    parts = [r"\1", keys, r"\2"] if is_first else [r"\1", r"\2", keys]
+    text = vtk_arrays(form, False).decode()
+    path = tmp_path / "a.vtp"
+    path.write_text(re.sub(r"(<DataArray[^>]*>)([^<]*)", "".join(parts), text))
+    surface = Surface.read(path)
+    assert surface.areas == pytest.approx([0.5, 0.5, 1.0])
+    assert surface.integral(surface.data["q"]) == pytest.approx(5.5)
+
+
 def test_flat_grids_of_vtk_are_surfaces(tmp_path):
     text = """<VTKFile type="RectilinearGrid"><RectilinearGrid><Piece Extent="0 2 0 1 0 0">
     <PointData><DataArray type="Float64" Name="T" format="ascii">0 1 3 10 11

@@ -220,7 +220,7 @@ class Decoder:
             raise ValueError(f"{components} components (allowed: at most {_MOST_COMPONENTS})")
         expected = None if many is None else many * components
         if array.attrib["format"] == "ascii":
-            values = np.array("".join(array.itertext()).split(), dtype=kind)
+            values = np.array(_own_text(array).split(), dtype=kind)
         else:
             length = None if expected is None else expected * np.dtype(kind).itemsize
             values = np.frombuffer(self._bytes(array, length), dtype=self.order + kind)
@@ -238,7 +238,7 @@ class Decoder:
             if self.is_raw:
                 return self._blocks(lambda start, size: data[start : start + size], length)
         elif form == "binary":
-            data = (array.text or "").strip().encode()
+            data = _own_text(array).strip().encode()
         else:
             raise ValueError(f"its format is {form} (allowed: ascii, binary, appended)")
         return self._blocks_of_base64(data, length)
@@ -291,6 +291,11 @@ class Decoder:
             ),
             length,
         )
+
+
+def _own_text(array: ElementTree.Element) -> str:
+    """The text of an array without that of elements inside, which hold what is known about it."""
+    return "".join([array.text or "", *(child.tail or "" for child in array)])
 
 
 def _whole_bytes(data: bytes, length: int) -> bytes:
