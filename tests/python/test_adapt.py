@@ -2,6 +2,7 @@
 
 import csv
 import subprocess
+from dataclasses import replace
 
 import h5py
 import meshio
@@ -246,6 +247,10 @@ def test_drops_beside_the_cells_are_told(tmp_path):
     assert TILES.integral(series.values[0]) * 1e-5 == pytest.approx(1e-9)
     _, total = spray_frames(path, TILES, window=1e-5, outside="drop", factor=-1.0)
     assert total == pytest.approx({"brought": -4e-9, "given": -1e-9, "lost": -3e-9})
+    deep = replace(TILES, depth=0.5)
+    same, total = spray_frames(path, deep, window=1e-5, outside="drop")
+    assert total == pytest.approx({"brought": 4e-9, "given": 1e-9, "lost": 3e-9})
+    assert same.values == pytest.approx(series.values, rel=1e-12)
     path.write_text("x,y,mass\n0,0,-1\n")
     with pytest.raises(SurfaceError, match="drop 1: column mass: -1.0 is below 0"):
         spray_frames(path, TILES, window=1e-5)

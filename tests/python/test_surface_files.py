@@ -296,6 +296,24 @@ def test_units_and_scenes_tell_the_same_cells(scene, name, shape, location):
             assert surface.areas == pytest.approx(of_scene.areas, rel=1e-12)
 
 
+@pytest.mark.parametrize("depth", [1e-4, 1.0])
+def test_areas_of_walls_of_plane_drops_are_per_depth(tmp_path, depth):
+    """In scenes as in their units, which count per metre of depth."""
+    text = (SCENES / "drop.toml").read_text()
+    text = text.replace("spacing = 1e-5", "spacing = 1e-5\ndimension = 2")
+    tiles = f"tiles = {{ count = [20, 1], size = [8e-4, {depth}] }}"
+    path = tmp_path / "scene.toml"
+    path.write_text(text.replace("rings = { count = 4, radius = 1e-4 }", tiles))
+    of_scene = Surface.of(path, "wall")
+    with Unit(path) as unit:
+        areas = unit.areas("wall")
+        assert areas == pytest.approx(np.full(20, 4e-5), rel=1e-12)
+        for surface in (of_scene, Surface.of(unit, "wall"), Surface.of(unit.folder, "wall")):
+            assert surface.areas.ravel() == pytest.approx(areas, rel=1e-12)
+            assert surface.depth == pytest.approx(depth)
+            assert np.ptp(surface.cells.nodes[:, 1]) == pytest.approx(depth)
+
+
 @pytest.mark.parametrize(
     "footprint",
     [

@@ -1,5 +1,7 @@
 """Maps between surfaces: what they keep, where they are exact, and what they refuse."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from impinge.surface import Placement, Series, Surface, SurfaceError
@@ -35,6 +37,27 @@ def test_integrals_are_kept(first, second):
     assert abs(flux.lost(values)) < 1e-13 * scale
     amounts = source.map_to(target, quantity="extensive")(values)
     assert abs(values.sum() - amounts.sum()) < 1e-13 * np.abs(values).sum()
+
+
+@pytest.mark.parametrize(("first", "second"), [(1.0, 0.5), (0.5, 1.0), (0.5, 0.5)])
+def test_surfaces_with_a_depth_have_integrals_and_amounts_per_metre_of_it(first, second):
+    """What crosses is the integral or the amount of either side times its depth."""
+    size = (3.0, 0.5)
+    source = replace(Surface.tiles((6, 1), size), depth=first)
+    target = replace(Surface.tiles((4, 1), size), depth=second)
+    values = np.random.default_rng(0).normal(size=source.shape)
+    total = first * source.integral(values)
+    assert total == pytest.approx(0.25 * values.sum())
+    flux = source.map_to(target)
+    assert second * target.integral(flux(values)) == pytest.approx(total, rel=1e-12)
+    assert first * flux.integral(values) == pytest.approx(total, rel=1e-12)
+    assert flux(np.ones(6)) == pytest.approx(np.ones((4, 1)))
+    amounts = source.map_to(target, quantity="extensive")
+    assert second * amounts(values).sum() == pytest.approx(first * values.sum(), rel=1e-12)
+    short = replace(Surface.tiles((4, 1), (1.5, 0.5)), depth=second)
+    for quantity, whole in (("intensive", source.integral(np.ones((6, 1)))), ("extensive", 6.0)):
+        lost = source.map_to(short, quantity=quantity, outside="drop").lost(np.ones(6))
+        assert lost == pytest.approx(0.5 * whole, rel=1e-12)
 
 
 def test_integrals_of_rings_are_kept():

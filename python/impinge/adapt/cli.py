@@ -259,7 +259,9 @@ def _write(options: argparse.Namespace, target: Surface, frames: Series, unit: s
         held=options.hold,
         single=target.size == 1,
     )
-    total = target.integral(frames.values) if target.location == "cells" else frames.values
+    total = frames.values
+    if target.location == "cells":
+        total = target.integral(total) * target.depth
     print(
         f"{options.out}: {len(frames)} times, {target.size} cells, integral "
         f"{total.min():.9g} to {total.max():.9g} {unit}"

@@ -87,7 +87,7 @@ def spray_frames(
     amounts[first, np.arange(len(rows))] = factor * columns[amount]
     given = carry(amounts)
     begin = window * (place.min() + np.arange(len(amounts)))
-    total = {"brought": float(amounts.sum()), "given": float(given.sum())}
+    total = {"brought": float(amounts.sum()), "given": float(given.sum()) * target.depth}
     lost = total["brought"] - total["given"]
     total["lost"] = lost if abs(lost) > NOTHING * abs(total["brought"]) else 0.0
     flux = given / target.areas / window

@@ -5,6 +5,8 @@ of the source share; amounts ``Q_i = Σ_j (A_ij / A_j) Q_j``. Values at nodes st
 q_n`` with φ the linear functions of the triangles, and are integrated over the pieces: ``B_in =
 ∫_{cell i} φ_n dA``; at nodes of both, ``q_i = Σ_n ∫ψ_i φ_n dA q_n / ∫ψ_i dA``, so that constants
 stay constants. Source: P. E. Farrell et al. (2009), doi 10.1016/j.cma.2009.03.004.
+
+Integrals and amounts on a surface with a depth are per metre of it.
 """
 
 from __future__ import annotations
@@ -119,12 +121,15 @@ def _densities(source: Surface, target: Surface, shared: csr_matrix, outside: st
     areas = _areas(target)
     inverse = np.divide(1.0, areas, out=np.zeros_like(areas), where=areas > 0)
     matrix = csr_matrix(diags_array(inverse) @ shared)
-    return Map(source, target, matrix, "conservative", "intensive", outside, _areas(source), areas)
+    weights = _areas(source) / source.depth, areas / source.depth
+    return Map(source, target, matrix, "conservative", "intensive", outside, *weights)
 
 
 def _amounts(source: Surface, target: Surface, shared: csr_matrix, outside: str) -> Map:
-    ones = np.ones(source.size), np.ones(target.size)
-    return Map(source, target, csr_matrix(shared), "conservative", "extensive", outside, *ones)
+    ratio = source.depth / target.depth
+    weights = np.ones(source.size), np.full(target.size, 1.0 / ratio)
+    matrix = csr_matrix(shared * ratio)
+    return Map(source, target, matrix, "conservative", "extensive", outside, *weights)
 
 
 def _points_in_cells(source: Surface, target: Surface, tolerance: float) -> csr_matrix:

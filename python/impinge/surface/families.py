@@ -14,7 +14,7 @@ from ..errors import UnitError
 from ..measure import metres
 from ..reading import LARGEST_JSON, LARGEST_SCENE, read_bytes, reading
 from ..unit.archive import open_archive
-from ..unit.cells import PLACE, parse_cells
+from ..unit.cells import PLACE, is_per_depth, parse_cells
 from .cells import Scattered
 from .errors import SurfaceError
 from .surface import Surface
@@ -113,6 +113,8 @@ def _from_cells(cells: dict[str, Any], name: str, z: float | None) -> Surface:
             count = tuple(int(n) for n in cells["count"])
             middle = 0.5 * (x.min() + x.max()), 0.5 * (y.min() + y.max())
             surface = Surface.tiles(count, size * count, middle, z=z)
+            if is_per_depth(cells):
+                surface = replace(surface, depth=float(size[1]))
         case "grid":
             surface = _grid(cells, x, y, name)
         case _:
@@ -175,7 +177,9 @@ def _of_scene(path: Path, name: str) -> Surface:
         case {"rings": {"count": count, "radius": radius}}:
             return Surface.rings(count, _outer(entry, radius), at, z=z)
         case {"tiles": {"count": count, "size": size}}:
-            return Surface.tiles(count, _metres(*size), at, z=z)
+            size = _metres(*size)
+            depth = size[1] if _is_plane_wall(scene, entry) else 1.0
+            return replace(Surface.tiles(count, size, at, z=z), depth=depth)
         case {"disc": {"radius": radius}}:
             return Surface.rings(1, _outer(entry, radius), at, z=z)
         case {"ring": {"inner": inner, "outer": outer}}:
@@ -185,6 +189,11 @@ def _of_scene(path: Path, name: str) -> Surface:
     raise SurfaceError(
         f"{path}: `{name}` has no rings, tiles, disc or grid to map to, but {footprint or entry}"
     )
+
+
+def _is_plane_wall(scene: dict[str, Any], entry: dict[str, Any]) -> bool:
+    """Whether this is the wall of a plane drop, which has a single row of tiles."""
+    return scene.get("body", {}).get(entry.get("under"), {}).get("dimension") == 2
 
 
 def _metres(*given: Any) -> tuple[float, ...]:

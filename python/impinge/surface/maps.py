@@ -38,7 +38,7 @@ class Map:
         What is done with what lies off the other surface.
     source_weights, target_weights
         Of conservative maps: the integral is the sum of weights times values, on either side; [m2]
-        for intensive quantities, 1 for extensive ones.
+        for intensive quantities, 1 for extensive ones. Of the source's depth where that has one.
     off
         Of consistent maps: which places of the target lie off the source and get NaN.
     """

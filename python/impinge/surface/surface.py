@@ -52,12 +52,16 @@ class Surface:
         Height of the plane [m].
     data
         Fields that a file brought, by name; each a value (or a row of components) a place.
+    depth
+        Extent along y [m] of the wall of a plane drop, whose areas, integrals and amounts are per
+        metre of depth; 1 of all else. Maps cut the cells themselves, over their whole depth.
     """
 
     cells: Rings | Polygons | Scattered
     location: Literal["cells", "points"]
     z: float = 0.0
     data: dict[str, np.ndarray] = field(default_factory=dict)
+    depth: float = 1.0
 
     # Makers
 
@@ -202,12 +206,14 @@ class Surface:
 
     @property
     def areas(self) -> np.ndarray:
-        """Areas that values stand for [m2], of :attr:`shape`; of nodes: ∫ φ dA."""
+        """Areas that values stand for [m2], of :attr:`shape`; of nodes: ∫ φ dA. Of walls of plane
+        drops: widths [m].
+        """
         if isinstance(self.cells, Scattered):
             raise SurfaceError("points without cells have no areas")
         if self.location == "points" and not isinstance(self.cells, Tiles):
-            return nodal_areas(self.cells)
-        return self.cells.areas.reshape(self.shape)
+            return nodal_areas(self.cells) / self.depth
+        return self.cells.areas.reshape(self.shape) / self.depth
 
     def on_points(self) -> Surface:
         """The same with values at the nodes of a mesh, or at the middles of tiles."""

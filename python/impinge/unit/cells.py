@@ -66,6 +66,14 @@ def areas_of(family: Mapping[str, Any], indices: tuple[int, ...]) -> np.ndarray:
     return areas[[place]]
 
 
+def is_per_depth(family: Mapping[str, Any]) -> bool:
+    """Whether areas are per metre of depth [m]: the widths of tiles, as of walls of plane drops."""
+    areas, size = family.get("area", []), family.get("size")
+    if family.get("kind") != "wall" or not len(areas) or size is None:
+        return False
+    return np.allclose(areas, size[0], rtol=1e-9, atol=0.0)
+
+
 def _check(family: Any) -> None:
     if not isinstance(family, dict):
         raise ValueError("is no table")

@@ -256,7 +256,8 @@ class Unit:
 
     def areas(self, name: str) -> np.ndarray:
         """The areas [m²] of a family's cells, flat, or that of an element's cell, at the start of
-        loads whose radius is an input. Raises `UnitError` if they are not told."""
+        loads whose radius is an input; of walls of plane drops per metre of depth [m]. Raises
+        `UnitError` if they are not told."""
         _, cells, indices = self._cells(name)
         if indices:
             self.variable(name)  # or there is no such element
