@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from impinge import Connection, Function, Master, StepDiscarded, Unit
 from impinge.master import Bond, Graded, MasterError, MasterWarning
+from impinge.reporting.coupled import coupled
 from linear_unit import make
 
 RING = [("a.y", "b.u"), ("b.y", "a.u")]
@@ -356,6 +357,63 @@ def test_areas_of_a_flux_follow_the_radius_of_its_load(pack, fmi, naming):
         passed = result["energy_passed.law.y"].values[-1]
         assert passed == pytest.approx(result[count].values[-1], rel=1e-3)
         assert result.attrs[f"energy_residual.{links[0][1]}"] < 1e-3
+
+
+PLANE = {
+    "spacing = 1e-5": "spacing = 1e-5\ndimension = 2",
+    "rings = { count = 4, radius = 1e-4 }": "tiles = { count = [20, 1], size = [8e-4, 1e-4] }",
+}
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_energies_of_plane_drops_are_per_metre_of_depth(pack, fmi):
+    """What its wall gets is what the drop counts, in the same unit of measurement."""
+    law = Function(lambda q: 300.0 + 0.0 * q, {"q": ("W/m2", (20, 1))}, {"T": ("K", (20, 1))})
+    units = {"drop": pack("drop", PLANE, fmi), "law": law}
+    links = [("drop.wall.heat_flux", "law.q"), ("law.T", "drop.wall.temperature")]
+    for given in ("drop.wall.heat_flux", Bond("drop.wall.heat_flux", total="drop.drop.heat")):
+        options = {"step": 1e-7, "energy": [given], "outputs": ["drop.drop.heat"]}
+        with Master(units, links, **options) as master:
+            result = master.run(2e-6)
+        passed, heat = result["energy_passed.drop.wall.heat_flux"], result["drop.drop.heat"]
+        assert heat.values[-1] > 1e-4
+        assert passed.values[-1] == pytest.approx(heat.values[-1], rel=1e-9)
+        assert passed.attrs["units"] == heat.attrs["units"] == "J/m"
+        assert result["energy_residual.drop.wall.heat_flux"].attrs["units"] == "J/m"
+        assert [balance["unit"] for balance in coupled(result)["balances"]] == ["J/m"]
+
+
+def per_depth_or_not(power, energy, **more):
+    """In what a power of this unit passes on whose total is in `energy`."""
+    law = Function(
+        lambda time: {"y": 3.0, "e": 3.0 * time}, {}, {"y": power, "e": energy}, name="law"
+    )
+    sink = Function(lambda q: q, {"q": power}, {"p": power}, name="sink")
+    options = {"step": 1.0, "energy": [Bond("law.y", total="law.e", **more)]}
+    with Master({"law": law, "sink": sink}, [("law.y", "sink.q")], **options) as master:
+        passed = master.run(2.0)["energy_passed.law.y"]
+    assert passed.values[-1] == pytest.approx(6.0)
+    return passed.attrs["units"]
+
+
+@pytest.mark.parametrize(
+    ("power", "energy", "more", "wrong"),
+    [
+        ("W", "J", {}, "J/m"),
+        ("W/m", "J/m", {}, "J"),
+        ("W/m3", "J/m3", {}, "J"),
+        ("W/m2", "J/m", {"area": 0.1}, "K"),
+        ("W/m2", "J", {"area": 0.1}, "J/m2"),
+        ("W/m", "J", {"area": 0.1}, "J/m2"),
+        ("W/m2", "J/m", {}, "W"),
+    ],
+)
+def test_powers_per_metre_have_energies_per_metre(power, energy, more, wrong):
+    """An area that is given is in m2 or in m, as the total needs it."""
+    assert per_depth_or_not(power, energy, **more) == energy
+    allowed = "J or J/m" if power == "W/m2" or more else energy
+    with pytest.raises(MasterError, match=f"the total law.e is in .*, not in {allowed}$"):
+        per_depth_or_not(power, wrong, **more)
 
 
 def test_rings_of_flat_names_have_radii(pack):

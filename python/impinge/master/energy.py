@@ -15,10 +15,12 @@ from impinge.master.connection import Link, split
 from impinge.master.errors import MasterError
 from impinge.measure import BASE, KELVIN
 from impinge.unit.access import Reader
+from impinge.unit.cells import is_per_depth
 
 _NOT_M = [0, 2, 3, 4, 5, 6]  # metres are counted by themselves, and radians are pure numbers
 _POWER = np.array([1, -3, 0, 0, 0, 0])
 _ENERGY = np.array([1, -2, 0, 0, 0, 0])
+_ENERGIES = {2: "J", 1: "J/m", 0: "J/m2", -1: "J/m3"}  # by their exponents of metres
 
 
 @dataclass(frozen=True)
@@ -31,10 +33,12 @@ class Bond:
     area: by which the flux is multiplied [m²]; of each cell for families. If left out it is read
         from the cells of either unit, and 1 where there are none, which a warning says of powers
         per area, or the flux is no power per area. Cells of a load grow with its radius, of which
-        the mean over each step counts.
-    total: an output that counts the energy [J] that has left the source or come to the target: it
-        knows what happened within steps. Without it, fluxes between the ends of a step are taken
-        to follow the polynomial through what the source says at these.
+        the mean over each step counts. Cells of a plane drop have areas per metre of depth [m],
+        and their energies are in J/m, as those of a power in W/m.
+    total: an output that counts the energy [J, J/m] that has left the source or come to the target:
+        it knows what happened within steps. Without it, fluxes between the ends of a step are taken
+        to follow the polynomial through what the source says at these. With an `area` the energy is
+        in the total's unit.
     """
 
     flux: str
@@ -53,12 +57,14 @@ def bond(given: Any) -> Bond:
 class _Area:
     """The areas of the values of a flux [m²], of a load at the radius that it has over a step.
 
+    is_per_depth: whether they are per metre of depth [m], as of plane drops.
     start: the radius that `values` belong to [m]; None of cells that do not grow. The radius is the
     mean over a step of what the master sets, at `place` among all inputs, or what `read` returns.
     """
 
-    def __init__(self, values: np.ndarray):
+    def __init__(self, values: np.ndarray, is_per_depth: bool = False):
         self.values = values
+        self.is_per_depth = is_per_depth
         self.start: float | None = None
         self.place: slice | None = None
         self.read: Reader | None = None
@@ -69,7 +75,7 @@ class _Area:
     ) -> _Area:
         """The areas of the cells of a variable of the unit of this name."""
         unit = units[name]
-        area = cls(unit.areas(variable))
+        area = cls(unit.areas(variable), is_per_depth(unit.cells(variable)))
         radius = unit.placement(variable).get("radius")
         if radius is not None:
             area.start = radius.start
@@ -86,7 +92,7 @@ class _Area:
 
 
 class Balance:
-    """The energy that leaves through a bond, and the part of it that does not arrive.
+    """The energy that leaves through a bond, and the part of it that does not arrive, in `unit`.
 
     Over a step of length H, what arrives is the mean ū of the path that the target followed; what
     leaves is the mean ȳ that the source gave, of the whole step or of the polynomial through its
@@ -113,6 +119,7 @@ class Balance:
         ends = [self.link] if self.effort is None else [self.link, self.effort]
         self._area = _area(given, power, self.link, units, places or {})
         self.lacks_area = self._area is None and power is not None and power[1] == 0
+        self.unit = _ENERGIES[_metres(given, power, self._area, units)]
         self._factor = prod(_factor(k, units) for k in ends)
         self._total = None
         if given.total is not None:
@@ -197,7 +204,7 @@ def _check(
     given: Bond, link: Link, effort: Link | None, units: Mapping[str, AnyUnit]
 ) -> np.ndarray | None:
     """Refuses what is no power, or none per area, length or volume, as far as units of measurement
-    are known; and a total that is no energy. Returns the exponents of the power where known."""
+    are known. Returns the exponents of the power where known."""
     found = _exponents(given.flux, units, link)
     if given.effort is not None and effort is not None:
         other = _exponents(given.effort, units, effort)
@@ -208,10 +215,29 @@ def _check(
             f"energy: {what} is in {_written(found)}, and no power: W, or W per m, m2 or m3, is"
             " needed; forces, say, go as pairs with velocities"
         )
-    total = None if given.total is None else _exponents(given.total, units)
-    if total is not None and (any(total[_NOT_M] != _ENERGY) or total[1] != 2):
-        raise MasterError(f"energy: the total {given.total} is in {_written(total)}, not in J")
     return found
+
+
+def _metres(
+    given: Bond, power: np.ndarray | None, area: _Area | None, units: Mapping[str, AnyUnit]
+) -> int:
+    """The exponent of metres of what a bond passes on; refuses a total that is something else.
+    That of the total goes where nothing else tells whether the power is per metre of depth."""
+    if given.area is None and area is not None:
+        known = {1 if area.is_per_depth else 2}
+    elif given.area is None and power is not None and power[1] != 0:
+        known = {int(power[1])}
+    else:
+        known = {2, 1}
+    total = None if given.total is None else _exponents(given.total, units)
+    if total is None:
+        return max(known)
+    if any(total[_NOT_M] != _ENERGY) or total[1] not in known:
+        allowed = " or ".join(_ENERGIES[metres] for metres in sorted(known, reverse=True))
+        raise MasterError(
+            f"energy: the total {given.total} is in {_written(total)}, not in {allowed}"
+        )
+    return int(total[1])
 
 
 def _exponents(

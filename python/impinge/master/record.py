@@ -64,7 +64,7 @@ class Record:
         for i, balance in enumerate(balances):
             for j, what in enumerate(("passed", "residual")):
                 series = [row[i][j] for row in self._energies]
-                about = {"units": "J", "description": _ENERGIES[what]}
+                about = {"units": balance.unit, "description": _ENERGIES[what]}
                 arrays[f"energy_{what}.{balance.name}"] = ("time", series, about)
         return xarray.Dataset(arrays, coordinates, dict(attributes))
 

@@ -202,7 +202,7 @@ class Watch:
         if self._scheme != "iterate":
             wanted += ', or scheme="iterate",'
         return (
-            f"{worst.name}: {worst.largest:.2g} J are gained or lost on the way,"
+            f"{worst.name}: {worst.largest:.2g} {worst.unit} are gained or lost on the way,"
             f" {100 * worst.share:.0f} % of what swings between the units, above"
             f" {100 * MOST:.0f} %: what one gives the other does not get; {wanted} are needed"
         )

@@ -176,7 +176,8 @@ def _balances(result: xr.Dataset) -> list[dict[str, Any]]:
             {"label": "has left", "value": float(result[key].values[-1])},
             {"label": "has not arrived", "value": float(result[missing].values[-1])},
         ]
-        told = {"title": f"Energy by {name}", "unit": "J", "terms": terms, "expected": None}
+        unit = result[key].attrs.get("units", "J")
+        told = {"title": f"Energy by {name}", "unit": unit, "terms": terms, "expected": None}
         about_it = "The share is the largest at any time, of all that was moved."
         residual = float(result.attrs[missing])
         found.append({**told, "residual": residual, "about": about_it})
