@@ -1,5 +1,6 @@
 //! Questions about bodies, answered for each kind: others ask these instead of which kind a body is.
 
+use super::check::takes_newton;
 use super::coupling::{Coupling, Wall};
 use super::droplet::Droplet;
 use super::grid::Grid;
@@ -198,6 +199,13 @@ impl Scene {
     /// Returns true if a body that falls or is laid transfers heat or force to a solid below.
     pub fn has_links(&self) -> bool {
         self.coupling.iter().any(|coupling| coupling.solid().is_some())
+    }
+
+    /// Returns true if heat and deformation of a solid obey linear equations.
+    pub fn has_linear_solids(&self) -> bool {
+        self.solids().any(|(_, solid)| {
+            !takes_newton(self, solid) && solid.deforms_linearly() && !solid.cracks()
+        })
     }
 
     /// Returns true if drops are repeated from records or closed forms.

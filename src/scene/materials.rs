@@ -205,12 +205,17 @@ impl Solid {
         layers.iter().zip(heights(layers, bottom)).map(place).collect()
     }
 
-    /// Heat capacity of the whole body at its initial temperature [J/K].
-    pub fn heat_capacity(&self) -> f64 {
-        let area = match self.shape {
+    /// Area of the top [m²].
+    pub fn top_area(&self) -> f64 {
+        match self.shape {
             Shape::Box([x, y, _]) => x * y,
             Shape::Disc(disc) => PI * disc.radius * disc.radius,
-        };
+        }
+    }
+
+    /// Heat capacity of the whole body at its initial temperature [J/K].
+    pub fn heat_capacity(&self) -> f64 {
+        let area = self.top_area();
         let of_layer = |layer: &Stratum| layer.constants.heat_capacity() * layer.thickness();
         area * self.strata().iter().map(of_layer).sum::<f64>()
     }

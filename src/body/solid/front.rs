@@ -1,5 +1,7 @@
 //! Predicts whether a solid may melt, which determines the cost of its heat.
 
+use std::f64::consts::PI;
+
 use crate::laws::{Conduction, Melting};
 use crate::scene::{Face, Load, Scene, Solid};
 
@@ -19,6 +21,10 @@ pub fn may_melt(scene: &Scene, name: &str, solid: &Solid) -> bool {
 struct Heat {
     hottest: f64,
     fluxes: Vec<(f64, f64)>,
+    /// Area of the top [m²].
+    area: f64,
+    /// Heat capacity of the whole body [J/K].
+    capacity: f64,
 }
 
 /// Temperatures of bodies that touch a solid, and of their faces [K].
@@ -54,18 +60,22 @@ impl Heat {
             .fold(solid.initial_temperature, f64::max);
         let of_faces = faces.iter().filter_map(|face| Some((face.flux?, f64::INFINITY)));
         let of_loads = scene.loads_on(name).filter(|load| load.heats()).map(flux_of);
-        Self { hottest, fluxes: of_faces.chain(of_loads).collect() }
+        let fluxes = of_faces.chain(of_loads).collect();
+        Self { hottest, fluxes, area: solid.top_area(), capacity: solid.heat_capacity() }
     }
 
     /// Temperature at the centre of all fluxes together after a time [K]. Each contributes `q/k · min(2√(at/π), R)`: a
-    /// half space under a uniform flux, and the steady state under a disc.
+    /// half space under a uniform flux, and the steady state under a disc. The body as a whole warms by the heat over its
+    /// capacity.
     fn hottest(&self, conduction: &Conduction, time: f64) -> f64 {
         let least = |values: &[f64]| values.iter().copied().fold(f64::INFINITY, f64::min);
         let conductivity = least(conduction.conductivity.values());
         let capacity = conduction.density * least(conduction.specific_heat.values());
-        let depth = 2.0 * (conductivity / capacity * time / std::f64::consts::PI).sqrt();
+        let depth = 2.0 * (conductivity / capacity * time / PI).sqrt();
         let rise = |(flux, radius): &(f64, f64)| flux / conductivity * depth.min(*radius);
-        self.hottest + self.fluxes.iter().map(rise).sum::<f64>()
+        let power = |(flux, radius): &(f64, f64)| flux * self.area.min(PI * radius * radius);
+        let whole = self.fluxes.iter().map(power).sum::<f64>() * time / self.capacity;
+        self.hottest + self.fluxes.iter().map(rise).sum::<f64>() + whole
     }
 }
 

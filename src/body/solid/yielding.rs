@@ -6,7 +6,7 @@ use crate::body::{Acts, BodyError};
 use crate::math::cholesky::SolverError;
 use crate::method::fem::{Deformation, Plan, Remembered, SolidLoads, Temperatures};
 use crate::method::inelastic::{
-    Increment, InelasticError, InelasticProblem, NodalValues, StateLayout,
+    Increment, InelasticError, InelasticProblem, Look, NodalValues, StateLayout,
 };
 use crate::runtime::allowance::Allowance;
 use crate::state::{Field, Layout, Per};
@@ -121,8 +121,8 @@ impl SolidBody {
     }
 
     /// Advances heat and mechanics to the equilibrium at the end, in parts. A part is halved if temperatures have an
-    /// extremum within it, so that plastic strain sees the warmest moment, if moduli relax while temperatures do not
-    /// change linearly, or if it finds no equilibrium.
+    /// extremum within it, so that plastic strain sees the warmest moment, if its end does not show flow within it, if
+    /// moduli relax while temperatures do not change linearly, or if it finds no equilibrium.
     ///
     /// Received heat changes linearly over the whole step, so such a step is not cut.
     pub(super) fn advance_yielding(
@@ -149,31 +149,49 @@ impl SolidBody {
         let Advance { yielding, allowance, heat } = *advance;
         let start = state.to_vec();
         heat(&mut state[..self.heat_len], acts)?;
-        if halves == 0 || !self.turns(advance, [&start, state], acts)? {
+        let looks = match halves {
+            0 => Some(Vec::new()),
+            _ => self.straight(advance, [&start, state], acts)?,
+        };
+        if let Some(looks) = looks {
             match self.balance(yielding, (&start[..self.heat_len], state), acts, allowance) {
                 // Increments of creep are already cut.
                 Err(BodyError::Equilibrium { .. })
                     if halves > 0 && !yielding.problem.takes_time() => {}
-                result => return result,
+                Err(error) => return Err(error),
+                Ok(()) if !self.misses_flow(yielding, [&start, state], &looks)? => return Ok(()),
+                Ok(()) => {}
             }
         }
         state.copy_from_slice(&start);
         acts.in_halves(|half| self.advance_part(advance, state, half, halves - 1))
     }
 
-    /// Returns true if temperatures between two states exceed those at its ends, in a body that yields. The margin is
-    /// the tolerance times the rise that makes a held body yield, or a tenth of the temperatures' own change if that is
-    /// larger. Monotonic changes of a place, at any pace, do not count. Where moduli relax, any change counts that is
-    /// not linear, by its effect on the stress.
-    fn turns(
+    /// Returns true if a step between two states misses flow that began and ended within it.
+    fn misses_flow(
+        &self,
+        yielding: &Yielding,
+        states: [&[f64]; 2],
+        looks: &[Look],
+    ) -> Result<bool, BodyError> {
+        let mechanics = states.map(|state| self.mechanics_of(state));
+        let missed = yielding.problem.misses_flow(mechanics, looks, yielding.tolerance);
+        missed.map_err(|error| self.inelastic_error(error))
+    }
+
+    /// Returns temperatures at the beginning, within and at the end of a step; `None` if some of a body that yields
+    /// exceed those at its ends. The margin is the tolerance times the rise that makes a held body yield, or a tenth of
+    /// the temperatures' own change if that is larger. Monotonic changes of a place, at any pace, do not count. Where
+    /// moduli relax, any change counts that is not linear, by its effect on the stress.
+    fn straight(
         &self,
         advance: &Advance,
         [start, end]: [&[f64]; 2],
         acts: &Acts,
-    ) -> Result<bool, BodyError> {
+    ) -> Result<Option<Vec<Look>>, BodyError> {
         let yielding = advance.yielding;
         if !yielding.yields && !yielding.problem.relaxes() {
-            return Ok(false);
+            return Ok(Some(Vec::new()));
         }
         let at = |time: f64, heat: &[f64]| {
             let loads = self.loads.assemble(&acts.path.at(0, time), self.meshes());
@@ -186,6 +204,7 @@ impl SolidBody {
         let ranges: Vec<Range> = ends.map(|(&a, &b)| Range::of(a, b)).collect();
         let mut heat = self.heat_of(start).to_vec();
         let mut done = 0.0;
+        let mut looks = vec![(0.0, first.clone())];
         for look in LOOKS {
             let (from, to) = (done * acts.duration, look * acts.duration);
             let path = acts.path.from(from);
@@ -197,15 +216,17 @@ impl SolidBody {
             let hottest = now.iter().copied().fold(0.0, f64::max);
             let counts = yielding.problem.rise_to_yield(hottest).max(LEAST * change.max(most));
             if yielding.yields && most > yielding.tolerance * counts {
-                return Ok(true);
+                return Ok(None);
             }
             let ends = [&first[..], &last[..]];
             let uneven = yielding.problem.unevenness(ends, (look, &now), acts.duration);
             if uneven > yielding.tolerance {
-                return Ok(true);
+                return Ok(None);
             }
+            looks.push((look, now));
         }
-        Ok(false)
+        looks.push((1.0, last));
+        Ok(Some(looks))
     }
 
     /// Solves for the equilibrium at the end of a step.

@@ -10,17 +10,13 @@ use crate::fmi::gate::answer::{Answer, Reference, Refusal, Status};
 use crate::fmi::table::Phase;
 use crate::inputs::InputPath;
 use crate::model::{BodyError, Cache, HIGHEST_INPUT_DERIVATIVE, ModelError, State, start_rates};
-use crate::scene::{Scene, Solid, takes_newton};
+use crate::scene::Scene;
 use crate::variables::{Output, Parameter, Registry, Slot, Variable};
 
 /// Highest order of output derivatives, as declared in the XML. Only outputs of linear solids have them; steps of
 /// particles have none, nor have solids on which other bodies fall or are laid.
 pub fn highest_output_derivative(scene: &Scene) -> usize {
-    let is_linear = |(_, solid): (&str, &Solid)| {
-        !takes_newton(scene, solid) && solid.deforms_linearly() && !solid.cracks()
-    };
-    let is_alone = !scene.has_drops() && !scene.has_links();
-    usize::from(is_alone && scene.solids().any(is_linear))
+    usize::from(scene.has_linear_solids() && !scene.has_drops() && !scene.has_links())
 }
 
 /// Variables by which outputs may be differentiated.

@@ -4,10 +4,10 @@
 //! need no shorter ones. Where strain follows from equilibrium, as in creep, a step is compared with its halves: the
 //! error of these is a third of the difference, as the method is of second order. As everything is linear but yield,
 //! that third is added to the halves, which makes the result of fourth order. Lengths are powers of ½ of the increment,
-//! so that the factors of a few lengths serve all steps.
+//! so that the factors of a few lengths serve all steps. Layers that creep in the same body cut each of them further.
 
 use super::problem::{InelasticError, InelasticProblem, Lapse};
-use super::substeps::Increment;
+use super::substeps::{Increment, between};
 
 /// Shortest step, over the whole.
 const LEAST_PART: f64 = 1.0 / (1_u64 << 40) as f64;
@@ -48,7 +48,7 @@ impl InelasticProblem {
                 whole = Some(half);
                 continue;
             }
-            if !self.yields() {
+            if !self.yields() && !self.creeps() {
                 self.extrapolate(&whole_step, &mut halves);
             }
             (now, done) = (halves, end);
@@ -75,15 +75,27 @@ impl InelasticProblem {
         Ok(state)
     }
 
-    /// Advances in one step between two parts of an increment.
+    /// Advances in one step between two parts of an increment, or in as many as layers that creep beside those that relax
+    /// require.
     fn advance_part(
         &self,
         state: &mut [f64],
         increment: &Increment,
         [start, end]: [f64; 2],
     ) -> Result<(), InelasticError> {
-        let lapse = Lapse::of((end - start) * increment.duration);
-        self.advance_stage(state, increment, [start, end], lapse)
+        let duration = (end - start) * increment.duration;
+        if !self.creeps() || duration == 0.0 {
+            return self.advance_stage(state, increment, [start, end], Lapse::of(duration));
+        }
+        let ends = |lists: [&[f64]; 2]| [start, end].map(|part| between(lists, part));
+        let (temperatures, forces) = (ends(increment.temperatures), ends(increment.forces));
+        let part = Increment {
+            temperatures: temperatures.each_ref().map(Vec::as_slice),
+            forces: forces.each_ref().map(Vec::as_slice),
+            duration,
+            ..*increment
+        };
+        self.advance_creep(state, &part)
     }
 
     /// Largest difference of the strains of relaxing points between two states, and the largest of these.

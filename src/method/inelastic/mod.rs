@@ -8,6 +8,7 @@ mod grid;
 mod halves;
 mod kept;
 mod locking;
+mod missed_flow;
 mod newton;
 mod nodal;
 mod problem;
@@ -17,6 +18,7 @@ mod shapes;
 mod substeps;
 mod tangent;
 
+pub use missed_flow::Look;
 pub use newton::Progress;
 pub use problem::{InelasticError, InelasticProblem, PointState, StateLayout};
 pub use reading::NodalValues;

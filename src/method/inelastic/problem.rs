@@ -307,6 +307,11 @@ impl InelasticProblem {
         iterate
     }
 
+    /// The laws of the layers of elements, or the single one of all.
+    pub(super) fn laws(&self) -> impl Iterator<Item = &dyn FlowLaw> {
+        self.laws.iter().map(|law| &**law)
+    }
+
     pub(super) fn law(&self, layer: usize) -> &dyn FlowLaw {
         if self.laws.len() == 1 { &*self.laws[0] } else { &*self.laws[layer] }
     }

@@ -46,8 +46,8 @@ const MOST_RATIO: f64 = 4.0;
 const MARGIN: f64 = 0.9;
 
 impl InelasticProblem {
-    /// Advances a state over an increment: in a single step without creep, and otherwise in as many inner steps as the
-    /// tolerance requires.
+    /// Advances a state over an increment: in a single step where nothing takes time, and otherwise in as many inner steps
+    /// as the tolerance requires.
     pub fn advance_increment(
         &self,
         state: &mut [f64],
@@ -56,9 +56,18 @@ impl InelasticProblem {
         if increment.duration <= 0.0 || !self.takes_time() {
             return self.advance_stage(state, increment, [1.0; 2], Lapse::of(0.0));
         }
-        if !self.creeps() {
-            return self.advance_by_halves(state, increment);
+        match self.relaxes() {
+            true => self.advance_by_halves(state, increment),
+            false => self.advance_creep(state, increment),
         }
+    }
+
+    /// Advances a state over an increment in as many steps as creep requires.
+    pub(super) fn advance_creep(
+        &self,
+        state: &mut [f64],
+        increment: &Increment,
+    ) -> Result<(), InelasticError> {
         let mut now = state.to_vec();
         // Changes since the last step are instantaneous.
         self.advance_stage(&mut now, increment, [0.0; 2], Lapse::of(0.0))?;
@@ -219,6 +228,7 @@ impl Rates {
     }
 }
 
-fn between([start, end]: [&[f64]; 2], part: f64) -> Vec<f64> {
+/// Values at a part of an increment, between those at its ends.
+pub fn between([start, end]: [&[f64]; 2], part: f64) -> Vec<f64> {
     start.iter().zip(end).map(|(a, b)| a + part * (b - a)).collect()
 }
