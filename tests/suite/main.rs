@@ -56,6 +56,7 @@ mod layers;
 mod levels;
 mod long_steps;
 mod many_probes;
+mod missed_flow;
 mod nonlinear_heat;
 mod nonlinear_solids;
 mod oblique;
