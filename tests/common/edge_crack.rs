@@ -54,7 +54,7 @@ impl Cracked {
             scatter: 0.0,
             seed: 0,
         };
-        let section = Section { axes: axes.clone(), form };
+        let section = Section { axes: axes.clone(), form, mirrored: [false; 2] };
         let counts = section.grid().counts;
         let nodes: Vec<[usize; 2]> =
             (0..counts[0] * counts[1]).map(|n| [n % counts[0], n / counts[0]]).collect();

@@ -34,7 +34,11 @@ fn penny_in_space_starts_at_its_stress() {
     };
     let lateral = fine_within([1.0, RADIUS + 3.0], [0.0, END], H, 4.0);
     let z = fine_within([-2.0, 2.0], [-END, END], H, 4.0);
-    let domain = Domain { axes: [lateral.clone(), lateral.clone(), z.clone()], form: Form::Space };
+    let domain = Domain {
+        axes: [lateral.clone(), lateral.clone(), z.clone()],
+        form: Form::Space,
+        mirrored: [false; 3],
+    };
     let grid = domain.grid();
     let places: Vec<[f64; 3]> = (0..grid.nodes()).map(|node| domain.place(node)).collect();
     let is_end = |place: &[f64; 3]| place[2].abs() > END - ROUNDING;
