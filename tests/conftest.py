@@ -6,6 +6,7 @@ import os
 import re
 import shutil
 import subprocess
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -162,3 +163,29 @@ def build(programs, scene, unit, *options):
     command = [programs / "build-fmu", scene, "-o", unit, *options]
     made = subprocess.run(command, capture_output=True, text=True, check=False)
     assert made.returncode == 0, made.stderr
+
+
+# What makes heat or deformation of a solid nonlinear.
+NONLINEAR = re.compile(
+    r"'finite'|plastic'|'viscoelastic'|'fracture'|'melting'|'radiation'|'bath'|'temperature': \["
+)
+
+
+def order_of_output_derivatives(text):
+    """Order of output derivatives of the unit of a scene: none with droplets, below bodies that
+    fall or are laid as a whole, or without a linear solid."""
+    scene = tomllib.loads(text)
+    named = scene.get("material", {})
+
+    def is_linear(body):
+        layers = [body, *body.get("layers", [])]
+        own = [
+            named.get(layer["material"])
+            for layer in layers
+            if isinstance(layer.get("material"), str)
+        ]
+        return body["kind"] == "solid" and not NONLINEAR.search(repr([body, own]))
+
+    is_linked = any("." not in coupling["from"] for coupling in scene.get("coupling", []))
+    drops = any(body["kind"] == "droplet" for body in scene["body"].values())
+    return int(not is_linked and not drops and any(map(is_linear, scene["body"].values())))

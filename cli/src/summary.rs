@@ -10,6 +10,8 @@ use super::units::{decimal, engineering, kelvin};
 
 /// Relative residual of the heat balance above which a run warns.
 const BALANCED: f64 = 1e-9;
+/// Change of the temperature of a whole body [K] below which its heat does not count beside rounding.
+const ROUNDING: f64 = 1e-3;
 /// The same with particle conduction, which conserves heat only approximately on graded meshes.
 const BALANCED_BY_PARTICLES: f64 = 5e-2;
 
@@ -99,6 +101,8 @@ pub struct BalanceOutputs {
     given: Option<Output>,
     expected: f64,
     quantity: Quantity,
+    /// Heat below which all are rounding [J].
+    rounding: f64,
 }
 
 impl BalanceOutputs {
@@ -116,7 +120,9 @@ impl BalanceOutputs {
             let expected = expected_residual(scene, body);
             let heat_in = registry.find(&format!("{body}.heat_in"))?;
             let quantity = registry.variables[heat_in].quantity?;
-            Some(Self { body: body.clone(), outputs, given, expected, quantity })
+            let capacity = scene.body[body].heat_capacity().unwrap_or(0.0);
+            let rounding = ROUNDING * capacity;
+            Some(Self { body: body.clone(), outputs, given, expected, quantity, rounding })
         };
         scene.body.keys().filter_map(of_body).collect()
     }
@@ -133,7 +139,8 @@ impl BalanceOutputs {
         let given = self.given.as_ref().map(|given| model.output(state, cache, given));
         let (heat_in, stored, lost) =
             (heat_in?, stored?, lost? + given.transpose()?.unwrap_or(0.0));
-        let largest = [heat_in, stored, lost].into_iter().map(f64::abs).fold(0.0, f64::max);
+        let largest =
+            [heat_in, stored, lost].into_iter().map(f64::abs).fold(self.rounding, f64::max);
         let Self { expected, quantity, .. } = *self;
         Ok(Balance { body: self.body.clone(), heat_in, stored, lost, largest, expected, quantity })
     }

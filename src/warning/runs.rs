@@ -117,6 +117,10 @@ rules! {
     "the mesh has {elements} elements over the depth of `{flaw}`, too few for the stress along it";
     "set a `mesh.depth_spacing` of {finer} m or less"
 
+    Step risk_unresolved_near_rim(length, finer)
+    "elements at its free sides are {length} thicknesses long, and stress changes there within one: the risk of failure \
+     may be off by some tenths"; "set a `mesh.spacing` of {finer} m or less, and `mesh.growth = 1.0`"
+
     Step flaw_worst_is_deep(flaw, part, most)
     "the worst depth of `{flaw}` is {part} of what is behind its mouth, and its stress intensity is that of a half plane, \
      which is too low there"; "do not rely on it beyond {most}"

@@ -1,13 +1,12 @@
 """The optional capabilities as FMPy uses them: states, and derivatives of inputs and outputs."""
 
-import re
 import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import EXAMPLES, every_scene
+from conftest import EXAMPLES, every_scene, order_of_output_derivatives
 from fmpy import read_model_description
 from impinge import UnitError
 from impinge.unit import State
@@ -32,14 +31,11 @@ def go_on(unit, steps=3):
 def test_every_unit_declares_all_capabilities(pack_small, scene):
     offers = read_model_description(pack_small(scene)).coSimulation
     text = scene.read_text()
-    droplets = 'kind = "droplet"' in text
-    # A body as a whole lies or falls on a solid; faces are in contact.
-    is_linked = re.search(r'^from = "\w+"$', text, re.MULTILINE) is not None
     assert offers.canHandleVariableCommunicationStepSize
     assert offers.canGetAndSetFMUstate and offers.canSerializeFMUstate
     assert offers.providesDirectionalDerivative and offers.canInterpolateInputs
     # Droplets have no exact derivatives in time, nor have solids below other bodies.
-    assert offers.maxOutputDerivativeOrder == (0 if droplets or is_linked else 1)
+    assert offers.maxOutputDerivativeOrder == order_of_output_derivatives(text)
     assert not offers.needsExecutionTool and not offers.canBeInstantiatedOnlyOncePerProcess
 
 

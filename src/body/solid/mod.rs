@@ -491,7 +491,8 @@ impl Advice for SolidBody {
             Occasion::Step => {
                 let particles = warnings::of_particles(self, state);
                 let torn = warnings::of_torn_parts(self, state);
-                let own = particles.into_iter().chain(torn).map(warning);
+                let rim = warnings::of_rim(self);
+                let own = particles.into_iter().chain(torn).chain(rim).map(warning);
                 own.chain(warnings::of_flaws(self, state)).collect()
             }
             Occasion::Response { .. } => Vec::new(),

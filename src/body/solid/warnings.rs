@@ -4,7 +4,9 @@ use super::crack::Coarse;
 use super::cracking::DamageAway;
 use super::{SolidBody, flaw_reading, point_quantities, totals};
 use crate::body::Reading;
-use crate::limits::number;
+use crate::limits::{number, two_digits};
+use crate::method::fem::free_faces::is_inside;
+use crate::method::mesh::MeshFace;
 use crate::quantity::percent;
 use crate::scene::{Flaw, lateral_extents};
 use crate::warning::{self, Finding, Warning};
@@ -104,6 +106,32 @@ pub fn of_even_damage(body: &SolidBody, state: &[f64]) -> Option<Finding> {
     let remedy = if scatters { MORE_THAN_IT_BEARS } else { NO_SCATTER };
     (counts && mean > EVEN * most && !is_torn)
         .then(|| warning::damage_is_even(format!("{most:.2}"), format!("{mean:.2}"), remedy))
+}
+
+/// Longest element at a free side over the thickness with which a risk of failure is right to some per cent: within
+/// about a thickness of the side stress falls to what a free face bears.
+const AT_RIM: f64 = 0.5;
+
+/// Returns `None` unless a risk of failure is read on a mesh that is coarse at a free side.
+pub fn of_rim(body: &SolidBody) -> Option<Finding> {
+    body.solid.flaws()?;
+    let mesh = &body.plan.mesh;
+    let length = |axis: usize, high: bool| {
+        let own = &mesh.axes[axis];
+        let is_held = |place: MeshFace| body.plan.supports.iter().any(|(face, _)| *face == place);
+        let is_face = own.elements() > 0 && (high || !is_inside(mesh, axis));
+        (is_face && !is_held(MeshFace { axis, high })).then(|| {
+            let [start, end] = own.bounds(if high { own.elements() - 1 } else { 0 });
+            end - start
+        })
+    };
+    let lengths = [(0, false), (0, true), (1, false), (1, true)];
+    let longest = lengths.into_iter().filter_map(|(axis, high)| length(axis, high));
+    let part = longest.fold(0.0, f64::max) / body.shape.thickness();
+    (part > AT_RIM).then(|| {
+        let finer = two_digits(0.5 * AT_RIM * body.shape.thickness());
+        warning::risk_unresolved_near_rim(format!("{part:.1}"), finer)
+    })
 }
 
 /// Returns the flaws along which the mesh is too coarse, and those that have grown too deep for their formula.

@@ -162,14 +162,15 @@ impl Part<'_> {
         Ok(())
     }
 
-    /// Halves the time in which an event lies, and sets the state to that at the end of its last part.
+    /// Halves the time in which an event lies, and sets the state to that at the end of its last part, reached in the
+    /// parts of the search. An event that does not come again in these keeps the state of the longer part.
     fn search(
         self,
         (model, cache): (&Model, &mut Cache),
         start: State,
         state: &mut State,
     ) -> Result<(), ModelError> {
-        let (mut rest, mut before) = (self, start);
+        let (mut rest, mut before, mut is_in_parts) = (self, start, true);
         for _ in 0..HALVINGS {
             let half = Part { to: 0.5 * (rest.from + rest.to), ..rest };
             let mut trial = before.clone();
@@ -179,11 +180,23 @@ impl Part<'_> {
                 advanced => advanced?,
             }
             if model.event_between(&before, &trial) {
-                (rest, *state) = (half, trial);
+                (rest, *state, is_in_parts) = (half, trial, true);
             } else {
                 rest = Part { from: half.to, is_first: false, ..rest };
-                before = trial;
+                (before, is_in_parts) = (trial, false);
             }
+        }
+        if is_in_parts {
+            return Ok(());
+        }
+        let mut last = before.clone();
+        cache.clear();
+        match rest.advance((model, &mut *cache), &mut last, rest.to - rest.from) {
+            Err(error) if is_too_long(&error) => return Ok(()),
+            advanced => advanced?,
+        }
+        if model.event_between(&before, &last) {
+            *state = last;
         }
         Ok(())
     }

@@ -9,6 +9,8 @@ use crate::quantity::Quantity;
 
 /// Fraction of the largest range of a quantity over the body below which an output's own range does not count.
 const FLOOR: f64 = 0.01;
+/// Heat over what the body holds over its range of temperatures, below which it is the rounding of what cancels.
+const CANCELLED: f64 = 1e-9;
 
 /// Largest differences between the outputs of an experiment on two meshes [1], output by output, relative to their
 /// ranges on the first mesh.
@@ -51,11 +53,13 @@ pub fn scales(rows: &[Vec<f64>], watched: &[Watched]) -> Vec<f64> {
             *warmed = warmed.max(mean);
         }
     }
+    let capacity = watched.iter().filter_map(|one| one.capacity).fold(0.0, f64::max);
+    let warmed = of_quantity.get(&Quantity::Temperature).copied().unwrap_or(0.0);
     let scale = |one: &Watched| {
         let largest = of_quantity[&one.quantity];
         match one.quantity {
-            // Heat that left is compared with heat that entered.
-            Quantity::Energy => largest,
+            // Heat that left is compared with heat that entered; both may cancel to rounding.
+            Quantity::Energy => largest.max(CANCELLED * capacity * warmed),
             quantity => of_group[&(one.group(), quantity)].max(FLOOR * largest),
         }
     };

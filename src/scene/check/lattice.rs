@@ -7,6 +7,8 @@ use crate::scene::locate::Path;
 
 /// Least number of particles over the depth.
 const LEAST_LAYERS: f64 = 4.0;
+/// Least length over the spacing.
+const LEAST_ALONG: f64 = 3.0;
 /// Least depth below the load of a bent strip, over the spacing: links within two spacings of the load stay intact, and
 /// a narrower rest bends like a hinge that does not break.
 const LEAST_LIGAMENT: f64 = 5.0;
@@ -77,6 +79,9 @@ fn spacing(checker: &mut Checker, path: &Path, lattice: &Lattice) {
     let most = lattice.depth / LEAST_LAYERS;
     let message = "particles so far apart resolve no bending";
     let path = path.key("spacing");
+    checker.require(fits(lattice.spacing, most), &path, message, format!("up to {}", number(most)));
+    let most = lattice.length / LEAST_ALONG;
+    let message = "a strip of this length has fewer than three particles along it";
     checker.require(fits(lattice.spacing, most), &path, message, format!("up to {}", number(most)));
     let (count, least) = (lattice.particles(), lattice.least_spacing());
     let message = format!("{} particles would fill the strip", number(count.ceil()));
