@@ -369,7 +369,8 @@ material = { density = 2300.0, young = 30e9, poisson = 0.2, softening = { model 
         let whole = StepControl { reports_events: true, ..StepControl::default() };
         let mut ramped = Stepped::new(LINKS);
         let mut done = 0;
-        for part in [8, 4, 2, 1].into_iter().filter(|part| sixteenths & part != 0) {
+        let before_last = [8, 4, 2, 1].into_iter().filter(|part| (sixteenths - 1) & part != 0);
+        for part in before_last.chain([1]) {
             done += part;
             let share = f64::from(done) / 16.0;
             ramped.set("strip.displacement", way * share);
