@@ -6,7 +6,7 @@ use crate::scene::check::{fits, number};
 use crate::scene::lateral_extents;
 use crate::scene::locate::Path;
 use crate::scene::{Coupling, Droplet, Wall};
-use crate::scene::{Footprint, Load, Mesh, Solid};
+use crate::scene::{Footprint, Load, Mesh, Shape, Solid};
 use crate::warning;
 
 /// Smallest number of node spacings over the radius of a spot or half the size of tiles.
@@ -161,6 +161,20 @@ fn distance(spacing: f64, solid: &Solid) -> f64 {
     spacing.min(0.5 * x.max(y) / (Mesh::LATERAL_ELEMENTS * order))
 }
 
+/// Tolerance of extents for rounding, relative.
+const SLACK: f64 = 1e-9;
+
+/// Returns true if a load acts evenly on all of a face, where it has no edge that a mesh resolves.
+fn covers(footprint: &Footprint, radius: Option<f64>, shape: &Shape) -> bool {
+    let is_even = match footprint {
+        Footprint::Tiles { count, .. } => *count == [1, 1],
+        Footprint::Disc { .. } => matches!(shape, Shape::Disc(_)),
+        _ => false,
+    };
+    let (halves, extents) = (footprint.half_extents(radius), lateral_extents(shape));
+    is_even && (0..2).all(|axis| halves[axis] >= 0.5 * extents[axis] * (1.0 - SLACK))
+}
+
 /// Warns of loads that are smaller than the node spacings of the scene.
 fn seen(reviewer: &mut Reviewer, path: &Path, load: &Load) {
     let Some(solid) = reviewer.scene.solid_under(load) else { return };
@@ -178,7 +192,7 @@ fn seen(reviewer: &mut Reviewer, path: &Path, load: &Load) {
         _ => (format!("footprint.{}.{}", footprint.name(), footprint.key_of_extent()), None),
     };
     let size = footprint.half_width(radius);
-    if size < NODES_PER_RADIUS * spacing {
+    if size < NODES_PER_RADIUS * spacing && !covers(footprint, radius, &solid.shape) {
         let finding = warning::load_unresolved(number(spacing), number(0.2 * size));
         reviewer.warn(&path.at(&key), finding);
     }

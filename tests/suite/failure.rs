@@ -556,3 +556,22 @@ fn substances_have_no_flaws_unless_the_scene_says_so() {
     let scene = scene::parse(&text, "scene").unwrap();
     assert!(!scene.solid("plate").unwrap().has_flaws());
 }
+
+/// A risk on elements that are longer than half a thickness at a free side is warned of, one on shorter ones, and one
+/// beside sides on rollers, are not; stress there falls within a thickness.
+#[test]
+fn unresolved_rims_are_warned_of() {
+    let disc = "disc = { radius = 10e-3, thickness = 1e-3 }";
+    let told = |sides: &str, mesh: &str| {
+        let material = format!("mesh = {{ {mesh} }}\n{}", one(&flaws(10, "volume = 1e-9")));
+        let text = held(disc, &material, [293.15, 293.15], [293.15, 393.15])
+            .replace("sides = { roller = true }\n", sides);
+        let mut trial = Trial::new(&text);
+        trial.step(1.0);
+        let found = trial.model.warnings(&trial.state);
+        found.iter().any(|one| one.to_string().contains("elements at its free sides"))
+    };
+    assert!(told("", "spacing = 1e-3, growth = 1.0, order = 1"));
+    assert!(!told("", "spacing = 0.4e-3, growth = 1.0, order = 1"));
+    assert!(!told("sides = { roller = true }\n", "spacing = 1e-3, growth = 1.0, order = 1"));
+}

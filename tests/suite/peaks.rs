@@ -3,6 +3,7 @@
 
 use std::f64::consts::PI;
 
+use impinge::advice::parse_with_warnings;
 use impinge::laws::stress::{max_principal, von_mises};
 use impinge::model::{Cache, NodalFields, State, forecast};
 use impinge::scene::{self, Scene};
@@ -303,6 +304,9 @@ fn stress_that_relaxes_is_seen_as_steps_begin() {
              footprint = {{ tiles = {{ count = [1, 1], size = [1e-3, 1e-3] }} }}\ncarries = [\"pressure\"]\n\
              start = {{ pressure = 1e6 }}\n"
         );
+        // A tile over all of the face has no edge that the mesh could miss.
+        let (_, warnings) = parse_with_warnings(&text, "scene").unwrap();
+        assert_eq!(warnings, [], "{law}");
         let mut trial = Trial::new(&text);
         let shape = 0.4 / 0.7;
         let seen = |trial: &mut Trial, wanted: f64, time: f64| {
