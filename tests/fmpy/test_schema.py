@@ -46,7 +46,7 @@ OF_ONE_VALUE = [
     r"a body of 0 layers",
 ]
 # Names of tables are for the parser, and so are keys that only some models need.
-OTHERS = re.compile(r"body\.1st: |the key `yield_stress`")
+OTHERS = re.compile(r"body\.1st: |the key `yield_stress`|its saturated yield stress")
 
 
 @pytest.fixture(scope="module")
