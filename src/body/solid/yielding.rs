@@ -6,7 +6,7 @@ use crate::body::{Acts, BodyError};
 use crate::math::cholesky::SolverError;
 use crate::method::fem::{Deformation, Plan, Remembered, SolidLoads, Temperatures};
 use crate::method::inelastic::{
-    Increment, InelasticError, InelasticProblem, Look, NodalValues, StateLayout,
+    Increment, InelasticError, InelasticProblem, Look, NodalValues, Progress, StateLayout,
 };
 use crate::runtime::allowance::Allowance;
 use crate::state::{Field, Layout, Per};
@@ -339,7 +339,7 @@ impl SolidBody {
     }
 
     /// Returns displacements and stress of a body with a history as loads act on a state at once; `None` without a
-    /// history, and where there is no equilibrium.
+    /// history, if the state is in equilibrium with the loads already, and where there is no equilibrium.
     pub(super) fn deformation_at_once(
         &self,
         state: &[f64],
@@ -350,6 +350,7 @@ impl SolidBody {
         let nodal = self.nodal_temperatures(yielding, temperatures)?;
         let mut mechanics = self.mechanics_of(state).to_vec();
         match yielding.problem.advance(&mut mechanics, &nodal, &self.nodal_forces(loads)?) {
+            Ok(Progress { iterations: 0, .. }) => Ok(None),
             Ok(_) => self.deformation_of(yielding, &mechanics, &nodal).map(Some),
             Err(error) => match self.inelastic_error(error) {
                 BodyError::Equilibrium { .. } => Ok(None),

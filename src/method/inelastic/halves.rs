@@ -75,8 +75,7 @@ impl InelasticProblem {
         Ok(state)
     }
 
-    /// Advances in one step between two parts of an increment, or in as many as layers that creep beside those that relax
-    /// require.
+    /// Advances between two parts of an increment: in one step, or in as many steps as creeping layers require.
     fn advance_part(
         &self,
         state: &mut [f64],

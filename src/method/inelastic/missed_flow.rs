@@ -7,7 +7,7 @@
 //!
 //! `|dev σ(s) − β| − R > (1 − s) √6 G Δp + tolerance R`:
 //!
-//! what is beyond the surface is more than the flow Δp at the end makes up for.
+//! the excess over the surface is larger than the stress that the flow Δp relaxes from then on.
 
 use super::problem::{InelasticError, InelasticProblem, PointState};
 use crate::laws::{FlowLaw, Overstress, PlasticHistory, PointConstants};
@@ -15,8 +15,9 @@ use crate::runtime::parallel::Team;
 
 /// `√6`
 const ROOT_OF_SIX: f64 = 2.449_489_742_783_178;
-/// Parts of a range of temperatures at which yield stresses are compared.
+/// Parts of a range of temperatures at which yield surfaces are compared, and accumulated plastic strains [1].
 const COMPARED: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+const STRAINS: [f64; 3] = [0.0, 1e-2, 1.0];
 
 /// Nodal temperatures at a part of a step [K].
 pub type Look = (f64, Vec<f64>);
@@ -31,11 +32,11 @@ impl InelasticProblem {
         tolerance: f64,
     ) -> Result<bool, InelasticError> {
         let [(_, first), between @ .., (_, last)] = looks else { return Ok(false) };
-        if self.creeps() || !self.softens(looks) {
+        if self.creeps() || !self.dips(looks, tolerance) {
             return Ok(false);
         }
         let (start, end) = (self.points(start, first)?, self.points(end, last)?);
-        let team = Team::new(1);
+        let team = Team::new(self.threads);
         for (part, temperatures) in between {
             let constants = self.constants(temperatures, 0.0, &team)?;
             let mut points = start.iter().zip(&end).zip(&constants);
@@ -46,21 +47,40 @@ impl InelasticProblem {
         Ok(false)
     }
 
-    /// Returns true if the yield stress of a layer changes over the temperatures of a step.
-    fn softens(&self, looks: &[Look]) -> bool {
+    /// Returns true if the radius of the yield surface falls somewhere below the chord of its values at the ends of a
+    /// step by more than the tolerance. Otherwise no stress that is linear between them passes it by more: nodes are
+    /// fewer than points, and have no history to be read.
+    fn dips(&self, looks: &[Look], tolerance: f64) -> bool {
+        let (levels, plane) =
+            (self.mesh.order(), self.mesh.axes[0].len() * self.mesh.axes[1].len());
+        let of_layer = |layer: usize| layer * levels * plane..((layer + 1) * levels + 1) * plane;
         let all = || looks.iter().flat_map(|(_, temperatures)| temperatures);
         let low = all().copied().fold(f64::INFINITY, f64::min);
         let high = all().copied().fold(f64::NEG_INFINITY, f64::max);
-        self.laws().any(|law| {
+        (0..self.grid.layers()).any(|layer| {
+            let law = self.law(layer);
             let at = |part: f64| surface(law, low + part * (high - low));
-            COMPARED.iter().any(|&part| at(part) != at(0.0))
+            let is_even = COMPARED.iter().all(|&part| at(part) == at(0.0));
+            !is_even && of_layer(layer).any(|node| dips_at(law, node, looks, tolerance))
         })
     }
 }
 
-/// Yield stress and hardening modulus at a temperature.
-fn surface(law: &dyn FlowLaw, temperature: f64) -> Option<[f64; 2]> {
-    law.over_step(temperature, 0.0).map(|own| [own.yield_stress, own.isotropic])
+/// Radii of the yield surface at a temperature [Pa], at three plastic strains; `None` where constants are invalid.
+fn surface(law: &dyn FlowLaw, temperature: f64) -> Option<[f64; 3]> {
+    law.over_step(temperature, 0.0).map(|own| STRAINS.map(|strain| own.radius(strain)))
+}
+
+/// Returns true if the radius dips below its chord at a node.
+fn dips_at(law: &dyn FlowLaw, node: usize, looks: &[Look], tolerance: f64) -> bool {
+    let [(_, first), between @ .., (_, last)] = looks else { return false };
+    let ends = [first, last].map(|temperatures| surface(law, temperatures[node]));
+    let [Some(first), Some(last)] = ends else { return true };
+    between.iter().any(|(part, temperatures)| {
+        let Some(now) = surface(law, temperatures[node]) else { return true };
+        let chord = |n: usize| first[n] + part * (last[n] - first[n]);
+        (0..now.len()).any(|n| now[n] * (1.0 + tolerance) < chord(n))
+    })
 }
 
 fn misses([start, end]: [&PointState; 2], part: f64, own: &PointConstants, tolerance: f64) -> bool {

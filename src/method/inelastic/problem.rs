@@ -102,7 +102,7 @@ pub struct InelasticProblem {
     pub(super) grid: Grid,
     pub(super) free_faces: FreeFaces,
     solver: TangentSolver,
-    threads: usize,
+    pub(super) threads: usize,
 }
 
 impl InelasticProblem {
@@ -305,11 +305,6 @@ impl InelasticProblem {
         iterate.displacement = self.apart(&state[layout.displacement]);
         iterate.amplitudes.copy_from_slice(&state[layout.amplitudes]);
         iterate
-    }
-
-    /// The laws of the layers of elements, or the single one of all.
-    pub(super) fn laws(&self) -> impl Iterator<Item = &dyn FlowLaw> {
-        self.laws.iter().map(|law| &**law)
     }
 
     pub(super) fn law(&self, layer: usize) -> &dyn FlowLaw {
