@@ -575,3 +575,26 @@ fn unresolved_rims_are_warned_of() {
     assert!(!told("", "spacing = 0.4e-3, growth = 1.0, order = 1"));
     assert!(!told("sides = { roller = true }\n", "spacing = 1e-3, growth = 1.0, order = 1"));
 }
+
+/// The risk of a disc of 30 thicknesses with a linear temperature over its limit, by the length of elements at its rim
+/// (`docs/theory/fracture.md`).
+#[test]
+fn risk_beside_a_free_rim_follows_the_mesh() {
+    let disc = "disc = { radius = 30e-3, thickness = 1e-3 }";
+    let [coarse, middle, fine, limit] = [3e-3, 0.5e-3, 0.2e-3, 0.1e-3].map(|spacing| {
+        let depth = f64::min(spacing, 1e-3);
+        let mesh = format!(
+            "mesh = {{ spacing = {spacing:e}, depth_spacing = {depth:e}, growth = 1.0 }}\n{}",
+            one(&flaws(10, "volume = 1e-9"))
+        );
+        let text = held(disc, &mesh, [343.15, 343.15], [293.15, 393.15])
+            .replace("sides = { roller = true }\n", "");
+        let mut trial = Trial::new(&text);
+        trial.step(1.0);
+        trial.get("plate.failure_risk")
+    });
+    let wanted = [(coarse, 0.76), (middle, 0.96), (fine, 1.0)];
+    for (risk, part) in wanted {
+        assert!((risk / limit - part).abs() < 0.01, "{coarse} {middle} {fine} {limit}");
+    }
+}

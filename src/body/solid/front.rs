@@ -75,7 +75,7 @@ impl Heat {
         let rise = |(flux, radius): &(f64, f64)| flux / conductivity * depth.min(*radius);
         let power = |(flux, radius): &(f64, f64)| flux * self.area.min(PI * radius * radius);
         let whole = self.fluxes.iter().map(power).sum::<f64>() * time / self.capacity;
-        self.hottest + self.fluxes.iter().map(rise).sum::<f64>() + whole
+        self.hottest + self.fluxes.iter().map(rise).sum::<f64>() + whole.max(0.0)
     }
 }
 

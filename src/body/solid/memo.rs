@@ -39,8 +39,9 @@ pub struct SolidMemo {
     risk_so_far: Option<Risk>,
     /// Results of the same loads before prescribed temperatures act, at the uniform temperature of the start.
     before_jump: Option<Box<Self>>,
-    /// Results of the same loads and temperatures, with what the loads deform at once.
-    at_once: Option<Box<Self>>,
+    /// Results of the same loads and temperatures, with what the loads deform at once: `None` before that is computed,
+    /// `Some(None)` where these are the present ones.
+    at_once: Option<Option<Box<Self>>>,
     /// The last point that was read: its components are read one after another.
     stress: Option<([f64; 3], [f64; 6])>,
     /// For each symmetry class: whether heat drives it, and whether instantaneous loads do.
@@ -129,17 +130,19 @@ impl SolidMemo {
         }
         let temperatures = self.heat(body, state).clone();
         let deformation = body.deformation_at_once(state, &temperatures, self.loads())?;
-        let mut own = Self::new(self.loads().clone());
-        (own.temperatures, own.deformation) = (Some(temperatures), deformation);
-        self.at_once = Some(Box::new(own));
+        self.at_once = Some(deformation.map(|deformation| {
+            let own = Self::new(self.loads().clone());
+            let (temperatures, deformation) = (Some(temperatures), Some(deformation));
+            Box::new(Self { temperatures, deformation, ..own })
+        }));
         Ok(())
     }
 
-    /// The memo with what the loads deform at once, if that is known; otherwise this one.
+    /// The memo with what the loads deform at once, if that is known and differs; otherwise this one.
     pub fn at_once(&mut self) -> &mut Self {
-        match self.at_once.is_some() {
-            true => self.at_once.as_mut().expect("just seen"),
-            false => self,
+        match self.at_once {
+            Some(Some(_)) => self.at_once.as_mut().and_then(Option::as_mut).expect("just seen"),
+            _ => self,
         }
     }
 

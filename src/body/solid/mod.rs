@@ -52,6 +52,7 @@ use crate::coupling::FaceMeans;
 use crate::inputs::InputLayout;
 use crate::laws::{Constants, Material};
 use crate::method::fem::{ElasticProblem, HeatFailure, Mesh, NodalSum, Plan, SolidFem, heat_mesh};
+use crate::method::mesh::MeshFace;
 use crate::runtime::allowance::Allowance;
 use crate::scene::{FaceName, PeakOf, Scene, Shape, Solid};
 use crate::state::Layout;
@@ -505,6 +506,13 @@ impl Advice for SolidBody {
 
     fn temperature_range(&self, state: &[f64], inputs: &[f64]) -> Option<[f64; 2]> {
         let loads = self.loads.of_faces(inputs, self.solid.mesh());
+        let is_lateral = |(face, _): &(MeshFace, _)| face.axis < 2;
+        if self.solid.conducts_linearly() && !self.plan.thermal_faces.iter().any(is_lateral) {
+            // Heat that passes top and bottom alone leaves no place warmer or colder than these and the start.
+            let start = self.plan.initial_temperature;
+            let [lowest, highest] = self.solid.range_of_ends(self.heat_of(state), &loads);
+            return Some([lowest.min(start), highest.max(start)]);
+        }
         let temperatures = self.solid.temperatures(self.heat_of(state), &loads);
         let highest = self.solid.hottest(&temperatures).value;
         Some([self.solid.min_temperature(&temperatures), highest])

@@ -5,8 +5,6 @@ use super::cracking::DamageAway;
 use super::{SolidBody, flaw_reading, point_quantities, totals};
 use crate::body::Reading;
 use crate::limits::{number, two_digits};
-use crate::method::fem::free_faces::is_inside;
-use crate::method::mesh::MeshFace;
 use crate::quantity::percent;
 use crate::scene::{Flaw, lateral_extents};
 use crate::warning::{self, Finding, Warning};
@@ -115,12 +113,10 @@ const AT_RIM: f64 = 0.5;
 /// Returns `None` unless a risk of failure is read on a mesh that is coarse at a free side.
 pub fn of_rim(body: &SolidBody) -> Option<Finding> {
     body.solid.flaws()?;
-    let mesh = &body.plan.mesh;
+    let free = body.solid.free_faces();
     let length = |axis: usize, high: bool| {
-        let own = &mesh.axes[axis];
-        let is_held = |place: MeshFace| body.plan.supports.iter().any(|(face, _)| *face == place);
-        let is_face = own.elements() > 0 && (high || !is_inside(mesh, axis));
-        (is_face && !is_held(MeshFace { axis, high })).then(|| {
+        let own = &body.plan.mesh.axes[axis];
+        free.is_free(axis, high).then(|| {
             let [start, end] = own.bounds(if high { own.elements() - 1 } else { 0 });
             end - start
         })

@@ -21,6 +21,11 @@ impl FreeFaces {
         Self { ends: [0, 1, 2].map(|axis| [false, true].map(|high| end(axis, high))) }
     }
 
+    /// Returns true if an end of an axis is a free face.
+    pub fn is_free(&self, axis: usize, high: bool) -> bool {
+        self.ends[axis][usize::from(high)].is_some()
+    }
+
     /// Returns the axis normal to the free face that contains a place of the mesh; top and bottom take precedence over
     /// sides.
     pub fn normal_at(&self, place: [f64; 3]) -> Option<usize> {

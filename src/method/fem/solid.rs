@@ -210,6 +210,10 @@ impl SolidFem {
         &self.mesh
     }
 
+    pub fn free_faces(&self) -> &FreeFaces {
+        &self.free_faces
+    }
+
     /// The state at time zero.
     pub fn initial_state(&self) -> Vec<f64> {
         self.heat.initial_state()
@@ -524,8 +528,13 @@ impl SolidFem {
     }
 
     fn rise_of_image(&self, temperatures: &Temperatures, image: [bool; 2]) -> Vec<f64> {
-        let mut rise = vec![0.0; self.mesh.sided_nodes()];
-        for (parity, part) in self.parities.iter().zip(temperatures) {
+        self.sum_at_image(temperatures, image, self.mesh.sided_nodes())
+    }
+
+    /// Sum of the classes of a number of values at an image.
+    fn sum_at_image(&self, classes: &[Vec<f64>], image: [bool; 2], count: usize) -> Vec<f64> {
+        let mut rise = vec![0.0; count];
+        for (parity, part) in self.parities.iter().zip(classes) {
             let sign = parity.sign(image);
             for (r, t) in rise.iter_mut().zip(part) {
                 *r += sign * t;

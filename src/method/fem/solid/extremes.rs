@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::{Deformation, SolidFem, Temperatures};
+use super::{Deformation, SolidFem, SolidLoads, Temperatures};
 use crate::laws::stress::{max_principal, von_mises};
 use crate::method::mesh::Geometry;
 
@@ -94,6 +94,21 @@ impl SolidFem {
             lowest = rise.into_iter().fold(lowest, f64::min);
         }
         self.initial_temperature + lowest
+    }
+
+    /// Lowest and highest temperature of the nodes of top and bottom [K].
+    pub fn range_of_ends(&self, state: &[f64], loads: &SolidLoads) -> [f64; 2] {
+        let plane = self.mesh.axes[0].len() * self.mesh.axes[1].len();
+        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+        for high in [false, true] {
+            let classes = self.end_rise(state, loads, high);
+            for image in self.images(&classes) {
+                for rise in self.sum_at_image(&classes, image, plane) {
+                    range = [range[0].min(rise), range[1].max(rise)];
+                }
+            }
+        }
+        range.map(|rise| self.initial_temperature + rise)
     }
 
     /// Highest von Mises and largest principal stress over all nodes [Pa].
