@@ -89,7 +89,14 @@ impl Line {
             let complete = strand.len() - usize::from(strand.open == 1.0);
             let mut beneath = Beneath::of(strand, complete);
             for piece in self.pieces(strand.volume, motion) {
-                arrivals.push(self.lay_piece((strand, &mut beneath), motion, &piece)?);
+                let way = [piece.from, piece.to].map(|s| motion.outlet(s));
+                let temperature = motion.temperature_at(0.5 * (piece.from + piece.to));
+                self.check_piece(strand, way[0][2].min(way[1][2]), temperature)?;
+                let laid = (&piece, way, temperature);
+                arrivals.push(match self.breaks(&piece, way) {
+                    true => self.lay_thread((strand, &mut beneath), laid),
+                    false => self.lay_piece((strand, &mut beneath), laid),
+                });
             }
         }
         strand.nozzle = motion.outlet(motion.duration);
@@ -119,35 +126,59 @@ impl Line {
         pieces
     }
 
-    fn lay_piece(
+    /// Returns true if a piece would be drawn to a thread that breaks.
+    fn breaks(&self, piece: &Piece, [begin, end]: [[f64; 3]; 2]) -> bool {
+        let way = (end[0] - begin[0]).hypot(end[1] - begin[1]);
+        piece.volume < THREAD * self.plan.outlet() * way
+    }
+
+    /// Leaves the fluid of a broken thread where the strand ended, as if the outlet stood there. The next strand begins
+    /// below the outlet.
+    fn lay_thread(
         &self,
         (strand, beneath): (&mut Strand, &mut Beneath),
-        motion: &Motion,
-        piece: &Piece,
-    ) -> Result<Arrival, Failure> {
-        let [begin, end] = [piece.from, piece.to].map(|s| motion.outlet(s));
-        let temperature = motion.temperature_at(0.5 * (piece.from + piece.to));
-        self.check_piece(strand, begin[2].min(end[2]), temperature)?;
+        (piece, way, temperature): (&Piece, [[f64; 3]; 2], f64),
+    ) -> Arrival {
+        let mut place = way[0];
+        let last = strand.segments().next_back();
+        if let Some(last) = last {
+            place = [last.end[0], last.end[1], last.outlet];
+            (strand.touch, strand.open) = (last.end, 1.0);
+        }
+        let arrival = self.lay_piece((&mut *strand, beneath), (piece, [place; 2], temperature));
+        (strand.touch, strand.open) = ([way[1][0], way[1][1]], 0.0);
+        Arrival { impulse: self.impulse(piece, way), ..arrival }
+    }
+
+    /// Impulse of the fluid of a piece, which leaves a moving outlet [N s].
+    fn impulse(&self, piece: &Piece, [begin, end]: [[f64; 3]; 2]) -> [f64; 3] {
+        let mass = self.plan.fluid.density * piece.volume;
         let duration = piece.to - piece.from;
         let speed = piece.volume / (duration * self.plan.outlet());
         let velocity = [0, 1, 2].map(|axis| (end[axis] - begin[axis]) / duration);
-        let swift = velocity[0].hypot(velocity[1]);
-        let is_thread = speed < THREAD * swift;
+        [velocity[0], velocity[1], velocity[2] - speed].map(|part| mass * part)
+    }
+
+    fn lay_piece(
+        &self,
+        (strand, beneath): (&mut Strand, &mut Beneath),
+        (piece, way, temperature): (&Piece, [[f64; 3]; 2], f64),
+    ) -> Arrival {
+        let [begin, end] = way;
+        let duration = piece.to - piece.from;
+        let speed = piece.volume / (duration * self.plan.outlet());
+        let swift = (end[0] - begin[0]).hypot(end[1] - begin[1]) / duration;
         let whole = self.plan.segment_volume() * (1.0 - SLACK);
         let before = strand.segments().next_back();
         let is_sliver = |last: &Segment| last.end == strand.touch && piece.volume < SLIVER * whole;
-        let last = before.filter(|last| is_thread || strand.open == 1.0 || is_sliver(last));
-        let way = [begin, end];
+        let last = before.filter(|last| strand.open == 1.0 || is_sliver(last));
         let open = match last {
             Some(last) => last,
             None => self.begun((strand, beneath), way, piece.volume),
         };
         let thickness = self.thickness(strand, swift, speed);
         let free = (end[2] - open.base - thickness).max(0.0);
-        let touch = match is_thread {
-            true => open.end,
-            false => touchdown(strand.touch, [begin, end], (duration, 0.5 * free / speed)),
-        };
+        let touch = touchdown(strand.touch, way, (duration, 0.5 * free / speed));
         let path = (touch[0] - open.end[0]).hypot(touch[1] - open.end[1]);
         let is_new = last.is_none_or(|last| {
             let leaves = || self.thick().max(LEAVES * self.laid(strand, &last).section());
@@ -163,10 +194,7 @@ impl Line {
         let gap = end[2] - floor(strand, &segment);
         let laid_before = self.laid_width(&segment, gap);
         segment.path += path;
-        segment.end = touch;
-        if !is_thread {
-            segment.outlet = end[2];
-        }
+        (segment.end, segment.outlet) = (touch, end[2]);
         let middle = strand.time + 0.5 * (piece.from + piece.to);
         let part = piece.volume / (segment.volume + piece.volume);
         segment.born += part * (middle - segment.born);
@@ -177,7 +205,7 @@ impl Line {
         (0..LAYERS).for_each(|n| segment.heats[n] += SHARES[n] * heat);
         strand.supplied += heat;
         strand.volume += piece.volume;
-        strand.touch = if is_thread { [end[0], end[1]] } else { touch };
+        strand.touch = touch;
         // What has spread so far stays beyond the width as laid, whichever pieces the fluid came in.
         let laid = self.laid_width(&segment, gap);
         let spread = segment.half_width + 0.5 * (laid - laid_before);
@@ -185,7 +213,7 @@ impl Line {
         let thicker = (segment.volume / (self.thick() * segment.path)).max(1.0).powf(THICKER);
         let is_full = piece.is_full && segment.volume >= whole * thicker;
         let is_complete = is_full && !segment.is_heap();
-        strand.open = if is_complete || is_thread { 0.0 } else { 1.0 };
+        strand.open = if is_complete { 0.0 } else { 1.0 };
         if is_new {
             strand.push(&segment);
         }
@@ -193,9 +221,8 @@ impl Line {
             segment = self.settled((strand, beneath), [segment; 2], (index, end[2]));
         }
         strand.set(index, &segment);
-        let mass = self.plan.fluid.density * piece.volume;
-        let impulse = [velocity[0], velocity[1], velocity[2] - speed].map(|part| mass * part);
-        Ok(Arrival { segment: index, volume: piece.volume, time: middle, impulse })
+        let impulse = self.impulse(piece, way);
+        Arrival { segment: index, volume: piece.volume, time: middle, impulse }
     }
 
     /// A segment that begins where the strand touches down, as the outlet moves from one place to another and some
@@ -323,9 +350,10 @@ fn touchdown(
     [begin, end]: [[f64; 3]; 2],
     (duration, relaxation): (f64, f64),
 ) -> [f64; 2] {
-    let decay = (-duration / relaxation).exp();
+    let times = duration / relaxation;
+    let decay = (-times).exp();
     // The distance behind the outlet over its way, without the difference of large numbers in slow fluid.
-    let behind = relaxation / duration * (-duration / relaxation).exp_m1();
+    let behind = if times > 0.0 { (-times).exp_m1() / times } else { -1.0 };
     [0, 1].map(|axis| {
         end[axis] + (from[axis] - begin[axis]) * decay + (end[axis] - begin[axis]) * behind
     })

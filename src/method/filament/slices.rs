@@ -13,6 +13,7 @@ use std::ops::Range;
 
 use super::segment::distance_from_line;
 use super::{LineTotals, Segment};
+use crate::math::segments::distance;
 use crate::method::sph::Laid;
 
 /// Lengths of a strand of particles [m].
@@ -125,10 +126,6 @@ fn layers(laid: &Laid) -> Vec<Part> {
         part.reach = part.reach.max(distance(part.middle, [x, y]));
     }
     layers
-}
-
-fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
 fn joined(parts: &[Part]) -> Part {

@@ -46,13 +46,8 @@ impl Notch {
     pub fn side(&self, x: f64) -> f64 {
         match x - self.at {
             0.0 if self.width > 0.0 => 0.0,
-            from => {
-                if from < 0.0 {
-                    -1.0
-                } else {
-                    1.0
-                }
-            }
+            left if left < 0.0 => -1.0,
+            _ => 1.0,
         }
     }
 }

@@ -15,6 +15,7 @@ use std::f64::consts::PI;
 use super::course::Course;
 use super::profile::Amounts;
 use super::state::{Drop, Ledger};
+use crate::math::segments::distance;
 
 /// Remaining fraction of heat below which a film has cooled: to transfer that takes as long as all
 /// before.
@@ -125,10 +126,6 @@ impl Place {
         }
         Self { at, films, sums, reach }
     }
-}
-
-fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
 /// Largest radius that a drop covers [m].
