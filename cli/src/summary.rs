@@ -10,10 +10,10 @@ use super::units::{decimal, engineering, kelvin};
 
 /// Relative residual of the heat balance above which a run warns.
 const BALANCED: f64 = 1e-9;
-/// Change of the temperature of a whole body [K] below which its heat does not count beside rounding.
-const ROUNDING: f64 = 1e-3;
 /// The same with particle conduction, which conserves heat only approximately on graded meshes.
 const BALANCED_BY_PARTICLES: f64 = 5e-2;
+/// Change of the temperature of a whole body [K] below which its heat does not count beside rounding.
+const ROUNDING: f64 = 1e-3;
 
 /// Totals of solids that are listed: of those that melt, deform for good or crack.
 const OF_SOLIDS: [&str; 20] = [

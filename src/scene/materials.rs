@@ -33,7 +33,7 @@ pub struct BeyondSubstance {
     pub substance: &'static str,
     /// The end of the range that the temperature is beyond [K].
     pub end: f64,
-    /// Whether it is the lower end.
+    /// True if it is the lower end.
     pub is_cold: bool,
     /// Melting point below the temperature, if the model keeps the body solid [K].
     pub unmelted: Option<f64>,

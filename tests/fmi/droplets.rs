@@ -222,10 +222,9 @@ fn a_drop_on_a_plate_goes_on_from_a_state_to_the_bit() {
     repeats_to_the_bit(PLATE, "spot.heat_flux", 1e8);
 }
 
-/// A step over which the wall warms gives what its parts give, each with the wall as it is then; afterwards the input is
-/// what it has become.
+/// One step over which the wall warms transfers the heat of eight short ones. Afterwards the input has its final value.
 #[test]
-fn a_droplet_follows_a_wall_that_changes_over_a_step() {
+fn droplet_on_a_warming_wall() {
     let (wall, parts, rise) = ("wall.temperature[1,1]", 8, 20.0);
     let slope = rise / (f64::from(parts) * STEP);
     let [whole, cut, held] = [(); 3].map(|()| started(WALL));

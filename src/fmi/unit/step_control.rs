@@ -173,12 +173,7 @@ impl Part<'_> {
         let (mut rest, mut before, mut is_in_parts) = (self, start, true);
         for _ in 0..HALVINGS {
             let half = Part { to: 0.5 * (rest.from + rest.to), ..rest };
-            let mut trial = before.clone();
-            cache.clear();
-            match half.advance((model, &mut *cache), &mut trial, half.to - half.from) {
-                Err(error) if is_too_long(&error) => return Ok(()),
-                advanced => advanced?,
-            }
+            let Some(trial) = half.tried((model, &mut *cache), &before)? else { return Ok(()) };
             if model.event_between(&before, &trial) {
                 (rest, *state, is_in_parts) = (half, trial, true);
             } else {
@@ -186,19 +181,27 @@ impl Part<'_> {
                 (before, is_in_parts) = (trial, false);
             }
         }
-        if is_in_parts {
-            return Ok(());
-        }
-        let mut last = before.clone();
-        cache.clear();
-        match rest.advance((model, &mut *cache), &mut last, rest.to - rest.from) {
-            Err(error) if is_too_long(&error) => return Ok(()),
-            advanced => advanced?,
-        }
-        if model.event_between(&before, &last) {
+        if !is_in_parts
+            && let Some(last) = rest.tried((model, cache), &before)?
+            && model.event_between(&before, &last)
+        {
             *state = last;
         }
         Ok(())
+    }
+
+    /// Returns the state at the end of the part from a state at its beginning; `None` if that takes too long.
+    fn tried(
+        &self,
+        (model, cache): (&Model, &mut Cache),
+        before: &State,
+    ) -> Result<Option<State>, ModelError> {
+        let mut trial = before.clone();
+        cache.clear();
+        match self.advance((model, cache), &mut trial, self.to - self.from) {
+            Err(error) if is_too_long(&error) => Ok(None),
+            advanced => advanced.map(|()| Some(trial)),
+        }
     }
 }
 

@@ -266,7 +266,7 @@ mod tests {
     }
 
     #[test]
-    fn a_range_as_narrow_as_rounding_keeps_its_latent_heat() {
+    fn narrow_melting_range_keeps_latent_heat() {
         for width in [0.0, 1e-13, 2e-13, 1e-12, 1e-10, 1e-8, 1e-6] {
             for solidus in [200.0, 900.0, 3000.0] {
                 let law = alloy(solidus, solidus + width).enthalpy(293.15);

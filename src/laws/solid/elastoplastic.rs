@@ -269,7 +269,7 @@ impl Growth {
     /// Flow γ that takes up an excess e [Pa] over the yield surface at an accumulated plastic strain p:
     /// `e = m γ + √⅔ R e^(−δp) (1 − e^(−√⅔ δγ))`, with a modulus m [Pa] of what is linear.
     ///
-    /// What is left of e is convex and falls, so that Newton's method from γ = 0 increases to the root.
+    /// The remainder of e is a convex, falling function of γ, so that Newton's method from γ = 0 rises to the root.
     fn part(&self, excess: f64, modulus: f64, accumulated: f64) -> Parted {
         let rest = Self { range: self.range * (-self.rate * accumulated).exp(), ..*self };
         let slope = |flow: f64| modulus + rest.slope(ROOT * flow) / 1.5;

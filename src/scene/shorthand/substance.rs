@@ -34,7 +34,7 @@ pub struct NamedSubstance {
     pub at: Option<f64>,
     /// Temperature at which constants of a fluid are taken [K]: the given one, or that of the drop.
     pub taken: Option<f64>,
-    /// Whether the coefficient of expansion is that of the library.
+    /// True if the coefficient of expansion is that of the library.
     pub expands: bool,
     /// Temperatures without stress of the bodies that have its mean coefficient from there to `at` [K].
     pub stress_free: BTreeMap<String, f64>,
