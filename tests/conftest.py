@@ -165,7 +165,7 @@ def build(programs, scene, unit, *options):
     assert made.returncode == 0, made.stderr
 
 
-# What makes heat or deformation of a solid nonlinear.
+# Keys and values that make heat or deformation of a solid nonlinear.
 NONLINEAR = re.compile(
     r"'finite'|plastic'|'viscoelastic'|'fracture'|'melting'|'radiation'|'bath'|'temperature': \["
 )

@@ -323,7 +323,7 @@ def test_areas_of_walls_of_plane_drops_are_per_depth(tmp_path, depth):
     ],
 )
 def test_a_load_of_a_scene_has_its_radius_at_the_start(tmp_path, footprint):
-    """The cells are those that the unit of the scene tells; all radii grow in proportion."""
+    """The cells are those of the unit of the scene; all radii grow in proportion."""
     text = (SCENES / "plate.toml").read_text()
     start = "start = { radius = '48 um' }"
     text = text.replace("disc = { radius = 6e-5 } }", f"{footprint} }}\n{start}")

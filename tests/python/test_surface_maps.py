@@ -41,7 +41,7 @@ def test_integrals_are_kept(first, second):
 
 @pytest.mark.parametrize(("first", "second"), [(1.0, 0.5), (0.5, 1.0), (0.5, 0.5)])
 def test_surfaces_with_a_depth_have_integrals_and_amounts_per_metre_of_it(first, second):
-    """What crosses is the integral or the amount of either side times its depth."""
+    """The amount that crosses is the integral of either side times its depth."""
     size = (3.0, 0.5)
     source = replace(Surface.tiles((6, 1), size), depth=first)
     target = replace(Surface.tiles((4, 1), size), depth=second)

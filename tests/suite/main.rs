@@ -74,6 +74,7 @@ mod recovered_stress;
 mod reduced;
 mod relaxation;
 mod replay;
+mod replay_walls;
 mod reproducing;
 mod reservoirs;
 mod rings;

@@ -280,7 +280,7 @@ def _area(
     units: Mapping[str, AnyUnit],
     places: Mapping[str, slice],
 ) -> _Area | None:
-    """The area of each value of a link [m²]; None where no unit tells it or it does not count."""
+    """The area of each value of a link [m²]; None if it is unknown or does not count."""
     if given.area is not None:
         return _Area(np.broadcast_to(np.asarray(given.area, float).ravel(), (link.size,)))
     if power is not None and power[1] != 0:  # of the whole cell, or per length or volume

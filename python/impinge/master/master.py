@@ -264,7 +264,7 @@ class Master:
         ]
 
     def _tell_of_areas(self, balances: Sequence[Balance]) -> None:
-        """Warns of powers per area whose area no unit tells."""
+        """Warns of powers per area whose area is unknown."""
         for balance in balances:
             if balance.lacks_area:
                 self._notes.add(

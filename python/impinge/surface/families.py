@@ -192,7 +192,7 @@ def _of_scene(path: Path, name: str) -> Surface:
 
 
 def _is_plane_wall(scene: dict[str, Any], entry: dict[str, Any]) -> bool:
-    """Whether this is the wall of a plane drop, which has a single row of tiles."""
+    """True for the wall of a plane drop, which has a single row of tiles."""
     return scene.get("body", {}).get(entry.get("under"), {}).get("dimension") == 2
 
 

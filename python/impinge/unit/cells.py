@@ -37,9 +37,9 @@ def parse_cells(content: bytes) -> dict[str, dict[str, Any]]:
 def place_of(
     families: Mapping[str, dict[str, Any]], name: str
 ) -> tuple[str, tuple[int, ...]] | None:
-    """The family that goes by a name or has a variable of it, and the indices, from 1, of the
-    element that it names: none of a whole array. Names are structured, `patch.heat_flux[1,2]`, or
-    flat, `patch_heat_flux_1_2`. None where there is no such family.
+    """Finds the family that `name` denotes, its own name or that of one of its variables, and
+    the indices of the element, from 1; there are none for a whole array. Names are structured,
+    `patch.heat_flux[1,2]`, or flat, `patch_heat_flux_1_2`. Returns None if no family matches.
     """
     stem, indices = stem_of(name), indices_of(name)
     for key in (name, stem, stem.rpartition(".")[0]):
@@ -67,7 +67,7 @@ def areas_of(family: Mapping[str, Any], indices: tuple[int, ...]) -> np.ndarray:
 
 
 def is_per_depth(family: Mapping[str, Any]) -> bool:
-    """Whether areas are per metre of depth [m]: the widths of tiles, as of walls of plane drops."""
+    """True if areas are per metre of depth [m]: widths of tiles, as of walls of plane drops."""
     areas, size = family.get("area", []), family.get("size")
     if family.get("kind") != "wall" or not len(areas) or size is None:
         return False

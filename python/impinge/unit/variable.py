@@ -67,7 +67,7 @@ class Variable:
 
     @property
     def is_discrete(self) -> bool:
-        """Whether values hold over a step: whole numbers and the like, and counts among reals."""
+        """True if values hold over a step: whole numbers and the like, and counts among reals."""
         return not (self.is_real or self.kind == "Float32") or self.variability == "discrete"
 
     @property
