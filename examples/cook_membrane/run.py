@@ -1,4 +1,4 @@
-"""Cook's membrane by four methods: error of the rise of its corner over spacing and over time."""
+"""Cook's membrane by five methods: error of the rise of its corner over spacing and over time."""
 
 import sys
 import time
@@ -14,7 +14,8 @@ from impinge import Unit  # noqa: E402
 NAME = "cook_membrane"
 SCENE = Path(__file__).parent / "scene.toml"
 METHODS = {
-    "fem": ("finite elements", ""),
+    "fem": ("finite elements, linear", ""),
+    "fem 2": ("finite elements, quadratic", ""),
     "rkpm": ("reproducing kernels, linear", ""),
     "rkpm 2": ("reproducing kernels, quadratic", "rkpm = { basis = 2 }"),
     "efg": ("element-free Galerkin, linear", ""),
@@ -52,10 +53,11 @@ def edges() -> np.ndarray:
 def variant(method: str, spacing: float, folder: Path) -> Path:
     """The scene of another method and spacing, with probes along two edges."""
     text = SCENE.read_text()
+    order = ", order = 2" if method == "fem 2" else ""
     of_method = f'mechanics = "{method.split()[0]}"\n{METHODS[method][1]}'
     for old, new in [
         ('mechanics = "fem"', of_method),
-        ("mesh = { spacing = 2e-3 }", f"mesh = {{ spacing = {spacing!r} }}"),
+        ("mesh = { spacing = 2e-3 }", f"mesh = {{ spacing = {spacing!r}{order} }}"),
     ]:
         assert text.count(old) == 1
         text = text.replace(old, new)
@@ -100,7 +102,7 @@ def report(runs: list[Run], exact: float):
 def draw(runs: list[Run], exact: float, folder: Path) -> Path:
     figure, [shape, over_spacing, over_time] = shared.new_figure(1, 3, height=5.0)
     draw_shape(shape, min((run for run in runs if run.method == "fem"), key=lambda r: r.spacing))
-    for colour, marker, method in zip([*shared.COLOURS], "osD^v", METHODS, strict=True):
+    for colour, marker, method in zip([*shared.COLOURS, "black"], "osD^vP", METHODS, strict=True):
         own = [run for run in runs if run.method == method]
         errors = [100 * abs(run.rise / exact - 1) for run in own]
         style = {"color": colour, "marker": marker, "label": METHODS[method][0], "markersize": 5}

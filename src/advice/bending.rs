@@ -19,7 +19,9 @@ pub fn review(reviewer: &mut Reviewer) {
         let path = Path::default().key("body").key(name).at("mesh.spacing");
         let elements = if across == 1 { "one element is" } else { "two elements are" };
         let (error, fine) = (ERRORS[across - 1], number(smallest / ENOUGH));
-        reviewer.warn(&path, warning::bending_unresolved(elements, number(smallest), error, fine));
+        let other = if solid.conducts() { "" } else { ", or `mesh.order = 2`" };
+        let found = warning::bending_unresolved(elements, number(smallest), error, fine, other);
+        reviewer.warn(&path, found);
     }
 }
 
@@ -32,6 +34,7 @@ fn coarse(solid: &LargeStrain) -> Option<(usize, f64)> {
     let across = (smallest / solid.spacing()).round().max(1.0) as usize;
     let is_coarse = across <= ERRORS.len() && largest >= SLENDER * smallest;
     // The extents of a part are not its thickness.
-    let is_known = solid.mechanics == Mechanics::Fem && solid.part().is_none();
+    let is_known =
+        solid.mechanics == Mechanics::Fem && solid.order() == 1 && solid.part().is_none();
     (is_coarse && is_known).then_some((across, smallest))
 }

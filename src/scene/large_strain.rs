@@ -276,6 +276,11 @@ impl LargeStrain {
         self.mesh.spacing.unwrap_or(self.smallest() / ACROSS)
     }
 
+    /// Order of the functions of finite elements.
+    pub fn order(&self) -> usize {
+        self.mesh.order.unwrap_or(1)
+    }
+
     /// Returns true if the body is modelled by a meridian section.
     pub fn is_axisymmetric(&self) -> bool {
         let [u, v, _] = self.start.velocity;

@@ -142,7 +142,7 @@ impl Cloud {
     pub fn surface(&self) -> Mesh {
         let faces = self.patches.iter().map(|patch| (patch.side, vec![patch.node]));
         let (form, nodes) = (self.form, self.nodes.clone());
-        Mesh { form, nodes, cells: Vec::new(), faces: faces.collect() }
+        Mesh { form, order: 1, nodes, cells: Vec::new(), faces: faces.collect() }
     }
 
     /// Returns true if a place is within half of the spacing of a point.

@@ -1,34 +1,42 @@
-//! Finite elements: linear functions along each edge of quadrilaterals and hexahedra.
+//! Finite elements: functions that are linear or quadratic along each edge of quadrilaterals and hexahedra.
 
-use super::{Boundary, Form, Mesh, Samples, Space, Value};
+use super::mesh::{nodes_of_cell, place_in_cell};
+use super::shares::shares;
+use super::{Boundary, Form, Mesh, Samples, Sharing, Space, Value};
 use crate::math::matrix3::{self, cross};
 
-/// Gauss points of two on the unit interval.
+/// Places of Gauss points on the unit interval, by orders of functions, and weights of those of quadratic ones; those of
+/// linear ones are equal.
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
+const GAUSS_QUADRATIC: [f64; 3] = [0.112_701_665_379_258_3, 0.5, 0.887_298_334_620_741_7];
+const WEIGHTS_QUADRATIC: [f64; 3] = [5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0];
 
-/// Creates the space of a mesh's functions, linear between its nodes. Points of a cell share one dilatation, so that
-/// nearly incompressible bodies do not lock (Simo, Taylor & Pister 1985, Comput. Methods Appl. Mech. Eng. 51, 177–208,
-/// doi 10.1016/0045-7825(85)90033-7).
+/// Creates the space of a mesh's functions. The points of a cell share one dilatation, or with quadratic functions one
+/// that is linear over the cell, so that nearly incompressible bodies do not lock (J. C. Simo, R. L. Taylor & K. S.
+/// Pister 1985, doi 10.1016/0045-7825(85)90033-7).
 pub fn finite_elements(mesh: &Mesh) -> Space {
     let mut volume = Samples::default();
     let mut groups = Vec::new();
-    let mut shares = vec![0.0; mesh.nodes.len()];
     for cell in &mesh.cells {
         let first = volume.len();
-        for local in gauss_points(mesh.form) {
-            let (at, weight, row) = sample(mesh, cell, local);
-            for value in &row {
-                shares[value.node as usize] += weight * value.value;
-            }
+        for (local, part) in gauss_points(mesh.form, mesh.order) {
+            let (at, weight, row) = sample(mesh, cell, (local, part));
             volume.push(at, weight, row);
         }
         groups.push(first..volume.len());
     }
+    let sharing = match mesh.order {
+        1 => Sharing::Mean,
+        _ => Sharing::linear(&volume, &groups, mesh.form),
+    };
+    let shares = shares(mesh, &volume);
     Space {
         form: mesh.form,
+        order: mesh.order,
         nodes: mesh.nodes.clone(),
         volume,
         groups,
+        sharing,
         boundary: boundary(mesh),
         at_nodes: None,
         shares,
@@ -36,20 +44,40 @@ pub fn finite_elements(mesh: &Mesh) -> Space {
     }
 }
 
-fn gauss_points(form: Form) -> Vec<[f64; 3]> {
-    let count = if form == Form::Solid { 8 } else { 4 };
-    let point = |n: usize| match form {
-        Form::Solid => [GAUSS[n & 1], GAUSS[n >> 1 & 1], GAUSS[n >> 2]],
-        _ => [GAUSS[n & 1], 0.0, GAUSS[n >> 1]],
+/// Gauss points of a unit cell with their parts of its volume.
+fn gauss_points(form: Form, order: usize) -> Vec<([f64; 3], f64)> {
+    let count = nodes_of_cell(form, order);
+    let point = |n: usize| {
+        let place = place_in_cell(form, order, n);
+        let axes = form.axes();
+        let mut local = [0.0; 3];
+        axes.iter().for_each(|&a| local[a] = along(order, place[a]).0);
+        let part = match order {
+            1 => 1.0 / count as f64,
+            _ => axes.iter().map(|&a| along(order, place[a]).1).product(),
+        };
+        (local, part)
     };
     (0..count).map(point).collect()
 }
 
-/// Place, weight and row of a point of a cell.
-pub(super) fn sample(mesh: &Mesh, cell: &[u32], local: [f64; 3]) -> ([f64; 3], f64, Vec<Value>) {
+/// A Gauss point of the unit interval and its weight.
+fn along(order: usize, place: usize) -> (f64, f64) {
+    match order {
+        1 => (GAUSS[place], 0.5),
+        _ => (GAUSS_QUADRATIC[place], WEIGHTS_QUADRATIC[place]),
+    }
+}
+
+/// Place, weight and row of a point of a cell, at a place of the unit cell and for a part of its volume.
+pub(super) fn sample(
+    mesh: &Mesh,
+    cell: &[u32],
+    (local, part): ([f64; 3], f64),
+) -> ([f64; 3], f64, Vec<Value>) {
     let axes = mesh.form.axes();
     let shapes: Vec<(f64, [f64; 3])> =
-        (0..cell.len()).map(|n| shape(mesh.form, n, local)).collect();
+        (0..cell.len()).map(|n| shape((mesh.form, mesh.order), n, local)).collect();
     let mut at = [0.0; 3];
     // ∂X_a/∂ξ_b.
     let mut jacobian = [[0.0; 3]; 3];
@@ -64,8 +92,7 @@ pub(super) fn sample(mesh: &Mesh, cell: &[u32], local: [f64; 3]) -> ([f64; 3], f
         jacobian[1][1] = 1.0;
     }
     let (inverse, determinant) = matrix3::inverse(&jacobian);
-    let points = if axes.len() == 2 { 4.0 } else { 8.0 };
-    let weight = determinant.abs() / points * mesh.form.depth(at);
+    let weight = determinant.abs() * part * mesh.form.depth(at);
     let row = cell.iter().zip(&shapes).map(|(&node, (value, slope))| {
         let mut gradient = [0, 1, 2].map(|a| (0..3).map(|b| slope[b] * inverse[b][a]).sum());
         if axes.len() == 2 {
@@ -76,48 +103,52 @@ pub(super) fn sample(mesh: &Mesh, cell: &[u32], local: [f64; 3]) -> ([f64; 3], f
     (at, weight, row.collect())
 }
 
-/// Function of a corner and its derivatives at a place of the unit cell.
-pub(super) fn shape(form: Form, corner: usize, local: [f64; 3]) -> (f64, [f64; 3]) {
-    let bits = match form {
-        Form::Solid => [corner & 1, corner >> 1 & 1, corner >> 2],
-        _ => [corner & 1, 2, corner >> 1],
-    };
-    let factors = [0, 1, 2].map(|a| match bits[a] {
-        0 => (1.0 - local[a], -1.0),
-        1 => (local[a], 1.0),
-        _ => (1.0, 0.0),
-    });
+/// Function of a node and its derivatives at a place of the unit cell.
+pub(super) fn shape((form, order): (Form, usize), node: usize, local: [f64; 3]) -> (f64, [f64; 3]) {
+    let place = place_in_cell(form, order, node);
+    let mut factors = [(1.0, 0.0); 3];
+    form.axes().iter().for_each(|&a| factors[a] = line(order, place[a], local[a]));
     let value = factors[0].0 * factors[1].0 * factors[2].0;
     let slope = [0, 1, 2].map(|a| factors[a].1 * factors[(a + 1) % 3].0 * factors[(a + 2) % 3].0);
     (value, slope)
 }
 
-/// Points of the boundary: two Gauss points an edge, four a face, with the functions of the edge or face and their
-/// gradients along it; across it they have none.
+/// Function of a node of the unit interval and its derivative.
+fn line(order: usize, place: usize, x: f64) -> (f64, f64) {
+    match (order, place) {
+        (1, 0) => (1.0 - x, -1.0),
+        (1, _) => (x, 1.0),
+        (_, 0) => ((1.0 - x) * (1.0 - 2.0 * x), 4.0 * x - 3.0),
+        (_, 1) => (4.0 * x * (1.0 - x), 4.0 - 8.0 * x),
+        _ => (x * (2.0 * x - 1.0), 4.0 * x - 1.0),
+    }
+}
+
+/// Points of the boundary: two Gauss points along each edge, three with quadratic functions, with the functions of the
+/// edge or face and their gradients along it; across it they have none.
 pub(super) fn boundary(mesh: &Mesh) -> Boundary {
     let centre_of_cell = centres(mesh);
     let mut boundary = Boundary::default();
     for (number, (side, face)) in mesh.faces.iter().enumerate() {
-        let corners: Vec<[f64; 3]> = face.iter().map(|&n| mesh.nodes[n as usize]).collect();
+        let places: Vec<[f64; 3]> = face.iter().map(|&n| mesh.nodes[n as usize]).collect();
         for n in 0..face.len() {
-            let local = [GAUSS[n & 1], GAUSS[n >> 1]];
-            let parts = face_shape(face.len(), local);
-            let (mut at, mut along) = ([0.0; 3], [[0.0; 3]; 2]);
-            for (x, (value, slope)) in corners.iter().zip(&parts) {
+            let (parts, part) = face_point((mesh.form, mesh.order), n);
+            let (mut at, mut tangents) = ([0.0; 3], [[0.0; 3]; 2]);
+            for (x, (value, slope)) in places.iter().zip(&parts) {
                 for a in 0..3 {
                     at[a] += value * x[a];
-                    (0..2).for_each(|b| along[b][a] += slope[b] * x[a]);
+                    (0..2).for_each(|b| tangents[b][a] += slope[b] * x[a]);
                 }
             }
-            if face.len() == 2 {
-                along[1] = [0.0, 1.0, 0.0];
+            if mesh.form != Form::Solid {
+                tangents[1] = [0.0, 1.0, 0.0];
             }
-            let area = cross(along[0], along[1]);
+            let area = cross(tangents[0], tangents[1]);
             let size = area.iter().map(|x| x * x).sum::<f64>().sqrt();
             let inside = centre_of_cell[number];
             let outward = (0..3).map(|a| area[a] * (at[a] - inside[a])).sum::<f64>().signum();
-            let weight = size / face.len() as f64 * mesh.form.depth(at);
-            let dual = dual(along);
+            let weight = size * part * mesh.form.depth(at);
+            let dual = dual(tangents);
             let row = face.iter().zip(&parts).map(|(&node, (value, slope))| Value {
                 node,
                 value: *value,
@@ -143,19 +174,24 @@ fn dual(tangents: [[f64; 3]; 2]) -> [[f64; 3]; 2] {
     ]
 }
 
-fn face_shape(corners: usize, [u, v]: [f64; 2]) -> Vec<(f64, [f64; 2])> {
-    if corners == 2 {
-        return vec![(1.0 - u, [-1.0, 0.0]), (u, [1.0, 0.0])];
+/// Functions of the nodes of a face at one of its Gauss points, with their derivatives, and its part of the area.
+fn face_point((form, order): (Form, usize), point: usize) -> (Vec<(f64, [f64; 2])>, f64) {
+    let across = order + 1;
+    let [first, second] = [point % across, point / across];
+    let (u, part) = along(order, first);
+    let of_edge: Vec<(f64, f64)> = (0..across).map(|n| line(order, n, u)).collect();
+    if form != Form::Solid {
+        return (of_edge.into_iter().map(|(value, slope)| (value, [slope, 0.0])).collect(), part);
     }
-    vec![
-        ((1.0 - u) * (1.0 - v), [v - 1.0, u - 1.0]),
-        (u * (1.0 - v), [1.0 - v, -u]),
-        ((1.0 - u) * v, [-v, 1.0 - u]),
-        (u * v, [v, u]),
-    ]
+    let (v, other) = along(order, second);
+    let of_row = |row: usize| {
+        let (value, slope) = line(order, row, v);
+        of_edge.iter().map(move |own| (own.0 * value, [own.1 * value, own.0 * slope]))
+    };
+    ((0..across).flat_map(of_row).collect(), part * other)
 }
 
-/// Centre of the cell behind each face of the boundary.
+/// Centre of the nodes of the cell behind each face of the boundary.
 fn centres(mesh: &Mesh) -> Vec<[f64; 3]> {
     let mut cells_of = vec![Vec::new(); mesh.nodes.len()];
     for (number, cell) in mesh.cells.iter().enumerate() {

@@ -52,7 +52,7 @@ impl Mesh {
         if cells.is_empty() {
             return Err(BadMesh::Empty);
         }
-        let mut mesh = Self { form, nodes, cells, faces: Vec::new() };
+        let mut mesh = Self { form, order: 1, nodes, cells, faces: Vec::new() };
         mesh.check_nodes()?;
         let ranges = mesh.flush()?;
         mesh.check_cells()?;
@@ -182,7 +182,7 @@ impl Mesh {
             };
             let mut jacobian = [[0.0; 3]; 3];
             for (n, &node) in cell.iter().enumerate() {
-                let (_, slope) = shape(self.form, n, local);
+                let (_, slope) = shape((self.form, 1), n, local);
                 let x = self.nodes[node as usize];
                 for a in 0..3 {
                     (0..3).for_each(|b| jacobian[a][b] += x[a] * slope[b]);

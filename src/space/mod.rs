@@ -12,19 +12,22 @@ mod places;
 mod reach;
 mod reproducing;
 mod samples;
+mod shares;
+mod sharing;
 
 pub use bins::Bins;
 pub use cloud::{BadCloud, Cloud, Patch};
 pub use finite_elements::finite_elements;
 pub use given::BadMesh;
-pub use mesh::{BadPath, Mesh, Side, Sweep};
+pub use mesh::{BadPath, Mesh, Side, Sweep, cells_along};
 pub use particles::{particles, particles_of_cloud};
-pub use places::{contains, fit, linear_row};
+pub use places::{contains, fit, row_of_mesh};
 pub use reach::Supports;
 pub use reproducing::{
     Functions, Integration, Kernel, Refused, Reproducing, Row, Shape, Sides, reproducing,
 };
 pub use samples::{Samples, Value};
+pub use sharing::{Shared, Sharing};
 
 use std::ops::Range;
 
@@ -61,12 +64,16 @@ impl Form {
 #[derive(Debug, Clone)]
 pub struct Space {
     pub form: Form,
+    /// Order of finite elements; 1 of other functions.
+    pub order: usize,
     /// X of each node [m].
     pub nodes: Vec<[f64; 3]>,
     /// Points of the volume.
     pub volume: Samples,
-    /// Points of the volume that share one dilatation, in their order; none shared if each is alone.
+    /// Points of the volume that share a dilatation, in their order; none shared if each is alone.
     pub groups: Vec<Range<usize>>,
+    /// How the dilatation that the points of a group share follows from their own.
+    pub sharing: Sharing,
     /// Points of the boundary.
     pub boundary: Boundary,
     /// Functions at the nodes; `None` if each is one at its own node and zero at the others.
@@ -78,16 +85,24 @@ pub struct Space {
 }
 
 impl Space {
+    /// Weight of a point in the mean about a node, from the node's function there: positive, also where functions of
+    /// quadratic elements are not.
+    pub fn influence(&self, value: f64) -> f64 {
+        if self.order == 1 { value } else { value * value }
+    }
+
     /// The same with one dilatation for as many consecutive points, those of a cell.
     pub fn with_points_together(mut self, of_cell: usize) -> Self {
         let cells = self.volume.len() / of_cell;
         self.groups = (0..cells).map(|n| of_cell * n..of_cell * (n + 1)).collect();
+        self.sharing = Sharing::Mean;
         self
     }
 
     /// The same with a dilatation of its own at each point.
     pub fn with_points_alone(mut self) -> Self {
         self.groups = (0..self.volume.len()).map(|point| point..point + 1).collect();
+        self.sharing = Sharing::Mean;
         self
     }
 }

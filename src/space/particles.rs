@@ -8,18 +8,21 @@
 //! One gradient for each particle does not see motion that alternates between neighbours. So second derivatives are
 //! fitted, with the same weights, to what F_a leaves over of the neighbours' displacements. They give the gradient in
 //! each quarter (eighth) of a particle's cell, where the stress is taken: no mode but rigid ones is without energy, and
-//! there is no constant to be chosen. The points of a particle share one dilatation. Gradients are then made
+//! there is no constant to be chosen. Beside a face that only one row of neighbours lies behind, they are not [`seen`]
+//! across it, and zero. The points of a particle share one dilatation. Gradients are then made
 //! [`consistent`].
 
 mod consistent;
+mod seen;
 
 use consistent::{balance, whole_surface};
+use seen::Seen;
 
 use super::bins::Bins;
 use super::factor::Factor;
 use super::finite_elements::{boundary, sample};
 use super::reproducing::{Refused, Shape, spacings};
-use super::{Boundary, Cloud, Form, Mesh, Samples, Space, Value};
+use super::{Boundary, Cloud, Form, Mesh, Samples, Sharing, Space, Value};
 use crate::kernel::{CubicSpline, Shape as Kernel};
 
 /// A point at which the stress is taken.
@@ -77,7 +80,18 @@ fn space(
         points.into_iter().for_each(|point| volume.push(point.at, point.weight, point.row));
         groups.push(first..volume.len());
     }
-    Space { form, nodes: nodes.to_vec(), volume, groups, boundary, at_nodes: None, shares, links }
+    Space {
+        form,
+        order: 1,
+        nodes: nodes.to_vec(),
+        volume,
+        groups,
+        sharing: Sharing::Mean,
+        boundary,
+        at_nodes: None,
+        shares,
+        links,
+    }
 }
 
 /// The quarters or eighths of a square or cube of each point's volume, about the centre of the point's cell.
@@ -107,7 +121,7 @@ fn parts(mesh: &Mesh) -> Vec<Vec<Part>> {
                 Form::Solid => [corner & 1, corner >> 1 & 1, corner >> 2].map(|bit| HALVES[bit]),
                 _ => [HALVES[corner & 1], 0.0, HALVES[corner >> 1]],
             };
-            let (at, weight, _) = sample(mesh, cell, local);
+            let (at, weight, _) = sample(mesh, cell, (local, 1.0 / cell.len() as f64));
             parts[node as usize].push(Part { at, weight });
         }
     }
@@ -247,9 +261,6 @@ impl<const D: usize, const M: usize> Fit<D, M> {
     }
 }
 
-/// Part of the square of a quadratic term that is added to what a linear fit leaves over of it.
-const UNSEEN: f64 = 1e-7;
-
 /// Pairs of coordinates of the second derivatives.
 fn pairs<const D: usize>() -> impl Iterator<Item = (usize, usize)> {
     (0..D).flat_map(|a| (a..D).map(move |b| (a, b)))
@@ -283,11 +294,8 @@ fn fits<const D: usize, const M: usize>(neighbours: &[Neighbour<D>]) -> Option<V
         }
         rest
     };
-    // Where two particles lie across, there is no second derivative to be seen, and it is found to be zero.
-    let mut left = moments(neighbours, rest);
     let whole = moments(neighbours, |own| quadratics::<D, M>(own.y));
-    (0..M).for_each(|k| left[k][k] += UNSEEN * whole[k][k]);
-    let quadratic = Factor::of(&left)?;
+    let quadratic = Seen::of(moments(neighbours, rest), &whole)?;
     let second = |own: &Neighbour<D>| quadratic.solve(rest(own).map(|term| own.weight * term));
     let fit = |(own, first): (&Neighbour<D>, &[f64; D])| {
         let (mut first, second) = (*first, second(own));

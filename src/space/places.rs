@@ -12,9 +12,8 @@ const CONVERGED: f64 = 1e-13;
 /// Rounding of a place over the extent of a cell.
 const SLACK: f64 = 1e-9;
 
-/// Returns the functions of a mesh that are linear between its nodes at a place, those of the nearest cell for a place
-/// outside; values only.
-pub fn linear_row(mesh: &Mesh, at: [f64; 3]) -> Vec<Value> {
+/// Returns the functions of a mesh at a place, those of the nearest cell for a place outside; values only.
+pub fn row_of_mesh(mesh: &Mesh, at: [f64; 3]) -> Vec<Value> {
     let excess = |local: [f64; 3]| {
         let beyond = |&a: &usize| (local[a] - 1.0).max(-local[a]).max(0.0);
         mesh.form.axes().iter().map(beyond).fold(0.0, f64::max)
@@ -28,8 +27,8 @@ pub fn linear_row(mesh: &Mesh, at: [f64; 3]) -> Vec<Value> {
     let inside = inside.filter(|(_, local)| excess(*local) == 0.0);
     let nearest = inside.or_else(|| nearest(&mut mesh.cells.iter()));
     let Some((cell, local)) = nearest else { return Vec::new() };
-    let value = |(corner, &node): (usize, &u32)| {
-        let (value, _) = shape(mesh.form, corner, local);
+    let value = |(place, &node): (usize, &u32)| {
+        let (value, _) = shape((mesh.form, mesh.order), place, local);
         Value { node, value, gradient: [0.0; 3] }
     };
     cell.iter().enumerate().map(value).collect()
@@ -50,12 +49,12 @@ pub fn contains(mesh: &Mesh, at: [f64; 3]) -> bool {
 /// Rounding of a coordinate of a cell.
 const WITHIN: f64 = 1e-6;
 
-/// Returns true if a place lies between the extreme coordinates of a cell's corners.
+/// Returns true if a place lies between the extreme coordinates of a cell's nodes.
 fn bounds(mesh: &Mesh, cell: &[u32], at: [f64; 3]) -> bool {
     mesh.form.axes().iter().all(|&a| {
-        let corners = || cell.iter().map(|&node| mesh.nodes[node as usize][a]);
-        let low = corners().fold(f64::INFINITY, f64::min);
-        let high = corners().fold(f64::NEG_INFINITY, f64::max);
+        let nodes = || cell.iter().map(|&node| mesh.nodes[node as usize][a]);
+        let low = nodes().fold(f64::INFINITY, f64::min);
+        let high = nodes().fold(f64::NEG_INFINITY, f64::max);
         let slack = SLACK * (high - low);
         (low - slack..=high + slack).contains(&at[a])
     })
@@ -67,8 +66,8 @@ fn local(mesh: &Mesh, cell: &[u32], at: [f64; 3]) -> Option<[f64; 3]> {
     for _ in 0..ITERATIONS {
         let mut rest = at;
         let mut jacobian = [[0.0; 3]; 3];
-        for (corner, &node) in cell.iter().enumerate() {
-            let (value, slope) = shape(mesh.form, corner, local);
+        for (place, &node) in cell.iter().enumerate() {
+            let (value, slope) = shape((mesh.form, mesh.order), place, local);
             let x = mesh.nodes[node as usize];
             for a in 0..3 {
                 rest[a] -= value * x[a];
@@ -174,7 +173,9 @@ mod tests {
     fn linear_fields_are_exact_at_any_place() {
         let meshes = [
             Mesh::of_ball(Form::Plane, 1.0, 2, 2, [false; 2]),
-            Mesh::of_cylinder([1.0, 0.5], [2, 1, 2], [false; 2]),
+            Mesh::of_ball_by((Form::Plane, 2), 1.0, [1, 1], [false; 2]),
+            Mesh::of_cylinder(1, [1.0, 0.5], [2, 1, 2], [false; 2]),
+            Mesh::of_cylinder(2, [1.0, 0.5], [1, 1, 1], [false; 2]),
             Mesh::of_box(Form::Solid, [-1.0, -1.0, -1.0], [1.0, 1.0, 0.0], [3, 2, 2]),
         ];
         for mesh in meshes {
@@ -182,7 +183,7 @@ mod tests {
             let field = |[x, y, z]: [f64; 3]| 2.0 + 3.0 * x - if flat { 0.0 } else { y } + 0.5 * z;
             let space = finite_elements(&mesh);
             for at in [[0.1, 0.2, -0.2], [0.6, -0.1, -0.4], [0.0, 0.0, 0.0], [-0.7, 0.1, -0.45]] {
-                let row = linear_row(&mesh, at);
+                let row = row_of_mesh(&mesh, at);
                 let along = row.iter().map(|own| own.value * field(mesh.nodes[own.node as usize]));
                 assert!((along.sum::<f64>() - field(at)).abs() < 1e-12, "{:?} {at:?}", mesh.form);
                 let fitted = fit(&space.volume, mesh.form, at, 0.5, |_| true);

@@ -18,7 +18,8 @@ pub use kernel::Kernel;
 pub use refused::Refused;
 pub use sides::Sides;
 
-use super::{Form, Mesh, Samples, Side, Space};
+use super::shares::shares;
+use super::{Form, Mesh, Samples, Sharing, Side, Space};
 use second_smoothing::smoothed_again;
 
 /// Settings of a discretisation by reproducing kernels.
@@ -121,8 +122,10 @@ pub fn reproducing(mesh: &Mesh, settings: Reproducing) -> Result<Space, Refused>
     let at_nodes = at_nodes(mesh, &functions, &shares)?;
     Ok(Space {
         form: mesh.form,
+        order: 1,
         nodes: mesh.nodes.clone(),
         groups: (0..volume.len()).map(|n| n..n + 1).collect(),
+        sharing: Sharing::Mean,
         volume,
         boundary,
         at_nodes: Some(at_nodes),
@@ -168,30 +171,6 @@ impl Reproducing {
         }
         Ok(())
     }
-}
-
-/// Part of the volume that each node represents: the integral of its function if all of these are positive, as they are
-/// with linear bases on usual meshes, and otherwise the volume in proportion to the integral of its function's square.
-///
-/// Source of the latter: Hinton, Rock & Zienkiewicz (1976), Earthq. Eng. Struct. Dyn. 4, 245–249,
-/// doi 10.1002/eqe.4290040305.
-fn shares(mesh: &Mesh, volume: &Samples) -> Vec<f64> {
-    let integrals = |of: fn(f64) -> f64| {
-        let mut sums = vec![0.0; mesh.nodes.len()];
-        for point in 0..volume.len() {
-            for value in volume.row(point) {
-                sums[value.node as usize] += volume.weights[point] * of(value.value);
-            }
-        }
-        sums
-    };
-    let shares = integrals(|value| value);
-    if shares.iter().all(|&share| share > 0.0) {
-        return shares;
-    }
-    let squares = integrals(|value| value * value);
-    let factor = volume.weights.iter().sum::<f64>() / squares.iter().sum::<f64>();
-    squares.iter().map(|square| factor * square).collect()
 }
 
 /// Functions at the nodes, without gradients; each weight is the node's share.

@@ -89,9 +89,9 @@ rules! {
     Check route_outlasts_run(end, stop)
     "the path lays fluid until {end} s, and the run stops at {stop} s"; "extend `stop_time` if all is to be laid"
 
-    Check bending_unresolved(elements, extent, error, fine)
+    Check bending_unresolved(elements, extent, error, fine, other)
     "{elements} across the {extent} m of a slender body: its bending is wrong by {error}";
-    "did you mean a `mesh.spacing` of {fine} m or less?"
+    "did you mean a `mesh.spacing` of {fine} m or less{other}?"
 
     Check links_store_more_than_their_law(excess, law, fine, beyond)
     "up to its strength a link this long stores {excess} the area below its law, {law} J/m², and its break takes both: \

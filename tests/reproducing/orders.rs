@@ -1,7 +1,7 @@
 //! Orders of convergence on smooth fields: n + 1 in L2 and n in H1 for bases of order n.
 
 use impinge::space::{
-    Form, Functions, Integration, Mesh, Reproducing, Row, Side, Sides, reproducing,
+    Form, Functions, Integration, Mesh, Reproducing, Row, Side, Sides, finite_elements, reproducing,
 };
 
 use super::closed_forms::{ring_waves_body_force, waves, widening_of_tube};
@@ -82,6 +82,48 @@ fn gauss_points_on_irregular_nodes() {
     let [gauss, nodal] =
         [Integration::Gauss(5), Integration::Nsni].map(|i| error(square(12), 12, 1, i));
     assert!((0..2).all(|k| nodal[k] < 1.05 * gauss[k]), "{nodal:?} {gauss:?}");
+}
+
+/// Linear and quadratic elements on a smoothly bent mesh, in a plane and in a ball's meridian, held at their boundary.
+#[test]
+fn elements_on_bent_meshes() {
+    let bend =
+        |[x, y, z]: [f64; 3]| [x + 0.06 * (3.0 * z).sin() * x, y, z + 0.05 * (4.0 * x).cos()];
+    let square = |order: usize, n: usize| {
+        let ends = [[0.2, 0.0, -0.3], [1.2, 0.0, 0.9]];
+        Mesh::of_box_by((Form::Plane, order), ends[0], ends[1], [n, 0, n]).mapped(bend)
+    };
+    let ball = |order: usize, n: usize| {
+        Mesh::of_ball_by((Form::Axisymmetric, order), 1.0, [n / 2, n / 2], [true, false])
+    };
+    let error = |mesh: Mesh| {
+        let c = Elastic::strain(1.0, 0.3);
+        let space = finite_elements(&mesh);
+        let mut system = elasticity(&space, c);
+        body_force(&mut system, &space, |x| match mesh.form {
+            Form::Axisymmetric => ring_waves_body_force(x, c.lambda, c.mu),
+            _ => waves::body_force(x, c.lambda, c.mu),
+        });
+        let outer: Vec<u32> = mesh.faces.iter().flat_map(|(_, face)| face.clone()).collect();
+        system.fix(|i| {
+            let (node, axis) = (i / 2, [0, 2][i % 2]);
+            let is_on_axis = mesh.form == Form::Axisymmetric && mesh.nodes[node][0] == 0.0;
+            if is_on_axis && axis == 0 {
+                return Some(0.0);
+            }
+            outer.contains(&(node as u32)).then(|| waves::displacement(mesh.nodes[node])[axis])
+        });
+        errors(mesh.form, &space.volume, &system.solve(), waves::displacement, waves::gradient)
+    };
+    for order in [1, 2] {
+        for mesh in [&square as &dyn Fn(usize, usize) -> Mesh, &ball] {
+            let [coarse, fine] = [6, 24].map(|n| error(mesh(order, n)));
+            let [l2, h1] = [0, 1].map(|k| (coarse[k] / fine[k]).log2() / 2.0);
+            println!("order {order}: {coarse:?} {fine:?}, {l2} and {h1}");
+            let wanted = order as f64;
+            assert!(l2 > wanted + 0.8 && (h1 - wanted).abs() < 0.2, "{order}: {l2} {h1}");
+        }
+    }
 }
 
 /// A tube between held ends, under pressure inside.

@@ -70,6 +70,7 @@ mod plausibility;
 mod phases;
 mod power;
 mod pressure;
+mod quadratic_elements;
 mod recovered_stress;
 mod reduced;
 mod relaxation;

@@ -449,3 +449,63 @@ fn parts_that_cannot_be_modelled_are_refused() {
         text.replace("[files]", &(probe("p", [5e-3, 0.0, 1e-3], "\"stress\"") + "[files]"));
     assert!(says(&outside).contains("outside of `pad`"), "{}", says(&outside));
 }
+
+/// Particles of uneven parts bend about as those of a lattice, whatever their support: beside a face that a single row
+/// lies behind, its unevenness is no second derivative. Cantilevers of 50 mm by 10 mm, 8 cells across, under a small
+/// load, beside beam theory.
+#[test]
+fn particles_of_uneven_parts_do_not_stiffen() {
+    let (length, height, load) = (50.0, 10.0, 20.0);
+    let bent =
+        4.0 * load * (length * 1e-3_f64).powi(3) / (1e6 / 0.91 * (height * 1e-3_f64).powi(2));
+    let sheared = 1.2 * load * length * 1e-3 / (1e6 / 2.6);
+    // Distances across grow from both faces to the middle.
+    let graded = |growth: f64| {
+        let widths: Vec<f64> = (0..8).map(|n: i32| growth.powi(n.min(7 - n))).collect();
+        let whole: f64 = widths.iter().sum();
+        let levels: Vec<f64> = (0..=8).map(|n| widths[..n].iter().sum::<f64>() / whole).collect();
+        move |u: f64, w: f64| [length * u, height * levels[(8.0 * w).round() as usize]]
+    };
+    let mut cases: Vec<(f64, f64, f64)> = Vec::new();
+    cases.extend([1e-3, 0.01, 0.1, 0.2].map(|shake| (1.0, shake, 1.8)));
+    cases.extend([1.3, 1.5].map(|growth| (growth, 1e-3, 2.2)));
+    for (growth, shake, support) in cases {
+        let plan = Plan::block([40, 8], [LEFT, RIGHT, BOTTOM, TOP], graded(growth)).shaken(shake);
+        for (file, text) in [("part.vtu", plan.vtu()), ("part.csv", plan.csv())] {
+            let keys = format!(
+                "dimension = 2\nmechanics = \"sph\"\nsph = {{ support = {support:?} }}\n\
+                 faces = {{ left = {{ clamped = true }}, right = {{ traction = [0.0, 0.0, 0.0] }} }}"
+            );
+            let at = probe("end", [length * 1e-3, 0.0, 0.5 * height * 1e-3], "\"displacement\"");
+            let mut trial = Trial::new(&scene(file, &text, &keys, &at));
+            trial.set("pad.right.traction_z", load);
+            trial.step(1.0);
+            let found = trial.get("end.displacement_z") / (bent + sheared) - 1.0;
+            println!("{file} growth {growth}, shaken {shake}, support {support}: {found}");
+            assert!(found.abs() < 0.12, "{file} {growth} {shake} {support}: {found}");
+        }
+    }
+}
+
+/// The forces of particles balance in bodies that are hundreds of distances long, too: bars are drawn as in closed form.
+#[test]
+fn long_bodies_of_particles_balance() {
+    let law = Rubber::of_young(1e6, 0.3);
+    for [across, along] in [[8, 600], [32, 320]] {
+        let size = format!("[{:?}, 1.0, {:?}]", 1e-3 * f64::from(along), 1e-3 * f64::from(across));
+        let text = format!(
+            "name = \"Bar\"\nstop_time = 1.0\nstep = 1.0\n[body.pad]\nkind = \"solid\"\nstrain = \"finite\"\n\
+             initial_temperature = 293.15\nmechanics = \"sph\"\ndimension = 2\n\
+             material = {{ model = \"neo_hookean\", density = 1000.0, specific_heat = 1900.0, conductivity = 0.2, {LAW} }}\n\
+             shape = {{ box = {size} }}\nmesh = {{ spacing = 1e-3 }}\nsymmetry = \"none\"\n\
+             faces = {{ left = {{ roller = true }}, bottom = {{ roller = true }}, right = {{ displacement = [0.0, 0.0, 0.0] }} }}\n"
+        );
+        let mut trial = Trial::new(&text);
+        let stretch = 1.05;
+        trial.set("pad.right.displacement_x", (stretch - 1.0) * 1e-3 * f64::from(along));
+        trial.step(1.0);
+        let wanted = law.force(stretch, Sides::OneHeld) * 1e-3 * f64::from(across);
+        let found = trial.get("pad.right.force_x");
+        assert!(off(found, wanted) < 1e-7, "{across} {along}: {found} {wanted}");
+    }
+}

@@ -44,13 +44,19 @@ fn estimates_are_as_large_as_errors() {
     }
 }
 
-/// Of a strip that particles make too soft, kernels with nodes as far apart have less than half the error.
+/// Of a strip that particles make too soft and linear elements too stiff, quadratic elements with nodes as far apart have
+/// less than half the error.
 #[test]
 fn another_discretisation_with_a_smaller_error_is_named() {
-    let found = estimate(&strip("mechanics = \"sph\"", 2.5e-3));
-    assert!(found.worst().unwrap() > 0.01, "{:?}", found.outputs);
-    let named = found.notes.iter().any(|note| note.contains("`mechanics = \"rkpm\"`"));
-    assert!(named, "{:?}", found.notes);
+    for (keys, remedy) in [
+        ("mechanics = \"sph\"", "`mechanics = \"fem\"` and `mesh.order = 2` with nodes"),
+        ("", "note: `mesh.order = 2` with nodes"),
+    ] {
+        let found = estimate(&strip(keys, 2.5e-3));
+        assert!(found.worst().unwrap() > 0.01, "{:?}", found.outputs);
+        let named = found.notes.iter().any(|note| format!("note: {note}").contains(remedy));
+        assert!(named, "{:?}", found.notes);
+    }
 }
 
 #[test]

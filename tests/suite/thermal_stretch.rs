@@ -178,8 +178,9 @@ fn strips_of_two_layers_bend_as_timoshenko_says() {
 fn a_strip_bends_by_half_a_turn() {
     let (height, length) = (1e-3, 30e-3);
     let [upper, lower] = [(2e6, 0.4, 0.0, 0.4e-3), (1e6, 0.3, 1.2e-3, 0.6e-3)];
-    let bend = |spacing: f64| {
-        let mut trial = Trial::new(&strip([length, height], [upper, lower], spacing));
+    let bend = |mesh: &str| {
+        let text = strip([length, height], [upper, lower], 1.0);
+        let mut trial = Trial::new(&text.replace("spacing = 1.0", mesh));
         for step in 1..=8 {
             trial.set("pad.temperature", 300.0 + 6.0 * f64::from(step));
             trial.step(1.0);
@@ -194,8 +195,12 @@ fn a_strip_bends_by_half_a_turn() {
     let exact = BentStrip { layers: vec![layer(lower), layer(upper)] }.curvature(80.0);
     assert!(exact * length > std::f64::consts::PI, "{}", exact * length);
     let errors: Vec<f64> =
-        sweep(&[2e-4, 1e-4], &[0]).into_iter().map(|spacing| bend(spacing) / exact - 1.0).collect();
+        sweep(&[2e-4, 1e-4], &[0]).into_iter().map(|h| bend(&format!("spacing = {h:?}"))).collect();
+    let errors: Vec<f64> = errors.into_iter().map(|found| found / exact - 1.0).collect();
     assert!(errors[0].abs() < 0.012, "{errors:?}");
+    // One quadratic element through the upper layer, two through the lower one.
+    let quadratic = bend("spacing = 2e-4, order = 2") / exact - 1.0;
+    assert!(quadratic.abs() < 5e-4, "{quadratic}");
     if let [coarse, fine] = errors[..] {
         assert!((1.8..2.2).contains(&(coarse / fine).log2()), "{errors:?}");
     }

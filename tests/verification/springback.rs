@@ -8,6 +8,11 @@ const HEIGHT: f64 = 2e-3;
 /// Deflection of the end of a cantilever under a multiple of the load of first yield, and after unloading [m], and the
 /// part of that of which the end of the run warns.
 fn bent(across: f64, load: f64, hardening: f64) -> ([f64; 2], f64) {
+    bent_by(1, across, load, hardening)
+}
+
+/// The same by elements of an order, so many distances of nodes across.
+fn bent_by(order: usize, across: f64, load: f64, hardening: f64) -> ([f64; 2], f64) {
     let text = format!(
         r#"
 name = "Springback"
@@ -19,7 +24,7 @@ strain = "finite"
 dimension = 2
 section = "plane_stress"
 shape = {{ box = [{LENGTH:?}, 1.0, {HEIGHT:?}] }}
-mesh = {{ spacing = {:?} }}
+mesh = {{ spacing = {:?}, order = {order} }}
 initial_temperature = 293.15
 faces = {{ left = {{ clamped = true }}, right = {{ traction = [0.0, 0.0, 0.0] }} }}
 [body.strip.material]
@@ -54,7 +59,7 @@ gives = ["displacement"]
     let missing = warnings.first().map_or(0.0, |warning| {
         let words = warning.to_string();
         let words = words.split_once("may be ").expect("a bend that is coarse").1;
-        words.split_once(" % too small").expect("an error").0.parse::<f64>().expect("a number")
+        words.split_once(" % too ").expect("an error").0.parse::<f64>().expect("a number")
     });
     (found, 0.01 * missing)
 }
@@ -80,5 +85,22 @@ fn springback_converges_to_second_order() {
         // From 8 elements on errors fall by a quarter.
         let order = ((found[2][1] - found[1][1]) / (found[3][1] - found[2][1])).log2();
         assert!(order > 1.7, "{order}");
+    }
+}
+
+/// Quadratic elements with as many nodes across, beside the limit of linear ones.
+#[test]
+fn quadratic_elements_keep_more_of_a_bend() {
+    for (load, hardening) in [(1.3, 1e9), (1.45, 7e9)] {
+        let [middle, fine] = [16.0, 32.0].map(|across| bent(across, load, hardening).0[1]);
+        let limit = fine + (fine - middle) / 3.0;
+        let bends = [4.0, 8.0, 16.0].map(|across| bent_by(2, across, load, hardening));
+        let errors = bends.map(|bend| bend.0[1] / limit - 1.0);
+        let told = bends.map(|bend| bend.1);
+        println!("springback at {load}, quadratic: {errors:?}, told {told:?}");
+        for (error, most) in errors.into_iter().zip([0.25, 0.04, 0.003]) {
+            assert!(error.abs() < most, "{errors:?}");
+        }
+        assert!(told[2] == 0.0 && (0..2).all(|n| told[n] >= 0.9 * errors[n].abs()), "{told:?}");
     }
 }

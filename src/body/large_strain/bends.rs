@@ -1,7 +1,7 @@
 //! Bends of metal that a mesh resolves poorly.
 //!
 //! A bend beyond yield leaves plastic strain along a strip that changes its sign across it. The moment that bends n
-//! elements from yield to yield has an error of `c/n²`, as linear elements are too stiff. With the stress K of the
+//! elements from yield to yield has an error of `c/n²`, as elements are too stiff. With the stress K of the
 //! strip's face by its curvature, as if it were elastic, and the same M by its moment, `K − M` stays of the bend:
 //!
 //! - Where loads bend the strip, an error of M changes what stays by the S-fold, `S = (dK/dM − 1) M/(K − M)`: small
@@ -25,8 +25,10 @@ pub struct BendTest {
     name: String,
     /// Distance of nodes [m].
     spacing: f64,
-    /// True if points lie in elements, whose corners are the nodes of a point.
+    /// True if points lie in elements, whose nodes are those of a point.
     has_elements: bool,
+    /// Elements by which the outermost points of a strip are closer than its faces.
+    inset: f64,
     /// True if the mesh comes from a file.
     is_given: bool,
     /// Error of a moment times the square of the number of elements across, and its effect.
@@ -46,9 +48,9 @@ struct Bends {
 /// Part of what stays of a bend that may be missing without a warning, and that of a mesh that a warning proposes.
 const MISSING: f64 = 0.035;
 const PROPOSED: f64 = 0.02;
-/// Error of the moment times the square of the number of elements across: of elements, of kernels, and of particles and
-/// of kernels with a point a node, which are too soft.
-const OF_ELEMENTS: f64 = 0.75;
+/// Error of the moment times the square of the number of elements across: of elements by their order, of kernels, and of
+/// particles and of kernels with a point a node, which are too soft.
+const OF_ELEMENTS: [f64; 2] = [0.75, 0.07];
 const OF_KERNELS: f64 = 0.14;
 const OF_SOFT: f64 = 0.3;
 /// Plastic strain over that at first yield below which nothing stays of a bend.
@@ -68,8 +70,8 @@ const MOST: f64 = 64.0;
 const AROUND: f64 = 1.6;
 const OUTSIDE: f64 = 0.75;
 const STEP: f64 = 0.25;
-/// Elements by which the outermost points of a strip are closer than its faces.
-const INSET: f64 = 0.42;
+/// Elements by which the outermost points of a strip are closer than its faces, by the order of elements.
+const INSET: [f64; 2] = [0.42, 0.23];
 /// Points from which lines start.
 const LINES: usize = 2000;
 
@@ -77,7 +79,10 @@ impl BendTest {
     pub fn of((name, solid): (&str, &LargeStrain)) -> Self {
         let integration = solid.rkpm.unwrap_or_default().integration;
         let (stiff, effect) = match (solid.mechanics, integration) {
-            (Mechanics::Fem, _) => (OF_ELEMENTS, "too small"),
+            (Mechanics::Fem, _) => match solid.order() {
+                1 => (OF_ELEMENTS[0], "too small"),
+                _ => (OF_ELEMENTS[1], "too small or too large"),
+            },
             (Mechanics::Sph, _) | (_, KernelIntegration::Scni) => (OF_SOFT, "too large"),
             (_, KernelIntegration::Nsni) => (OF_KERNELS, "too small"),
             (_, KernelIntegration::Gauss) => (OF_KERNELS, "too small or too large"),
@@ -88,6 +93,7 @@ impl BendTest {
             name: name.to_owned(),
             spacing: solid.spacing(),
             has_elements: solid.mechanics == Mechanics::Fem,
+            inset: INSET[solid.order() - 1],
             is_given: solid.part().is_some(),
         }
     }
@@ -146,7 +152,7 @@ impl BendTest {
         let across = mean(&|_, line| line.across);
         let amplified = |point: usize, line: &Line| {
             let law = field.laws[point];
-            let section = Section::of(law, line.strain, 1.0 - INSET / line.across);
+            let section = Section::of(law, line.strain, 1.0 - self.inset / line.across);
             if is_loaded { section.under_load() } else { section.moved() }
         };
         let error = mean(&|point, line| self.stiff * amplified(point, line) / line.across.powi(2));
@@ -173,8 +179,9 @@ struct Field<'a> {
     /// Points by place, each in reach of all places that it may be the nearest to.
     near: Bins,
     spacing: f64,
-    /// Elements have sizes of their own, of which nodes of a point are the corners.
+    /// Elements have sizes of their own, those of the nodes of a point.
     has_elements: bool,
+    inset: f64,
 }
 
 impl<'a> Field<'a> {
@@ -192,9 +199,9 @@ impl<'a> Field<'a> {
         let groups = &body.space.groups;
         let laws = (0..groups.len()).flat_map(|group| groups[group].clone().map(move |_| group));
         let laws = laws.map(|group| body.law_of(group)).collect();
-        let BendTest { spacing, has_elements, .. } = *test;
+        let BendTest { spacing, has_elements, inset, .. } = *test;
         let near = Self::bins(body, spacing, has_elements);
-        Self { body, laws, strains, sizes, axes, near, spacing, has_elements }
+        Self { body, laws, strains, sizes, axes, near, spacing, has_elements, inset }
     }
 
     /// The points of a body, in reach of places among them and of those just outside.
@@ -289,7 +296,7 @@ impl<'a> Field<'a> {
         let (peak, first) = zone(&up, 1.0);
         let (opposite, last) = zone(other, -1.0);
         let peak = own.iter().fold(peak, |most, (_, e)| most.max(*e));
-        Some(Line { across: (last - first) / size + INSET, strain: peak.min(opposite) })
+        Some(Line { across: (last - first) / size + self.inset, strain: peak.min(opposite) })
     }
 
     /// Slope of the strain along a direction [1/m].

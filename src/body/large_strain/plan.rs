@@ -10,8 +10,8 @@ use crate::scene::{
     PartBody, SolidShape,
 };
 use crate::space::{
-    Form, Integration, Kernel, Mesh, Reproducing, Shape, Side, Sides, Space, finite_elements,
-    particles, particles_of_cloud, reproducing,
+    Form, Integration, Kernel, Mesh, Reproducing, Shape, Side, Sides, Space, cells_along,
+    finite_elements, particles, particles_of_cloud, reproducing,
 };
 
 /// Stiffness of the plane over that of a layer of the body one spacing thick.
@@ -25,18 +25,19 @@ const SPREAD: f64 = 1.3;
 /// The mesh of a solid; that of points has no cells.
 pub fn mesh(solid: &LargeStrain) -> Mesh {
     let (form, mirrors, spacing) = (solid.form(), solid.mirrors(), solid.spacing());
+    let order = solid.order();
     let [x, y, z] = solid.extents();
-    let count = |length: f64| (length / spacing).round().max(1.0) as usize;
+    let count = |length: f64| cells_along(length, order, spacing);
     match &solid.shape {
         SolidShape::Ball(ball) => {
-            let [inner, outer] = [INNER, OUTER].map(|part| count(part * ball.radius));
-            Mesh::of_ball(form, ball.radius, inner, outer, mirrors)
+            let counts = [INNER, OUTER].map(|part| count(part * ball.radius));
+            Mesh::of_ball_by((form, order), ball.radius, counts, mirrors)
         }
         SolidShape::Disc(disc) if form == Form::Solid => {
             let [inner, outer] = [INNER, OUTER].map(|part| count(part * disc.radius));
             let heights = heights(solid);
-            let counts = [inner, outer, heights.len() - 1];
-            let mesh = Mesh::of_cylinder([disc.radius, disc.thickness], counts, mirrors);
+            let counts = [inner, outer, (heights.len() - 1) / order];
+            let mesh = Mesh::of_cylinder(order, [disc.radius, disc.thickness], counts, mirrors);
             if solid.layers.is_some() { mesh.at_heights(&heights) } else { mesh }
         }
         SolidShape::Quadrilateral(own) => {
@@ -44,14 +45,15 @@ pub fn mesh(solid: &LargeStrain) -> Mesh {
             let counts = [count(bottom.max(top)), count(if mirrors[1] { 0.5 * y } else { y })];
             let counts = [counts[0], counts[1], count(left.max(right))];
             let front = if mirrors[1] { 0.0 } else { -0.5 * y };
-            let mesh = Mesh::of_box(form, [0.0, front, 0.0], [1.0, 0.5 * y, 1.0], counts);
+            let ends = [[0.0, front, 0.0], [1.0, 0.5 * y, 1.0]];
+            let mesh = Mesh::of_box_by((form, order), ends[0], ends[1], counts);
             let mesh = mesh.without_cuts([false, mirrors[1]]);
             mesh.mapped(|[u, y, w]| {
                 let [x, z] = own.place(u, w);
                 [x, y, z]
             })
         }
-        SolidShape::Strand(strand) => strand.sweep(form).mesh(spacing),
+        SolidShape::Strand(strand) => strand.sweep(form).mesh(order, spacing),
         SolidShape::Part(part) => match part.body().expect(CHECKED) {
             PartBody::Cells(mesh) => mesh.clone(),
             PartBody::Points(cloud) => cloud.surface(),
@@ -61,8 +63,10 @@ pub fn mesh(solid: &LargeStrain) -> Mesh {
             let low = |a: usize, length: f64| if halved[a] { 0.0 } else { -0.5 * length };
             let (left, front) = (low(0, x), low(1, y));
             let heights = heights(solid);
-            let counts = [count(0.5 * x - left), count(0.5 * y - front), heights.len() - 1];
-            let mesh = Mesh::of_box(form, [left, front, -z], [0.5 * x, 0.5 * y, 0.0], counts);
+            let layers = (heights.len() - 1) / order;
+            let counts = [count(0.5 * x - left), count(0.5 * y - front), layers];
+            let ends = [[left, front, -z], [0.5 * x, 0.5 * y, 0.0]];
+            let mesh = Mesh::of_box_by((form, order), ends[0], ends[1], counts);
             let mesh = if solid.layers.is_some() { mesh.at_heights(&heights) } else { mesh };
             mesh.without_cuts(halved)
         }
@@ -133,16 +137,17 @@ fn layers_of_groups(solid: &LargeStrain, space: &Space) -> Vec<usize> {
 /// Heights of the nodes of a box or a disc, from the bottom [m]: each layer has elements of its own.
 fn heights(solid: &LargeStrain) -> Vec<f64> {
     let least = if solid.layers.is_some() { LEAST_IN_LAYER } else { 1 };
+    let order = solid.order();
     let mut heights = Vec::new();
     for [low, high] in solid.heights_of_layers().into_iter().rev() {
-        let count = ((high - low) / solid.spacing()).round().max(least as f64) as usize;
+        let count = order * cells_along(high - low, order, solid.spacing()).max(least / order);
         heights.extend((0..count).map(|n| low + (high - low) * n as f64 / count as f64));
     }
     heights.push(0.0);
     heights
 }
 
-/// Fewest elements through a layer.
+/// Fewest distances of nodes through a layer.
 const LEAST_IN_LAYER: usize = 2;
 
 /// Settings of reproducing kernels, with functions that can be held at the faces of a body.

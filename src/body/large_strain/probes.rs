@@ -9,7 +9,7 @@ use crate::laws::solid::stress::von_mises;
 use crate::math::matrix3::{Matrix3, packed, product, scale_deviator, transposed};
 use crate::method::large_strain::{Deformable, Stresses};
 use crate::scene::{LargeStrain, Mechanics, Sampling, Scene};
-use crate::space::{Form, Functions, Mesh, Refused, Row, Samples, Value, fit, linear_row};
+use crate::space::{Form, Functions, Mesh, Refused, Row, Samples, Value, fit, row_of_mesh};
 
 /// The points of a body.
 pub struct Probes(Vec<Probe>);
@@ -90,7 +90,7 @@ impl Probe {
             Mechanics::Fem | Mechanics::Sph if mesh.cells.is_empty() => {
                 among_points(body, place, REACH * solid.spacing())
             }
-            Mechanics::Fem | Mechanics::Sph => linear_row(mesh, place),
+            Mechanics::Fem | Mechanics::Sph => row_of_mesh(mesh, place),
         };
         let layer = solid.layer_at(place[2]);
         let mut in_layer = vec![false; body.space.volume.len()];

@@ -211,7 +211,7 @@ impl Seen<'_> {
         let mut sums = vec![[0.0; 2]; body.nodes()];
         for (point, stress) in of_points.into_iter().enumerate() {
             for value in points.row(point) {
-                let share = value.value * points.weights[point];
+                let share = body.space.influence(value.value) * points.weights[point];
                 let sum = &mut sums[value.node as usize];
                 sum[0] += share;
                 sum[1] += share * stress;
@@ -226,19 +226,20 @@ impl Seen<'_> {
         let (deformed, dilatations) =
             body.deformations(self.displacement, (self.over, self.history), &body.team());
         let mut sums = vec![[0.0; 3]; body.nodes()];
-        for (number, (group, &mean)) in body.space.groups.iter().zip(&dilatations).enumerate() {
+        for (number, (group, shared)) in body.space.groups.iter().zip(&dilatations).enumerate() {
             let layer = body.layer_of_group[number];
             let stretch = self.over.at(body, number).stretch;
             let (free, density) = (stretch.powi(3), body.layers[layer].density);
-            let [slope, _] = body.law_of(number).pressure(mean);
-            for point in group.clone() {
+            let pressure = body.pressure(number, body.law_of(number), shared);
+            for (place, point) in group.clone().enumerate() {
                 let Deformed { dilatation, .. } = deformed[point];
                 for value in body.space.volume.row(point) {
-                    let share = value.value * body.space.volume.weights[point];
+                    let share =
+                        body.space.influence(value.value) * body.space.volume.weights[point];
                     let sum = &mut sums[value.node as usize];
                     sum[0] += share;
                     sum[1] += share * density / (free * dilatation);
-                    sum[2] -= share * slope;
+                    sum[2] -= share * pressure.at(place);
                 }
             }
         }

@@ -20,7 +20,12 @@ pub struct SmallTrials {
     pub inputs: Vec<Vec<f64>>,
     /// Gravity of a further trial, for bodies on which nothing else acts [m/s²].
     pub gravity: Option<f64>,
+    /// True if no heat flows in the body, which quadratic elements do not have.
+    is_even: bool,
 }
+
+/// A discretisation to compare with: the mechanics, and the order of its elements.
+pub type Discretisation = (Mechanics, usize);
 
 impl SmallTrials {
     /// The trials of a solid of large strain, or the reason why it has none; `None` for other bodies.
@@ -57,7 +62,8 @@ impl SmallTrials {
             return Err("nothing acts on the body by itself");
         }
         twin.body.insert(name.to_owned(), Body::LargeStrain(Box::new(own)));
-        Ok(Self { scene: twin, name: name.to_owned(), inputs, gravity })
+        let is_even = !solid.conducts();
+        Ok(Self { scene: twin, name: name.to_owned(), inputs, gravity, is_even })
     }
 
     /// The scene of the body with nodes nearer to each other by a factor, under gravity [m/s²].
@@ -71,21 +77,26 @@ impl SmallTrials {
     }
 
     /// The same trials with another discretisation, where the body may have it.
-    pub fn with(&self, mechanics: Mechanics) -> Option<Self> {
+    pub fn with(&self, (mechanics, order): Discretisation) -> Option<Self> {
         let mut other = self.clone();
         let Some(Body::LargeStrain(solid)) = other.scene.body.get_mut(&self.name) else {
             return None;
         };
-        let is_free = solid.layers.is_none() && !solid.is_of_concrete();
-        if !is_free || solid.mechanics == mechanics {
+        let may_be = match (mechanics, order) {
+            (Mechanics::Fem, 2) => self.is_even,
+            _ => solid.layers.is_none() && !solid.is_of_concrete(),
+        };
+        if !may_be || (solid.mechanics, solid.order()) == (mechanics, order) {
             return None;
         }
         (solid.mechanics, solid.rkpm, solid.sph) = (mechanics, None, None);
+        solid.mesh.order = Some(order);
         Some(other)
     }
 
-    pub fn mechanics(&self) -> Option<Mechanics> {
-        Some(self.scene.large_strain(&self.name)?.mechanics)
+    pub fn discretisation(&self) -> Option<Discretisation> {
+        let solid = self.scene.large_strain(&self.name)?;
+        Some((solid.mechanics, solid.order()))
     }
 
     /// Distance of nodes [m].

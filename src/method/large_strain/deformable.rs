@@ -8,7 +8,7 @@ use crate::laws::solid::large_strain::{Deformed, LargeStrainLaw};
 use crate::laws::solid::stress::von_mises;
 use crate::math::matrix3::{IDENTITY, Matrix3, contraction, packed, scale_deviator};
 use crate::runtime::parallel::Team;
-use crate::space::{Form, Samples, Space};
+use crate::space::{Form, Samples, Shared, Space};
 
 /// A body in its reference configuration with the laws of its layers.
 pub struct Deformable {
@@ -292,14 +292,15 @@ impl Deformable {
         f
     }
 
-    /// Elastic deformation of the points of a group over the thermal stretch of a step, and its mean dilatation.
+    /// Elastic deformation of the points of a group over the thermal stretch of a step, and the dilatation that they
+    /// share.
     pub(super) fn group(
         &self,
         number: usize,
         u: &[[f64; 3]],
         over: Course,
         sheet: Sheet,
-    ) -> (Vec<Deformed>, f64) {
+    ) -> (Vec<Deformed>, Shared) {
         let (points, volume) = (&self.space.groups[number], &self.space.volume);
         let Course { time, stretch, .. } = over;
         let elastic = |f: Matrix3| f.map(|row| row.map(|value| value / stretch));
@@ -315,20 +316,18 @@ impl Deformable {
             Deformed::of(gradient)
         };
         let all: Vec<Deformed> = points.clone().map(at).collect();
-        let weights = &volume.weights[points.clone()];
-        let whole: f64 = weights.iter().sum();
-        let swollen: f64 = weights.iter().zip(&all).map(|(w, at)| w * at.dilatation).sum();
-        (all, swollen / whole)
+        let shared = self.shared_dilatation(number, &all);
+        (all, shared)
     }
 
-    /// Elastic deformation of all points over their thermal stretches in a step from a history, and the mean dilatation
-    /// of each group.
+    /// Elastic deformation of all points over their thermal stretches in a step from a history, and the dilatation that
+    /// each group shares.
     pub fn deformations(
         &self,
         u: &[[f64; 3]],
         (over, before): (&Courses, &[f64]),
         team: &Team,
-    ) -> (Vec<Deformed>, Vec<f64>) {
+    ) -> (Vec<Deformed>, Vec<Shared>) {
         let of_group = |group: usize| {
             let before = &before[self.history_of(group)];
             self.group(group, u, over.at(self, group), Sheet::From(before))
@@ -342,16 +341,16 @@ impl Deformable {
         u: &[[f64; 3]],
         (over, stresses): (&Courses, &Stresses),
         team: &Team,
-    ) -> (Vec<Deformed>, Vec<f64>) {
+    ) -> (Vec<Deformed>, Vec<Shared>) {
         let across = Sheet::Known(&stresses.across);
         self.of_groups(|group| self.group(group, u, over.at(self, group), across), team)
     }
 
     fn of_groups(
         &self,
-        of_group: impl Fn(usize) -> (Vec<Deformed>, f64) + Sync,
+        of_group: impl Fn(usize) -> (Vec<Deformed>, Shared) + Sync,
         team: &Team,
-    ) -> (Vec<Deformed>, Vec<f64>) {
+    ) -> (Vec<Deformed>, Vec<Shared>) {
         let all = team.map(self.space.groups.len(), of_group);
         let (points, dilatations): (Vec<_>, Vec<_>) = all.into_iter().unzip();
         (points.concat(), dilatations)
@@ -402,26 +401,22 @@ impl Deformable {
         let mut stress = std::array::from_fn(|a| std::array::from_fn(|b| entry(a, b)));
         if self.yields() {
             // The law bounds Kirchhoff's deviator, which is Cauchy's times the dilatation that the points share.
-            scale_deviator(&mut stress, at.dilatation / self.shared_dilatation(u, point, &at));
+            scale_deviator(&mut stress, at.dilatation / self.dilatation_beside(u, point, &at));
         }
         stress
     }
 
-    /// Mean dilatation of the points that share one with a point.
-    fn shared_dilatation(&self, u: &[[f64; 3]], point: usize, own: &Deformed) -> f64 {
+    /// The dilatation that a point shares with others.
+    fn dilatation_beside(&self, u: &[[f64; 3]], point: usize, own: &Deformed) -> f64 {
         let groups = &self.space.groups;
-        let group = &groups[groups.partition_point(|group| group.end <= point)];
-        if group.len() == 1 {
+        let group = groups.partition_point(|group| group.end <= point);
+        if groups[group].len() == 1 {
             return own.dilatation;
         }
         let volume = &self.space.volume;
-        let (mut swollen, mut whole) = (0.0, 0.0);
-        for other in group.clone() {
-            let weight = volume.weights[other];
-            swollen += weight * Deformed::of(self.gradient(volume, other, u)).dilatation;
-            whole += weight;
-        }
-        swollen / whole
+        let at = |other| Deformed::of(self.gradient(volume, other, u));
+        let all: Vec<Deformed> = groups[group].clone().map(at).collect();
+        self.shared_dilatation(group, &all).at(point - groups[group].start)
     }
 
     /// Largest von Mises stress of a point [Pa].

@@ -70,7 +70,6 @@ impl Element {
     ) {
         let width = components.len() * nodes.len();
         let weights = &body.space.volume.weights[points.clone()];
-        let whole: f64 = weights.iter().sum();
         let mut swellings = vec![[vec![0.0; width], vec![0.0; width]]; group.swellings.len()];
         for (place, point) in points.enumerate() {
             let weight = group.scale * weights[place];
@@ -98,7 +97,7 @@ impl Element {
         {
             let of_axes = forces.chunks_exact(nodes.len());
             for ([own, rows], forces) in self.factors.iter_mut().zip(of_axes) {
-                own.extend(forces.iter().map(|force| stiffness / whole * force));
+                own.extend(forces.iter().map(|force| stiffness * force));
                 rows.extend_from_slice(other);
             }
         }

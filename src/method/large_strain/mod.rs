@@ -2,14 +2,14 @@
 //!
 //! Nodes have displacements u, points of the volume the deformation gradient `F = 1 + Σ u_I ⊗ ∇Ψ_I` with the functions
 //! Ψ of the space. Internal forces `f_I = −Σ V P ∇Ψ_I` are the derivative of the stored energy, with P the first
-//! Piola–Kirchhoff stress of the law. The dilatation of the points of a group is one, its mean, so that nearly
-//! incompressible bodies do not lock (Simo, Taylor & Pister 1985, Comput. Methods Appl. Mech. Eng. 51, 177–208, doi
-//! 10.1016/0045-7825(85)90033-7). [`motion`] advances bodies with inertia, [`statics`] finds equilibria without.
+//! Piola–Kirchhoff stress of the law. The points of a group share a dilatation, so that nearly incompressible bodies do
+//! not lock. [`motion`] advances bodies with inertia, [`statics`] finds equilibria without.
 
 mod contact;
 mod friction;
 mod course;
 mod deformable;
+mod dilatation;
 mod element;
 mod failure;
 mod fragments;

@@ -8,6 +8,7 @@
 //! 10.1088/1751-8113/41/4/045206), taken in C. Two Gauss points on the path leave an error of the fifth power of the
 //! change.
 
+use super::dilatation::Pressure;
 use super::tangent::{GroupTangent, Swelling};
 use super::{Courses, Deformable, Failure};
 use crate::laws::solid::large_strain::Deformed;
@@ -36,8 +37,8 @@ pub type Stations = [Station; 2];
 pub struct Station {
     /// Upper triangles U with `UᵀU = C`, which have the stress S of every other F of that C.
     deformed: Vec<Deformed>,
-    /// Pressure of the dilatation that the points share, and its slope [Pa].
-    pressure: [f64; 2],
+    /// Pressure of the dilatation that the points share.
+    pressure: Pressure,
     /// S of each point [Pa].
     stresses: Vec<Matrix3>,
 }
@@ -95,7 +96,7 @@ impl Path<'_> {
         let points = self.body.space.groups[group].clone();
         let stations = STATIONS.map(|s| match self.body.is_sheet {
             true => self.station(group, s).stresses,
-            false => self.stresses(group, s, &self.deformed(group, s), 0.0),
+            false => self.stresses(group, s, &self.deformed(group, s), |_| 0.0),
         });
         let of_point = |(place, point): (usize, usize)| {
             let mut mean = [[0.0; 3]; 3];
@@ -113,13 +114,12 @@ impl Path<'_> {
         if self.body.is_sheet {
             return 0.0;
         }
-        let weights = &self.body.space.volume.weights;
-        let points = || self.body.space.groups[group].clone();
-        let whole: f64 = points().map(|point| weights[point]).sum();
+        let (body, points) = (self.body, self.body.space.groups[group].clone());
         let energy = |gradients: &[Matrix3]| {
-            let dilatation = |point: usize| Deformed::of(gradients[point]).dilatation;
-            let swollen: f64 = points().map(|point| weights[point] * dilatation(point)).sum();
-            whole * self.body.law_of(group).energy_of_dilatation(swollen / whole)
+            let own = gradients[points.clone()].iter();
+            let deformed: Vec<Deformed> = own.map(|gradient| Deformed::of(*gradient)).collect();
+            let shared = body.shared_dilatation(group, &deformed);
+            body.energy_of_dilatation(group, body.law_of(group), (1.0, &shared))
         };
         energy(&self.end) - energy(self.start)
     }
@@ -135,11 +135,11 @@ impl Path<'_> {
             let (end, middle) = (&self.end[point], self.middle(point));
             let mean = self.mean(stations, place);
             let laws = [0, 1].map(|n| {
-                let Station { deformed, pressure: [pressure, _], .. } = &stations[n];
+                let Station { deformed, pressure, .. } = &stations[n];
                 let (at, time) = (&deformed[place], STATIONS[n] * duration);
                 match body.is_sheet {
                     true => law.condensed_tangent(at, time, before),
-                    false => law.tangent(at, time, before, *pressure),
+                    false => law.tangent(at, time, before, pressure.at(place)),
                 }
             });
             // δP for δF₁ = e_k ⊗ e_l.
@@ -167,14 +167,17 @@ impl Path<'_> {
             points: points.enumerate().map(of_point).collect(),
             swellings: match body.is_sheet {
                 true => Vec::new(),
-                false => (0..2).map(|n| self.swelling(group, STATIONS[n], &stations[n])).collect(),
+                false => {
+                    let places = STATIONS.iter().zip(stations);
+                    places.flat_map(|(s, station)| self.swellings(group, *s, station)).collect()
+                }
             },
             scale: 1.0,
         }
     }
 
     /// Stiffness of the pressure at a place s of the path.
-    fn swelling(&self, group: usize, s: f64, station: &Station) -> Swelling {
+    fn swellings(&self, group: usize, s: f64, station: &Station) -> Vec<Swelling> {
         let points = self.body.space.groups[group].clone();
         let of = |gradient: &dyn Fn(usize) -> Matrix3, scale: f64| {
             let of_point = |(at, point): (&Deformed, usize)| {
@@ -184,19 +187,16 @@ impl Path<'_> {
             };
             station.deformed.iter().zip(points.clone()).map(of_point).collect()
         };
-        Swelling {
-            stiffness: WEIGHT * station.pressure[1],
-            forces: of(&|point| self.middle(point), 1.0),
-            changes: of(&|point| self.end[point], s),
-        }
+        let forces = of(&|point| self.middle(point), 1.0);
+        let changes = of(&|point| self.end[point], s);
+        self.body.swellings(group, (&station.pressure, WEIGHT), forces, changes)
     }
 
     fn station(&self, group: usize, s: f64) -> Station {
-        let weights = &self.body.space.volume.weights[self.body.space.groups[group].clone()];
         let deformed = self.deformed(group, s);
-        let swollen: f64 = weights.iter().zip(&deformed).map(|(w, at)| w * at.dilatation).sum();
-        let pressure = self.body.law_of(group).pressure(swollen / weights.iter().sum::<f64>());
-        let stresses = self.stresses(group, s, &deformed, pressure[0]);
+        let shared = self.body.shared_dilatation(group, &deformed);
+        let pressure = self.body.pressure(group, self.body.law_of(group), &shared);
+        let stresses = self.stresses(group, s, &deformed, |place| pressure.at(place));
         Station { deformed, pressure, stresses }
     }
 
@@ -212,15 +212,21 @@ impl Path<'_> {
         body.space.groups[group].clone().map(of_point).collect()
     }
 
-    /// S of these [Pa], at a pressure of the dilatation.
-    fn stresses(&self, group: usize, s: f64, deformed: &[Deformed], pressure: f64) -> Vec<Matrix3> {
+    /// S of these [Pa], at pressures of the dilatation.
+    fn stresses(
+        &self,
+        group: usize,
+        s: f64,
+        deformed: &[Deformed],
+        pressure: impl Fn(usize) -> f64,
+    ) -> Vec<Matrix3> {
         let body = self.body;
         let (law, duration) = (body.law_of(group), self.over.at(body, group).time);
         let (length, history) = (law.history(), &self.before[body.history_of(group)]);
         let stress = |(place, at): (usize, &Deformed)| {
             let mut own = history[length * place..length * (place + 1)].to_vec();
             let mut stress = law.respond(at, s * duration, &mut own).stress;
-            add(&mut stress, pressure * at.dilatation, &at.inverse_transposed);
+            add(&mut stress, pressure(place) * at.dilatation, &at.inverse_transposed);
             product(&transposed(&at.inverse_transposed), &stress)
         };
         deformed.iter().enumerate().map(stress).collect()

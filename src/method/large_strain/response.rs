@@ -103,15 +103,14 @@ impl Deformable {
             let (group, law) = (&self.space.groups[number], self.law_of(number));
             let (length, modulus) = (law.history(), law.wave_modulus());
             let own = if self.is_sheet { &history[..length] } else { &[] };
-            let (deformed, mean) = self.group(number, u, course, Sheet::From(own));
-            let [pressure, _] = law.pressure(mean);
-            let mut whole = 0.0;
-            for (point, at) in group.clone().zip(&deformed) {
+            let (deformed, shared) = self.group(number, u, course, Sheet::From(own));
+            let pressure = self.pressure(number, law, &shared);
+            for (in_group, (point, at)) in group.clone().zip(&deformed).enumerate() {
                 let weight = self.space.volume.weights[point];
                 let (own, rest) = history.split_at_mut(length);
                 history = rest;
                 let response = law.respond(at, time, own);
-                let jp = pressure * at.dilatation;
+                let jp = pressure.at(in_group) * at.dilatation;
                 let load = &mut chunk.loads[place];
                 for n in 0..9 {
                     let (a, b) = (n / 3, n % 3);
@@ -131,14 +130,14 @@ impl Deformable {
                 if dilatation.is_nan() || dilatation < chunk.least.0 {
                     chunk.least = (dilatation, point);
                 }
-                let wave = response.wave + law.wave_of_dilatation(at, mean);
+                let wave = response.wave + law.wave_of_dilatation(at, shared.at(in_group));
                 chunk.stiffening = chunk.stiffening.max(stretch * wave / modulus);
-                whole += weight;
                 place += 1;
             }
-            chunk.energy += volume * whole * law.energy_of_dilatation(mean);
+            chunk.energy += self.energy_of_dilatation(number, law, (volume, &shared));
             if growth != 0.0 {
-                chunk.swelling += growth * 3.0 * area * whole * law.energy_of_dilatation(mean);
+                let scale = growth * 3.0 * area;
+                chunk.swelling += self.energy_of_dilatation(number, law, (scale, &shared));
             }
         }
     }

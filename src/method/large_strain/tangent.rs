@@ -17,6 +17,7 @@ use crate::laws::solid::large_strain::{Deformed, LargeStrainLaw, Tangent};
 use crate::math::cholesky::SparseCholesky;
 use crate::math::matrix3::{Matrix3, contraction};
 use crate::runtime::parallel::Team;
+use crate::space::Shared;
 
 /// Stiffness of a body under fixed conditions: its pattern is known before time starts.
 pub struct Stiffness {
@@ -59,7 +60,7 @@ pub struct GroupTangent {
     pub scale: f64,
 }
 
-/// Stiffness `k Σ V δF : A_p Σ V B_p : dF` of a pressure that all points of a group share.
+/// Stiffness `k Σ V δF : A_p Σ V B_p : dF` of a pressure that the points of a group share.
 pub struct Swelling {
     pub stiffness: f64,
     /// A and B of each point.
@@ -231,8 +232,8 @@ impl Stiffness {
 /// A state about which a body is linearised.
 pub struct Linearised<'a> {
     pub deformations: Vec<Deformed>,
-    /// Mean J of each group.
-    pub dilatations: Vec<f64>,
+    /// Dilatation that each group shares.
+    pub dilatations: Vec<Shared>,
     /// History at the beginning of the step.
     pub before: &'a [f64],
     pub over: &'a Courses,
@@ -300,7 +301,7 @@ impl Linearised<'_> {
     fn of_law(&self, body: &Deformable, group: usize, law: &LargeStrainLaw) -> GroupTangent {
         let Course { time, stretch, .. } = self.over.at(body, group);
         let history = &self.before[body.history_of(group)];
-        let [pressure, stiffness] = law.pressure(self.dilatations[group]);
+        let pressure = body.pressure(group, law, &self.dilatations[group]);
         let length = law.history();
         let points = body.space.groups[group].clone();
         let deformed = &self.deformations[points];
@@ -308,19 +309,18 @@ impl Linearised<'_> {
             let before = &history[length * place..length * (place + 1)];
             match body.is_sheet {
                 true => law.condensed_tangent(at, time, before),
-                false => law.tangent(at, time, before, pressure),
+                false => law.tangent(at, time, before, pressure.at(place)),
             }
         };
         let cofactor =
             |at: &Deformed| at.inverse_transposed.map(|row| row.map(|g| at.dilatation * g));
-        let swelling = || {
+        let swellings = || {
             let forces: Vec<Matrix3> = deformed.iter().map(cofactor).collect();
-            let changes = forces.clone();
-            Swelling { stiffness, forces, changes }
+            body.swellings(group, (&pressure, 1.0), forces.clone(), forces)
         };
         GroupTangent {
             points: deformed.iter().enumerate().map(of_point).collect(),
-            swellings: if body.is_sheet { Vec::new() } else { vec![swelling()] },
+            swellings: if body.is_sheet { Vec::new() } else { swellings() },
             scale: stretch,
         }
     }
@@ -329,13 +329,12 @@ impl Linearised<'_> {
 impl GroupTangent {
     /// Volume times the change of P of each point [N m], of volumes and changes of F.
     fn loads(&self, weights: &[f64], strains: &[Matrix3]) -> Vec<Matrix3> {
-        let whole: f64 = weights.iter().sum();
         let pressures: Vec<f64> = self
             .swellings
             .iter()
             .map(|Swelling { stiffness, changes, .. }| {
                 let all = weights.iter().zip(changes).zip(strains);
-                stiffness / whole * all.map(|((w, b), f)| w * contraction(b, f)).sum::<f64>()
+                stiffness * all.map(|((w, b), f)| w * contraction(b, f)).sum::<f64>()
             })
             .collect();
         let of_point = |(place, strain): (usize, &Matrix3)| -> Matrix3 {

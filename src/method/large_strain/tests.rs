@@ -17,8 +17,11 @@ pub(super) fn bodies() -> Vec<Deformable> {
         Mesh::of_ball(Form::Plane, 1.0, 2, 2, [false; 2]),
         Mesh::of_ball(Form::Axisymmetric, 1.0, 2, 2, [true, false]),
         Mesh::of_ball(Form::Solid, 1.0, 2, 1, [false; 2]),
-        Mesh::of_cylinder([1.0, 0.5], [2, 1, 2], [false; 2]),
+        Mesh::of_cylinder(1, [1.0, 0.5], [2, 1, 2], [false; 2]),
         Mesh::of_box(Form::Solid, [-1.0, -1.0, -1.0], [1.0, 1.0, 0.0], [3, 2, 2]),
+        Mesh::of_ball_by((Form::Plane, 2), 1.0, [1, 1], [false; 2]),
+        Mesh::of_ball_by((Form::Axisymmetric, 2), 1.0, [1, 1], [true, false]),
+        Mesh::of_ball_by((Form::Solid, 2), 1.0, [1, 1], [false; 2]),
     ];
     let body = |mesh| Deformable::new(finite_elements(&mesh), law(), 1.0, [false; 2], 1);
     let section = Mesh::of_ball(Form::Plane, 1.0, 2, 2, [false; 2]);

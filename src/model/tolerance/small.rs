@@ -194,23 +194,30 @@ fn better(
     watched: &[Watched],
     worst: f64,
 ) -> Option<String> {
-    let others = match trials.mechanics()? {
-        Mechanics::Fem => [Mechanics::Rkpm, Mechanics::Efg],
-        _ => [Mechanics::Fem, Mechanics::Rkpm],
+    let quadratic = (Mechanics::Fem, 2);
+    let own = trials.discretisation()?;
+    let others = match own {
+        (Mechanics::Fem, 1) => vec![quadratic, (Mechanics::Rkpm, 1), (Mechanics::Efg, 1)],
+        (Mechanics::Fem, _) => vec![(Mechanics::Rkpm, 1), (Mechanics::Efg, 1)],
+        _ => vec![quadratic, (Mechanics::Fem, 1), (Mechanics::Rkpm, 1)],
     };
-    let tried = others.into_iter().filter_map(|mechanics| {
-        let other = trials.with(mechanics).filter(|other| time(other, 1.0) <= LONGEST)?;
+    let tried = others.into_iter().filter_map(|discretisation| {
+        let other = trials.with(discretisation).filter(|other| time(other, 1.0) <= LONGEST)?;
         let found = responses(&other, 1.0, watched).ok()?;
         let error = differences(best, &found, watched).into_iter().fold(0.0, f64::max);
-        Some((mechanics, error))
+        Some((discretisation, error))
     });
-    let (mechanics, error) = tried.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let ((mechanics, order), error) = tried.min_by(|a, b| a.1.total_cmp(&b.1))?;
     let is_better = error < BETTER * worst;
     is_better.then(|| {
-        format!(
-            "`mechanics = \"{}\"` with nodes as far apart would err by about {}",
-            mechanics.key(),
-            percent(error)
-        )
+        let mut keys = Vec::new();
+        if mechanics != own.0 {
+            keys.push(format!("`mechanics = \"{}\"`", mechanics.key()));
+        }
+        if order != own.1 {
+            keys.push(format!("`mesh.order = {order}`"));
+        }
+        let keys = keys.join(" and ");
+        format!("{keys} with nodes as far apart would err by about {}", percent(error))
     })
 }

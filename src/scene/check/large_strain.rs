@@ -28,6 +28,7 @@ pub fn check(checker: &mut Checker) {
         layers::materials(checker, &path, own, thickness);
         check_material(checker, &path, solid);
         idle::check(checker, name, solid);
+        check_order(checker, &path.at("mesh.order"), solid);
         check_kernels(checker, &path, solid);
         check_section(checker, &path, solid);
         check_heat(checker, &path, solid);
@@ -199,6 +200,24 @@ fn check_kernels(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
     if settings.smoothing.is_some() {
         check_smoothing(checker, &path.key("smoothing"), solid, settings);
     }
+}
+
+/// Checks that quadratic functions have what they need.
+fn check_order(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
+    if solid.order() == 1 {
+        return;
+    }
+    let message = "only finite elements have functions of this order";
+    checker.require(
+        solid.mechanics == Mechanics::Fem,
+        path,
+        message,
+        "1, or `mechanics = \"fem\"`",
+    );
+    let message = "the cells of a part are linear";
+    checker.require(solid.part().is_none(), path, message, "1, or another shape");
+    let message = "quadratic elements have a uniform temperature";
+    checker.require(!solid.conducts(), path, message, "1, or no heat flow");
 }
 
 fn check_smoothing(

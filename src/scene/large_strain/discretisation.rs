@@ -9,7 +9,7 @@ use crate::limits::{above_zero, length, plausible, whole, within};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Mechanics {
-    /// Linear finite elements.
+    /// Finite elements.
     #[default]
     Fem,
     /// Reproducing kernels: cubic splines.
@@ -102,4 +102,9 @@ pub struct LargeStrainMesh {
         .condition("up to the smallest extent")
         .otherwise("a tenth of the smallest extent"))]
     pub spacing: Option<f64>,
+    /// Order of the shape functions: linear, or quadratic between nodes two distances apart.
+    #[schemars(transform = whole(1, 2, "no shape functions of this order", "1 (linear), 2 (quadratic)")
+        .condition("2 with `mechanics = \"fem\"`, without heat flow, on no part")
+        .otherwise("1"))]
+    pub order: Option<usize>,
 }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use nalgebra::Vector3;
 
-use super::{Blocks, COINCIDENT, Form, INNER, Mesh, Side};
+use super::{Blocks, COINCIDENT, Form, INNER, Mesh, Side, cells_along};
 
 /// A circle, in a plane an interval, that is moved along a path. The strand is cut in half of the angle between two
 /// pieces, so that its volume is that of a straight one of the same length.
@@ -114,24 +114,28 @@ impl Sweep {
         })
     }
 
-    /// Meshes the strand with nodes at some distance. The side of its first section is left, that of its last right.
-    pub fn mesh(&self, spacing: f64) -> Mesh {
-        let section = self.section(spacing);
+    /// Meshes the strand by cells of an order with nodes at some distance. The side of its first section is left, that of
+    /// its last right.
+    pub fn mesh(&self, order: usize, spacing: f64) -> Mesh {
+        let section = self.section(order, spacing);
         let [first, second] = self.across();
         let place = |[u, v]: [f64; 2]| self.points[0] + first * u + second * v;
         let mut ends: Vec<Vector3<f64>> = section.nodes.iter().map(|&at| place(at)).collect();
-        let mut blocks = Blocks::new(self.form, spacing);
+        let mut blocks = Blocks::new((self.form, order), spacing);
         blocks.nodes.extend(ends.iter().map(|at| <[f64; 3]>::from(*at)));
         for piece in 0..self.pieces() {
             let next: Vec<_> = ends.iter().map(|&at| self.project(at, piece)).collect();
-            let layers = (self.length(piece) / spacing).round().max(1.0) as usize;
-            for layer in 1..=layers {
-                let part = layer as f64 / layers as f64;
-                let between = ends.iter().zip(&next).map(|(from, to)| from + (to - from) * part);
+            let layers = cells_along(self.length(piece), order, spacing);
+            for layer in 0..layers {
                 let below = blocks.nodes.len() - ends.len();
-                blocks.nodes.extend(between.map(<[f64; 3]>::from));
-                let offsets = [below as u32, (below + ends.len()) as u32];
-                blocks.cells.extend(section.cells.iter().map(|cell| self.cell(cell, offsets)));
+                for copy in order * layer + 1..=order * (layer + 1) {
+                    let part = copy as f64 / (order * layers) as f64;
+                    let between = ends.iter().zip(&next).map(|(a, b)| a + (b - a) * part);
+                    blocks.nodes.extend(between.map(<[f64; 3]>::from));
+                }
+                let offset = |copy: usize| (below + copy * ends.len()) as u32;
+                let offsets: Vec<u32> = (0..=order).map(offset).collect();
+                blocks.cells.extend(section.cells.iter().map(|cell| self.cell(cell, &offsets)));
             }
             ends = next;
         }
@@ -153,36 +157,35 @@ impl Sweep {
         })
     }
 
-    /// Corners of a cell between two copies of the section, whose nodes begin at two numbers.
-    fn cell(&self, of_section: &[u32], offsets: [u32; 2]) -> Vec<u32> {
+    /// Nodes of a cell between copies of the section, whose nodes begin at some numbers.
+    fn cell(&self, of_section: &[u32], offsets: &[u32]) -> Vec<u32> {
         let copies = || offsets.iter().map(|offset| of_section.iter().map(move |n| n + offset));
         match self.form {
             Form::Solid => copies().flatten().collect(),
             // Along the path first.
-            _ => {
-                let [from, to] = offsets;
-                of_section.iter().flat_map(|n| [n + from, n + to]).collect()
-            }
+            _ => of_section.iter().flat_map(|n| offsets.iter().map(move |o| n + o)).collect(),
         }
     }
 
     /// Nodes and cells across the path, about its axis.
-    fn section(&self, spacing: f64) -> Section {
-        let count = |length: f64| (length / spacing).round().max(1.0) as usize;
+    fn section(&self, order: usize, spacing: f64) -> Section {
+        let count = |length: f64| cells_along(length, order, spacing);
         match self.form {
             Form::Solid => {
-                let [inner, outer] = [INNER, 1.0 - INNER].map(|part| count(part * self.radius));
-                let disc = Mesh::of_ball(Form::Plane, self.radius, inner, outer, [false; 2]);
+                let counts = [INNER, 1.0 - INNER].map(|part| count(part * self.radius));
+                let disc = Mesh::of_ball_by((Form::Plane, order), self.radius, counts, [false; 2]);
                 // The polygon has the area of the circle.
                 let scale = (PI * self.radius * self.radius / disc.area()).sqrt();
                 let nodes = disc.nodes.iter().map(|&[x, _, z]| [scale * x, scale * z]).collect();
                 Section { nodes, cells: disc.cells }
             }
             _ => {
-                let count = count(2.0 * self.radius);
+                let cells = count(2.0 * self.radius);
+                let count = order * cells;
                 let place = |n: usize| self.radius * (2.0 * n as f64 / count as f64 - 1.0);
-                let cells = (0..count as u32).map(|n| vec![n, n + 1]).collect();
-                Section { nodes: (0..=count).map(|n| [place(n), 0.0]).collect(), cells }
+                let cell = |n: usize| (order * n..=order * (n + 1)).map(|n| n as u32).collect();
+                let nodes = (0..=count).map(|n| [place(n), 0.0]).collect();
+                Section { nodes, cells: (0..cells).map(cell).collect() }
             }
         }
     }
@@ -287,8 +290,11 @@ mod tests {
             let path = path(form);
             let sweep = Sweep::new(form, &path, 0.5);
             assert_eq!(sweep.fault(), None);
-            for spacing in if form == Form::Solid { vec![0.1] } else { vec![0.1, 0.05] } {
-                let mesh = sweep.mesh(spacing);
+            let spacings = if form == Form::Solid { vec![0.1] } else { vec![0.1, 0.05] };
+            for (order, spacing) in
+                [1, 2].into_iter().flat_map(|o| spacings.iter().map(move |s| (o, *s)))
+            {
+                let mesh = sweep.mesh(order, spacing);
                 let space = finite_elements(&mesh);
                 assert!(space.volume.weights.iter().all(|&w| w > 0.0));
                 let section = if form == Form::Solid { PI * 0.25 } else { 1.0 };

@@ -7,8 +7,12 @@
 //! that is closest to λ at the nodes of a. The λ of all nodes follow from one symmetric positive semidefinite system
 //! for each coordinate.
 
+use std::collections::BTreeMap;
+
 use super::Point;
+use crate::math::cholesky::{Elimination, LowerTriangle, SparseCholesky};
 use crate::math::conjugate_gradients::{self, Operator};
+use crate::math::geometric_dissection::geometric_dissection;
 use crate::runtime::parallel::Team;
 use crate::space::factor::Factor;
 use crate::space::finite_elements::boundary;
@@ -65,6 +69,65 @@ impl<const N: usize> Operator for Balance<'_, N> {
     }
 }
 
+/// The same with a factor of its matrix as the preconditioner.
+struct Factored<'a, const N: usize> {
+    balance: &'a Balance<'a, N>,
+    factor: SparseCholesky,
+}
+
+impl<'a, const N: usize> Factored<'a, N> {
+    fn of(balance: &'a Balance<'a, N>, places: &[[f64; 3]]) -> Option<Self> {
+        let mut columns: Vec<BTreeMap<u32, f64>> = vec![BTreeMap::new(); places.len()];
+        for patch in balance.patches {
+            for (column, terms) in patch.nodes.iter().zip(&patch.terms) {
+                let solved = patch.moments.solve(*terms);
+                for (row, other) in patch.nodes.iter().zip(&patch.terms) {
+                    let affine = (0..N).map(|i| solved[i] * other[i]).sum::<f64>();
+                    let own = if row == column { 1.0 } else { 0.0 };
+                    if row >= column {
+                        *columns[*column as usize].entry(*row).or_default() +=
+                            patch.volume * (own - affine);
+                    }
+                }
+            }
+        }
+        // Affine values have no energy.
+        for (node, column) in columns.iter_mut().enumerate() {
+            *column.entry(node as u32).or_default() += SHIFT * balance.diagonal[node];
+        }
+        let mut neighbours: Vec<Vec<u32>> = vec![Vec::new(); places.len()];
+        for (node, column) in columns.iter().enumerate() {
+            for &row in column.keys() {
+                neighbours[node].push(row);
+                neighbours[row as usize].push(node as u32);
+            }
+        }
+        let order = geometric_dissection(places, &neighbours);
+        let mut triangle = LowerTriangle { column_start: vec![0], ..LowerTriangle::default() };
+        for column in columns {
+            triangle.rows.extend(column.keys().map(|&row| row as usize));
+            triangle.values.extend(column.into_values());
+            triangle.column_start.push(triangle.rows.len());
+        }
+        let factor = Elimination::new(&triangle, &order).ok()?.factor(&triangle, 1).ok()?;
+        Some(Self { balance, factor })
+    }
+}
+
+/// Part of the diagonal that is added to the matrix before it is factored.
+const SHIFT: f64 = 1e-11;
+
+impl<const N: usize> Operator for Factored<'_, N> {
+    fn apply(&self, x: &[f64], out: &mut [f64]) {
+        self.balance.apply(x, out);
+    }
+
+    fn precondition(&self, residual: &[f64], out: &mut [f64]) {
+        out.copy_from_slice(residual);
+        self.factor.solve_in_place(out);
+    }
+}
+
 /// Changes the gradients of points, those of one particle together.
 pub fn balance<const N: usize>(
     (form, nodes): (Form, &[[f64; 3]]),
@@ -84,10 +147,10 @@ pub fn balance<const N: usize>(
         }
     }
     let system = Balance { patches: &patches, diagonal };
+    let mut factored = None;
     for &axis in axes {
         let missing = without_affine::<N>(form, nodes, missing(form, axis, particles, boundary));
-        let solved = conjugate_gradients::solve(&system, &missing, TOLERANCE, &Team::new(1));
-        let (factors, _) = solved.map_err(|_| Refused::Setting(UNBALANCED))?;
+        let factors = solve(&system, &mut factored, nodes, &missing)?;
         for (points, patch) in particles.iter_mut().zip(&patches) {
             let change = patch.bent(&factors);
             for point in points {
@@ -96,6 +159,27 @@ pub fn balance<const N: usize>(
         }
     }
     Ok(())
+}
+
+/// Solves the system. That of a long body is as ill conditioned as the fourth power of its length over the distance of
+/// particles, and is factored.
+fn solve<'a, const N: usize>(
+    system: &'a Balance<N>,
+    factored: &mut Option<Factored<'a, N>>,
+    places: &[[f64; 3]],
+    missing: &[f64],
+) -> Result<Vec<f64>, Refused> {
+    let team = Team::new(1);
+    if factored.is_none() {
+        if let Ok((factors, _)) = conjugate_gradients::solve(system, missing, TOLERANCE, &team) {
+            return Ok(factors);
+        }
+        *factored = Factored::of(system, places);
+    }
+    let unbalanced = || Refused::Setting(UNBALANCED);
+    let factored = factored.as_ref().ok_or_else(unbalanced)?;
+    let solved = conjugate_gradients::solve(factored, missing, TOLERANCE, &team);
+    solved.map(|(factors, _)| factors).map_err(|_| unbalanced())
 }
 
 const UNBALANCED: &str = "the forces of particles do not balance; raise `support`, or refine the mesh across its thinnest part";

@@ -19,7 +19,7 @@ impl Place {
     pub(super) fn of(mesh: &Mesh, cell: &[u32], local: [f64; 3]) -> Self {
         let (mut at, mut jacobian) = ([0.0; 3], [[0.0; 3]; 3]);
         for (n, &node) in cell.iter().enumerate() {
-            let (value, slope) = shape(mesh.form, n, local);
+            let (value, slope) = shape((mesh.form, 1), n, local);
             let x = mesh.nodes[node as usize];
             for a in 0..3 {
                 at[a] += value * x[a];
