@@ -8,6 +8,8 @@ SHOWN = {
     "small_spots",
     "moved_spots",
     "particle_grading",
+    "disordered_particles",
+    "graded_part",
     "held_inputs",
     "even_bar",
     "shock_cracks",

@@ -2,6 +2,7 @@
 
 from cases.solids import (
     broken_bars,
+    disorder,
     flaws,
     footprints,
     fronts_and_yield,
@@ -53,5 +54,9 @@ ALL = (
     large_strain.locking_at_large_strain,
     large_strain.creep_over_steps,
     large_strain.turns_in_one_step,
+    disorder.disordered_kernels,
+    disorder.disordered_kernels_gauss,
+    disorder.disordered_particles,
+    disorder.graded_part,
 )
 MAPS = {build.__name__: build for build in ALL}
