@@ -16,6 +16,9 @@ pub trait Operator {
 /// Iteration limit, above what any system needs that suits its preconditioner.
 pub const MOST_ITERATIONS: usize = 1000;
 
+/// Iterations after which the rate of convergence is judged.
+const FIRST: usize = 3;
+
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error(
     "conjugate gradients reached a relative residual of {residual:e} after {iterations} iterations; required: {tolerance:e}"
@@ -72,6 +75,28 @@ pub fn solve(
     tolerance: f64,
     team: &Team,
 ) -> Result<(Vec<f64>, usize), NotConverged> {
+    iterate(operator, load, tolerance, (MOST_ITERATIONS, false), team)
+}
+
+/// Does the same in at most so many iterations, and gives up once the mean rate of convergence so far does not suffice
+/// for that. An operator that is found not to be positive definite is none that converges.
+pub fn solve_within(
+    most: usize,
+    operator: &impl Operator,
+    load: &[f64],
+    tolerance: f64,
+    team: &Team,
+) -> Result<(Vec<f64>, usize), NotConverged> {
+    iterate(operator, load, tolerance, (most, true), team)
+}
+
+fn iterate(
+    operator: &impl Operator,
+    load: &[f64],
+    tolerance: f64,
+    (most, is_judged): (usize, bool),
+    team: &Team,
+) -> Result<(Vec<f64>, usize), NotConverged> {
     let mut solution = vec![0.0; load.len()];
     let Some(scale) = scale_of(load) else {
         // Not `all(0)` alone: a load of NaN has no solution.
@@ -85,9 +110,12 @@ pub fn solve(
     let mut direction = vec![0.0; load.len()];
     operator.precondition(&residual, &mut direction);
     let mut energy = product(team, &residual, &direction);
-    let wanted = tolerance * tolerance * energy;
+    let (first, wanted) = (energy, tolerance * tolerance * energy);
+    let failed = |energy: f64, iterations| {
+        Err(NotConverged { residual: (energy / first).sqrt(), iterations, tolerance })
+    };
     let (mut force, mut improved) = (vec![0.0; load.len()], vec![0.0; load.len()]);
-    for iteration in 0..MOST_ITERATIONS {
+    for iteration in 0..most {
         // Not `energy > wanted`, because NaN would then count as solved.
         if energy <= wanted {
             solution.iter_mut().for_each(|value| *value *= scale);
@@ -96,8 +124,16 @@ pub fn solve(
         if !energy.is_finite() {
             return Err(NotConverged { residual: f64::NAN, iterations: iteration, tolerance });
         }
+        let is_judged = is_judged && iteration >= FIRST;
+        if is_judged && is_too_slow(energy / first, tolerance, [iteration, most]) {
+            return failed(energy, iteration);
+        }
         operator.apply(&direction, &mut force);
-        let step = energy / product(team, &direction, &force);
+        let curvature = product(team, &direction, &force);
+        if curvature <= 0.0 {
+            return failed(energy, iteration);
+        }
+        let step = energy / curvature;
         add_scaled(team, &mut solution, step, &direction);
         add_scaled(team, &mut residual, -step, &force);
         operator.precondition(&residual, &mut improved);
@@ -105,8 +141,13 @@ pub fn solve(
         turn(team, &mut direction, next / energy, &improved);
         energy = next;
     }
-    let residual = (energy * tolerance * tolerance / wanted).sqrt();
-    Err(NotConverged { residual, iterations: MOST_ITERATIONS, tolerance })
+    failed(energy, most)
+}
+
+/// Returns true if iterations that go on at their mean rate do not reach the tolerance within `most`. `left` is the
+/// square of the relative residual.
+fn is_too_slow(left: f64, tolerance: f64, [iterations, most]: [usize; 2]) -> bool {
+    left.ln() * most as f64 > 2.0 * tolerance.ln() * iterations as f64
 }
 
 #[cfg(test)]
@@ -139,6 +180,36 @@ mod tests {
             let wanted = 0.5 * (i as f64 + 1.0) * (N - i) as f64;
             assert!((u / wanted - 1.0).abs() < 1e-11, "{u} {wanted}");
         }
+    }
+
+    /// A diagonal matrix, without a preconditioner.
+    struct Diagonal(Vec<f64>);
+
+    impl Operator for Diagonal {
+        fn apply(&self, x: &[f64], out: &mut [f64]) {
+            (0..x.len()).for_each(|n| out[n] = self.0[n] * x[n]);
+        }
+
+        fn precondition(&self, residual: &[f64], out: &mut [f64]) {
+            out.copy_from_slice(residual);
+        }
+    }
+
+    #[test]
+    fn iterations_are_given_up_where_they_are_too_slow() {
+        let (matrix, team) =
+            (Diagonal((0..40).map(|n| 1.0 + 0.1 * f64::from(n)).collect()), Team::new(1));
+        let within = |most| solve_within(most, &matrix, &[1.0; 40], 1e-10, &team);
+        assert_eq!(within(40).unwrap(), solve(&matrix, &[1.0; 40], 1e-10, &team).unwrap());
+        assert_eq!(within(10).unwrap_err().iterations, FIRST);
+    }
+
+    #[test]
+    fn negative_directions_of_a_load_are_found() {
+        let (matrix, team) = (Diagonal(vec![1.0, 1.1, 0.9, -1e-3]), Team::new(1));
+        let solved = |part: f64| solve_within(9, &matrix, &[1.0, -1.0, 0.5, part], 1e-6, &team);
+        assert!(solved(0.0).is_ok());
+        assert!(solved(1e-3).is_err() && solved(1.0).is_err());
     }
 
     #[test]
