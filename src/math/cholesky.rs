@@ -18,6 +18,9 @@ use super::supernodes::{self, Columns};
 use crate::runtime::address_space::TooLittle;
 use crate::runtime::parallel::Team;
 
+/// Entries that a thread processes as one piece.
+const PIECE: usize = 1 << 16;
+
 /// Lower triangle of a symmetric matrix by columns, rows ascending, diagonal first.
 #[derive(Debug, Clone, Default)]
 pub struct LowerTriangle {
@@ -79,9 +82,11 @@ impl SparseCholesky {
     }
 
     /// Returns the factor in single precision, which is enough for a preconditioner and needs half of the memory.
-    pub fn rounded(&self) -> RoundedCholesky {
-        let scale = self.values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-        let values = self.values.iter().map(|value| (value / scale) as f32).collect();
+    pub fn rounded(&self, team: &Team) -> RoundedCholesky {
+        let pieces: Vec<&[f64]> = self.values.chunks(PIECE).collect();
+        let largest = team.map(pieces.len(), |piece| largest(pieces[piece]));
+        let scale = largest.into_iter().fold(0.0, f64::max);
+        let values = team.map(self.values.len(), |entry| (self.values[entry] / scale) as f32);
         let partition = match self.symbolic.raw() {
             SymbolicCholeskyRaw::Supernodal(panels) => Some(Partition::of(panels)),
             SymbolicCholeskyRaw::Simplicial(_) => None,
@@ -93,6 +98,19 @@ impl SparseCholesky {
     pub fn entries(&self) -> usize {
         self.values.len()
     }
+}
+
+/// Largest size of some numbers.
+fn largest(numbers: &[f64]) -> f64 {
+    let larger = |most: f64, size: f64| if size > most { size } else { most };
+    let (blocks, rest) = numbers.as_chunks::<8>();
+    let mut most = [0.0; 8];
+    for block in blocks {
+        for (most, number) in most.iter_mut().zip(block) {
+            *most = larger(*most, number.abs());
+        }
+    }
+    most.into_iter().chain(rest.iter().map(|number| number.abs())).fold(0.0, larger)
 }
 
 /// A factorisation in single precision, for preconditioners.
@@ -166,6 +184,16 @@ impl Elimination {
     /// Number of entries of the factors.
     pub fn entries(&self) -> usize {
         self.symbolic.len_val()
+    }
+
+    /// Mean number of multiplications for an entry of the factors; `None` if these have no panels of useful size.
+    pub fn multiplications_per_entry(&self) -> Option<f64> {
+        match self.symbolic.raw() {
+            SymbolicCholeskyRaw::Supernodal(panels) => {
+                Some(supernodes::multiplications(panels) / self.entries() as f64)
+            }
+            SymbolicCholeskyRaw::Simplicial(_) => None,
+        }
     }
 
     /// Factors a matrix of the same pattern.
@@ -329,7 +357,7 @@ mod tests {
         let load: Vec<f64> = (0..n * n * n).map(|i| 1e9 * (i as f64).sin()).collect();
         let (mut exact, mut rounded) = (load.clone(), load);
         factor.solve_in_place(&mut exact);
-        factor.rounded().solve_in_place(&mut rounded, &Team::new(1));
+        factor.rounded(&Team::new(1)).solve_in_place(&mut rounded, &Team::new(1));
         let size = exact.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         for (rounded, exact) in rounded.iter().zip(&exact) {
             assert!((rounded - exact).abs() < 1e-5 * size, "{rounded} {exact}");
@@ -340,7 +368,8 @@ mod tests {
     fn rounded_solution_is_bit_identical_for_any_number_of_threads() {
         for n in [2, 9, 24] {
             let order = crate::math::nested_dissection::nested_dissection([n - 1; 3], 1);
-            let factor = SparseCholesky::factor(&cube(n), &order, 1).unwrap().rounded();
+            let factor = SparseCholesky::factor(&cube(n), &order, 1).unwrap();
+            let factor = factor.rounded(&Team::new(1));
             let solve = |threads| {
                 let mut b: Vec<f64> = (0..n * n * n).map(|i| (i as f64).sin()).collect();
                 factor.solve_in_place(&mut b, &Team::new(threads));

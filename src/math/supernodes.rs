@@ -73,6 +73,21 @@ pub fn factor(
     Ok(())
 }
 
+/// Number of multiplications of a factorisation, about.
+pub(super) fn multiplications(symbolic: &SymbolicSupernodalCholesky<usize>) -> f64 {
+    let of_panel = |s: usize| {
+        let node = symbolic.supernode(s);
+        let width = symbolic.supernode_end()[s] - node.start();
+        of_columns(width, width + node.pattern().len())
+    };
+    (0..symbolic.n_supernodes()).map(of_panel).sum()
+}
+
+/// Number of multiplications with the entries of a panel, about.
+fn of_columns(width: usize, height: usize) -> f64 {
+    (0..width).map(|k| ((height - k) as f64).powi(2)).sum()
+}
+
 /// Supernode of each column.
 pub(super) fn owners(symbolic: &SymbolicSupernodalCholesky<usize>) -> Vec<usize> {
     let mut owner = vec![0; symbolic.nrows()];
@@ -197,7 +212,7 @@ impl<'a> Tree<'a> {
         let mut work: Vec<f64> = (0..count)
             .map(|s| {
                 let node = self.node(s);
-                (0..node.width).map(|k| ((node.height() - k) as f64).powi(2)).sum()
+                of_columns(node.width, node.height())
             })
             .collect();
         let all: f64 = work.iter().sum();
