@@ -10,8 +10,8 @@ use std::ops::Range;
 
 use faer::MatRef;
 
-use super::Deformable;
 use super::tangent::{Block, GroupTangent, Swelling};
+use super::{Deformable, eight_nodes};
 use crate::math::product::product;
 use crate::space::Form;
 
@@ -128,6 +128,10 @@ impl Element {
         self.values.resize(width * width, 0.0);
         let of_axes = self.values.chunks_exact_mut(nodes * width);
         for (out, [own, rows]) in of_axes.zip(&self.factors) {
+            if is_hexahedron(width / nodes, nodes) {
+                eight_nodes::multiply(out, own, rows);
+                continue;
+            }
             if nodes < FEW {
                 for (own, row) in own.chunks_exact(nodes).zip(rows.chunks_exact(width)) {
                     for (out, factor) in out.chunks_exact_mut(width).zip(own) {
@@ -171,6 +175,11 @@ impl Element {
     }
 }
 
+/// Returns true for blocks of eight nodes that move along three axes.
+fn is_hexahedron(axes: usize, nodes: usize) -> bool {
+    axes * nodes == eight_nodes::WIDTH && nodes == eight_nodes::NODES
+}
+
 /// Components of each axis along which nodes move.
 fn components(form: Form) -> Vec<Components> {
     let of_axis = |&axis: &usize| {
@@ -190,6 +199,10 @@ fn contract(
     (tensor, weight): (&[f64], f64),
     sums: &mut [f64],
 ) {
+    if is_hexahedron(components.len(), changes[0].len()) {
+        let changes = [&changes[0][..], &changes[1], &changes[2]];
+        return eight_nodes::contract(changes, tensor, weight, sums);
+    }
     for (components, sums) in components.iter().zip(sums.chunks_exact_mut(changes[0].len())) {
         for &(m, own) in components {
             let factor = weight * tensor[m];

@@ -10,6 +10,7 @@ mod friction;
 mod course;
 mod deformable;
 mod dilatation;
+mod eight_nodes;
 mod element;
 mod failure;
 mod fragments;
