@@ -1,6 +1,6 @@
 //! Factors of symmetric stiffness, of its lower triangle.
 
-use faer::sparse::{SparseColMat, SymbolicSparseColMat};
+use faer::sparse::SymbolicSparseColMat;
 
 use crate::math::cholesky::{Elimination, LowerTriangle, SolverError, SparseCholesky};
 use crate::math::geometric_dissection::geometric_dissection;
@@ -29,13 +29,14 @@ impl Lower {
         Ok(Self { triangle, entries, elimination })
     }
 
-    /// Factors a matrix of that pattern; fails if it is not positive definite.
-    pub fn factor(
-        &self,
-        matrix: &SparseColMat<usize, f64>,
-        threads: usize,
-    ) -> Result<SparseCholesky, SolverError> {
-        let values = self.entries.iter().map(|&n| matrix.val()[n]).collect();
+    /// Mean number of multiplications for an entry of a factor; `None` if that has no panels.
+    pub fn multiplications_per_entry(&self) -> Option<f64> {
+        self.elimination.multiplications_per_entry()
+    }
+
+    /// Factors a matrix of that pattern, of which all entries have values; fails if it is not positive definite.
+    pub fn factor(&self, values: &[f64], threads: usize) -> Result<SparseCholesky, SolverError> {
+        let values = self.entries.iter().map(|&n| values[n]).collect();
         self.elimination.factor(&LowerTriangle { values, ..self.triangle.clone() }, threads)
     }
 }

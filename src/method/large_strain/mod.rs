@@ -16,6 +16,7 @@ mod failure;
 mod fragments;
 mod heat;
 mod implicit;
+mod iteration;
 mod load;
 mod lower;
 mod mirrors;

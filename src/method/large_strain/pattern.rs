@@ -4,7 +4,7 @@
 //! of its node in the column, the same for all columns of a node, and the number of the unknown within its node: a block
 //! keeps a number for each pair of its nodes, not for each entry.
 
-use faer::sparse::{SparseColMat, SymbolicSparseColMat};
+use faer::sparse::SymbolicSparseColMat;
 
 /// Numbers of the unknowns of nodes, ascending along the nodes and their axes; `None` where displacements are prescribed.
 pub type Unknowns = [[Option<usize>; 3]];
@@ -108,14 +108,12 @@ impl Pattern {
     pub fn add_to_diagonal(&self, values: &mut [f64], unknown: usize, value: f64) {
         values[self.diagonal[unknown] as usize] += value;
     }
-
-    pub fn with(&self, values: Vec<f64>) -> SparseColMat<usize, f64> {
-        SparseColMat::new(self.entries.clone(), values)
-    }
 }
 
 #[cfg(test)]
 mod tests {
+    use faer::sparse::SparseColMat;
+
     use super::*;
 
     /// Blocks of nodes with prescribed displacements add up as dense matrices do.
@@ -143,7 +141,7 @@ mod tests {
         }
         pattern.add_to_diagonal(&mut values, 3, 0.5);
         dense[3][3] += 0.5;
-        let matrix = pattern.with(values);
+        let matrix = SparseColMat::new(pattern.entries.clone(), values);
         for (row, entries) in dense.iter().enumerate() {
             for (column, entry) in entries.iter().enumerate() {
                 assert_eq!(matrix.get(row, column).copied().unwrap_or(0.0), *entry);

@@ -1,11 +1,12 @@
 //! Equilibrium without inertia.
 
-use std::cell::Cell;
+use std::cell::RefCell;
 
+use super::iteration::{Assembled, Iterations, Load};
 use super::mirrors::stay_beside_mirrors;
 use super::newton::{self, Equations, Residual, sum};
 use super::path::Path;
-use super::tangent::{Factor, Linearised, Stiffness, Terms};
+use super::tangent::{Linearised, Stiffness, Terms};
 use super::{Courses, Deformable, FaceLoad, Failure, LoadedFaces, Stresses};
 use crate::laws::solid::large_strain::Deformed;
 use crate::runtime::allowance::Allowance;
@@ -15,7 +16,7 @@ use crate::runtime::parallel::Team;
 pub struct Equilibrium {
     pub body: Deformable,
     pub loaded: LoadedFaces,
-    stiffness: Stiffness,
+    pub(super) stiffness: Stiffness,
     held: Vec<[bool; 3]>,
     /// Bound on the rounding of internal forces [N].
     rounding: f64,
@@ -112,8 +113,7 @@ struct Balance<'a> {
     step: &'a Step<'a>,
     /// No point yields in the tangent of the first iteration.
     starts_elastic: bool,
-    /// The stiffness of the last iteration was symmetric and not positive definite.
-    is_unstable: Cell<bool>,
+    iterations: RefCell<Iterations>,
 }
 
 impl<'a> Equations for Balance<'a> {
@@ -130,9 +130,13 @@ impl<'a> Equations for Balance<'a> {
         is_first: bool,
     ) -> Result<Vec<[f64; 3]>, Failure> {
         let flow = if is_first && self.starts_elastic { Flow::Not } else { Flow::AsItIs };
-        let factor = self.equilibrium.factor(self.step, u, (now, flow))?;
-        self.is_unstable.set(matches!(factor, Factor::Indefinite(_)));
-        Ok(self.equilibrium.stiffness.solve(&factor, &now.residual))
+        let Residual { norm, wanted, .. } = self.residual(now);
+        let load = Load { forces: &now.residual, norm, wanted };
+        let mut iterations = self.iterations.borrow_mut();
+        if is_first {
+            iterations.begin();
+        }
+        self.equilibrium.change(self.step, u, (now, flow), (&mut iterations, &load))
     }
 
     fn residual(&self, trial: &Trial) -> Residual {
@@ -182,19 +186,21 @@ impl Equilibrium {
         let step = Step { from: rest, to, over, team, allowance };
         let mut u = rest.displacement.clone();
         let mut now = self.at(&step, &u)?;
-        let mut residuals = Vec::new();
+        let (mut residuals, mut iterations) = (Vec::new(), Iterations::default());
         if let Some(jump) = self.jump(&u, to) {
-            u = sum(&u, &self.follow(&step, &now, &u, &jump)?);
+            u = sum(&u, &self.follow(&step, &now, (&u, &jump), &mut iterations)?);
             now = self.at(&step, &u)?;
             residuals.push(now.norm / now.scale);
         }
         let starts_elastic = residuals.is_empty();
-        let is_unstable = Cell::new(false);
-        let balance = Balance { equilibrium: self, step: &step, starts_elastic, is_unstable };
+        let iterations = RefCell::new(iterations);
+        let balance = Balance { equilibrium: self, step: &step, starts_elastic, iterations };
         let solved = newton::solve(&balance, u, now)?;
+        let iterations = balance.iterations.into_inner();
+        let last = (!solved.residuals.is_empty()).then_some(iterations);
         let (u, now) = (solved.u, solved.trial);
         residuals.extend(solved.residuals);
-        let is_unstable = self.is_unstable(&step, &u, &now, balance.is_unstable.get());
+        let is_unstable = self.is_unstable(&step, &u, &now, last);
         let found = Found {
             residuals,
             work: self.work(&step, &now.linearised),
@@ -223,29 +229,47 @@ impl Equilibrium {
         path.work(step.team)
     }
 
-    fn factor(
+    /// Change of displacements that balances a load at a trial.
+    fn change(
         &self,
         step: &Step,
         u: &[[f64; 3]],
         (now, flow): (&Trial, Flow),
-    ) -> Result<Factor, Failure> {
-        let terms = Terms {
-            of_group: &|group| match flow {
-                Flow::Not => now.linearised.group_without_flow(&self.body, group),
-                Flow::AsItIs => now.linearised.group(&self.body, group),
-            },
-            inertia: 0.0,
-            loads: &self.loaded.stiffness(&self.body, u, &step.to.loads, 1.0),
-            is_symmetric: self.body.has_symmetric_tangent() && !step.is_pressed(),
+        (iterations, load): (&mut Iterations, &Load),
+    ) -> Result<Vec<[f64; 3]>, Failure> {
+        let body = &self.body;
+        let assemble = || {
+            let terms = Terms {
+                of_group: &|group| match flow {
+                    Flow::Not => now.linearised.group_without_flow(body, group),
+                    Flow::AsItIs => now.linearised.group(body, group),
+                },
+                inertia: 0.0,
+                loads: &self.loaded.stiffness(body, u, &step.to.loads, 1.0),
+                is_symmetric: body.has_symmetric_tangent() && !step.is_pressed(),
+            };
+            Assembled {
+                values: self.stiffness.matrix(body, &terms, step.team),
+                is_symmetric: terms.is_symmetric,
+                // Concrete may have several equilibria, between which a tangent decides.
+                serves_again: flow == Flow::AsItIs && !body.has_concrete(),
+            }
         };
-        self.stiffness.factor(&self.body, &terms, step.team).map_err(|_| Failure::Singular)
+        let change = iterations.solve((&self.stiffness, step.team), load, assemble);
+        change.map_err(|_| Failure::Singular)
     }
 
     /// Returns true if the stiffness at an equilibrium is known not to be positive definite: that of the last iteration,
     /// or under pressure its symmetric part.
-    fn is_unstable(&self, step: &Step, u: &[[f64; 3]], now: &Trial, last: bool) -> bool {
+    fn is_unstable(
+        &self,
+        step: &Step,
+        u: &[[f64; 3]],
+        now: &Trial,
+        last: Option<Iterations>,
+    ) -> bool {
         if !(self.body.has_symmetric_tangent() && step.is_pressed()) {
-            return last;
+            return last.is_some_and(|last| last.is_unstable((&self.stiffness, step.team)));
         }
         let terms = Terms {
             of_group: &|group| now.linearised.group(&self.body, group),
@@ -272,15 +296,19 @@ impl Equilibrium {
         &self,
         step: &Step,
         now: &Trial,
-        u: &[[f64; 3]],
-        jump: &[[f64; 3]],
+        (u, jump): (&[[f64; 3]], &[[f64; 3]]),
+        iterations: &mut Iterations,
     ) -> Result<Vec<[f64; 3]>, Failure> {
         let forces = match self.body.has_concrete() {
             true => self.slopes(step, now, u, jump)?,
             false => now.linearised.forces(&self.body, jump, step.team),
         };
-        let load = sum(&now.residual, &forces);
-        Ok(sum(&self.stiffness.solve(&self.factor(step, u, (now, Flow::Not))?, &load), jump))
+        let forces = sum(&now.residual, &forces);
+        let of_unknowns = self.stiffness.of_unknowns(&forces);
+        let norm = of_unknowns.iter().map(|force| force * force).sum::<f64>().sqrt();
+        let load = Load { forces: &forces, norm, wanted: 0.0 };
+        let change = self.change(step, u, (now, Flow::Not), (iterations, &load))?;
+        Ok(sum(&change, jump))
     }
 
     /// Changes of forces for a jump, from those of a small part of it. Held nodes alone move, so that concrete softens

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use faer::MatMut;
 use faer::prelude::Solve;
-use faer::sparse::SparseColMat;
+use faer::sparse::SparseColMatRef;
 use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 
 use super::element::Element;
@@ -27,6 +27,8 @@ pub struct Stiffness {
     /// Of the blocks and of the further ones of loads.
     pattern: Pattern,
     lower: Lower,
+    /// Another factor costs more than some tens of solutions with one.
+    pub(super) has_costly_factors: bool,
     lu: OnceLock<SymbolicLu<usize>>,
     blocks: Vec<Block>,
 }
@@ -38,6 +40,9 @@ const MOST_GROUPS: usize = 32;
 const MOST_TOGETHER: usize = 256;
 /// Entries of blocks that are in memory at a time.
 pub const TOGETHER: usize = 4_000_000;
+
+/// Multiplications for an entry of a factor above which some tens of solutions cost less than another factor.
+const COSTLY: f64 = 150.0;
 
 /// Terms of the matrix of a linear system.
 pub struct Terms<'a> {
@@ -126,7 +131,10 @@ impl Stiffness {
         let pattern = Pattern::new(&unknowns, &nodes_of_blocks).ok_or(Singular)?;
         let order = elimination_order(&body.space.nodes, &unknowns, &pattern.entries);
         let lower = Lower::of(&pattern.entries, &order).map_err(|_| Singular)?;
-        Ok(Self { unknowns, count, pattern, lower, lu: OnceLock::new(), blocks })
+        let mean = lower.multiplications_per_entry();
+        let has_costly_factors = mean.is_some_and(|mean| mean > COSTLY);
+        let lu = OnceLock::new();
+        Ok(Self { unknowns, count, pattern, lower, has_costly_factors, lu, blocks })
     }
 
     /// Assembles and factors a matrix.
@@ -139,17 +147,37 @@ impl Stiffness {
         terms: &Terms,
         team: &Team,
     ) -> Result<Factor, Singular> {
-        let matrix = self.matrix(body, terms, team);
-        if !terms.is_symmetric {
-            return Ok(Factor::General(self.factor_general(&matrix)?));
+        self.factor_values(&self.matrix(body, terms, team), terms.is_symmetric, team)
+    }
+
+    /// Factors a matrix that is assembled.
+    pub(super) fn factor_values(
+        &self,
+        matrix: &[f64],
+        is_symmetric: bool,
+        team: &Team,
+    ) -> Result<Factor, Singular> {
+        if !is_symmetric {
+            return Ok(Factor::General(self.factor_general(matrix)?));
         }
-        match self.lower.factor(&matrix, team.threads()) {
+        match self.lower.factor(matrix, team.threads()) {
             Ok(factor) => Ok(Factor::Positive(factor)),
-            Err(_) => Ok(Factor::Indefinite(self.factor_general(&matrix)?)),
+            Err(_) => Ok(Factor::Indefinite(self.factor_general(matrix)?)),
         }
     }
 
-    fn matrix(&self, body: &Deformable, terms: &Terms, team: &Team) -> SparseColMat<usize, f64> {
+    /// Returns true unless a symmetric matrix is positive definite.
+    pub(super) fn is_indefinite_matrix(&self, matrix: &[f64], team: &Team) -> bool {
+        self.lower.factor(matrix, team.threads()).is_err()
+    }
+
+    /// Number of unknowns.
+    pub(super) fn unknowns(&self) -> usize {
+        self.count
+    }
+
+    /// Assembles the values of all entries of a matrix.
+    pub(super) fn matrix(&self, body: &Deformable, terms: &Terms, team: &Team) -> Vec<f64> {
         let loads = self.pattern.blocks() - self.blocks.len();
         assert_eq!(terms.loads.len(), loads, "loads of another pattern");
         let mut values = self.pattern.zeros();
@@ -183,47 +211,69 @@ impl Stiffness {
                 self.pattern.add_to_diagonal(&mut values, unknown, terms.inertia * mass);
             }
         }
-        self.pattern.with(values)
+        values
+    }
+
+    /// `matrix x` of a symmetric matrix.
+    pub(super) fn product(&self, matrix: &[f64], x: &[f64], out: &mut [f64], team: &Team) {
+        let starts = self.pattern.entries.col_ptr();
+        let rows = self.pattern.entries.row_idx();
+        team.for_each(out, |column, sum| {
+            let entries = starts[column]..starts[column + 1];
+            let terms = rows[entries.clone()].iter().zip(&matrix[entries]);
+            *sum = terms.map(|(&row, value)| value * x[row]).sum();
+        });
     }
 
     /// Returns true unless a matrix is positive definite, with the symmetric part of its loads; the rest of it is
     /// symmetric.
     pub fn is_indefinite(&self, body: &Deformable, terms: &Terms, team: &Team) -> bool {
         let loads: Vec<_> = terms.loads.iter().map(LoadStiffness::symmetric_part).collect();
-        let matrix = self.matrix(body, &Terms { loads: &loads, ..*terms }, team);
-        self.lower.factor(&matrix, team.threads()).is_err()
+        self.is_indefinite_matrix(
+            &self.matrix(body, &Terms { loads: &loads, ..*terms }, team),
+            team,
+        )
     }
 
-    fn factor_general(
-        &self,
-        matrix: &SparseColMat<usize, f64>,
-    ) -> Result<Box<Lu<usize, f64>>, Singular> {
+    fn factor_general(&self, matrix: &[f64]) -> Result<Box<Lu<usize, f64>>, Singular> {
         let symbolic = match self.lu.get() {
             Some(symbolic) => symbolic.clone(),
             None => SymbolicLu::try_new(self.pattern.entries.as_ref()).map_err(|_| Singular)?,
         };
         // Another thread may have been first with the same.
         let _ = self.lu.set(symbolic.clone());
-        let lu = Lu::try_new_with_symbolic(symbolic, matrix.as_ref()).map_err(|_| Singular)?;
+        let matrix = SparseColMatRef::new(self.pattern.entries.as_ref(), matrix);
+        let lu = Lu::try_new_with_symbolic(symbolic, matrix).map_err(|_| Singular)?;
         Ok(Box::new(lu))
     }
 
     /// Solves for the change of displacements under forces on the nodes.
     pub fn solve(&self, factor: &Factor, forces: &[[f64; 3]]) -> Vec<[f64; 3]> {
-        let mut values = vec![0.0; self.count];
-        for (unknowns, force) in self.unknowns.iter().zip(forces) {
-            for (unknown, force) in unknowns.iter().zip(force) {
-                if let Some(n) = unknown {
-                    values[*n] = *force;
-                }
-            }
-        }
+        let mut values = self.of_unknowns(forces);
         match factor {
             Factor::Positive(cholesky) => cholesky.solve_in_place(&mut values),
             Factor::Indefinite(lu) | Factor::General(lu) => {
                 lu.solve_in_place(MatMut::from_column_major_slice_mut(&mut values, self.count, 1));
             }
         }
+        self.of_nodes(&values)
+    }
+
+    /// The values of unknowns among those of nodes.
+    pub(super) fn of_unknowns(&self, of_nodes: &[[f64; 3]]) -> Vec<f64> {
+        let mut values = vec![0.0; self.count];
+        for (unknowns, of_node) in self.unknowns.iter().zip(of_nodes) {
+            for (unknown, value) in unknowns.iter().zip(of_node) {
+                if let Some(n) = unknown {
+                    values[*n] = *value;
+                }
+            }
+        }
+        values
+    }
+
+    /// The values of nodes: those of unknowns, and zero where displacements are prescribed.
+    pub(super) fn of_nodes(&self, values: &[f64]) -> Vec<[f64; 3]> {
         let place = |unknown: Option<usize>| unknown.map_or(0.0, |n| values[n]);
         self.unknowns.iter().map(|unknowns| unknowns.map(place)).collect()
     }
