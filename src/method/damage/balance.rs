@@ -315,9 +315,9 @@ where
         let known = self.known_factor().take().filter(|_| is_intact);
         let factor = match known {
             Some(known) => known,
-            None => Arc::new(
-                elimination.factor(&self.lower(), self.team.threads())?.rounded(&self.team),
-            ),
+            None => {
+                Arc::new(elimination.factor(&self.lower(), self.team.threads())?.rounded(self.team))
+            }
         };
         if is_intact {
             *self.known_factor() = Some(Arc::clone(&factor));

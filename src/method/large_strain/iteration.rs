@@ -216,7 +216,7 @@ impl Iterations {
     /// large body, so there is no such mode where iterations converge. The preconditioner does not matter, as the signs
     /// of eigenvalues are the same for all that are positive definite (J. J. Sylvester 1852). Where iterations do not
     /// converge, a factor decides.
-    pub fn is_unstable(mut self, (stiffness, team): (&Stiffness, &Team)) -> bool {
+    pub fn found_unstable(mut self, (stiffness, team): (&Stiffness, &Team)) -> bool {
         let Some(tangent) = self.tangent.take() else { return false };
         tangent.is_indefinite.unwrap_or_else(|| {
             let mut random = Random::of(SEED);

@@ -269,7 +269,7 @@ impl Equilibrium {
         last: Option<Iterations>,
     ) -> bool {
         if !(self.body.has_symmetric_tangent() && step.is_pressed()) {
-            return last.is_some_and(|last| last.is_unstable((&self.stiffness, step.team)));
+            return last.is_some_and(|last| last.found_unstable((&self.stiffness, step.team)));
         }
         let terms = Terms {
             of_group: &|group| now.linearised.group(&self.body, group),
