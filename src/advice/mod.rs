@@ -26,6 +26,7 @@ mod symmetry;
 mod values;
 mod viscosity;
 mod warm_bodies;
+mod wide_supports;
 
 use crate::limits::number;
 use crate::limits::plausible::{self, BESIDE_WARM, CRYOGENIC, Cold, MELTS_BESIDE_WARM, Range};
@@ -79,6 +80,7 @@ fn found(scene: &Scene, (source, names_lines): (&Source, bool), schema: &Schema)
     strands::review(&mut reviewer);
     bending::review(&mut reviewer);
     stress_of_kernels::review(&mut reviewer);
+    wide_supports::review(&mut reviewer);
     warm_bodies::review(&mut reviewer);
     lattices::review(&mut reviewer);
     reviewer.found.sort_by_key(|(line, _)| *line);

@@ -531,4 +531,23 @@ mod tests {
             );
         }
     }
+
+    /// In a body of many distances the system is ill conditioned, and is solved by a factor.
+    #[test]
+    fn constant_stress_balances_in_long_bodies() {
+        let mesh = Mesh::of_box(Form::Plane, [0.0; 3], [400.0, 0.0, 4.0], [400, 1, 4]);
+        let space = particles(&mesh, 2.2).unwrap();
+        let mut forces = vec![[0.0; 3]; space.nodes.len()];
+        for point in 0..space.volume.len() {
+            for own in space.volume.row(point) {
+                let force = &mut forces[own.node as usize];
+                (0..3).for_each(|a| force[a] += space.volume.weights[point] * own.gradient[a]);
+            }
+        }
+        for (at, force) in space.nodes.iter().zip(forces) {
+            if (0.5..399.5).contains(&at[0]) && (0.5..3.5).contains(&at[2]) {
+                assert!((0..3).all(|a| force[a].abs() < 1e-9), "{at:?} {force:?}");
+            }
+        }
+    }
 }

@@ -106,6 +106,10 @@ rules! {
      wrong by many times their value, though displacements are right";
     "`mechanics = \"fem\"`, or `integration = \"gauss\"` of `rkpm`, reads them to some per cent"
 
+    Check supports_soften(support, error, fine)
+    "supports of {support} distances bend too softly where nodes do not stand in rows, by {error}";
+    "set a `support` of {fine}"
+
     Check warm_layer_unresolved(depth, spacing, fine)
     "by the stop time heat penetrates √(at) = {depth} m, and nodes are {spacing} m apart: heat that passes at first is \
      tens of per cent too large"; "set a `mesh.spacing` of {fine} m or less"

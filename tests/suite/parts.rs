@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
+use impinge::advice::parse_with_warnings;
 use impinge::closed_form::{Rubber, Sides};
 use impinge::scene;
 
@@ -507,5 +508,24 @@ fn long_bodies_of_particles_balance() {
         let wanted = law.force(stretch, Sides::OneHeld) * 1e-3 * f64::from(across);
         let found = trial.get("pad.right.force_x");
         assert!(off(found, wanted) < 1e-7, "{across} {along}: {found} {wanted}");
+    }
+}
+
+/// Wide supports of particles and of kernels with Gauss points soften uneven parts, and are warned of there alone.
+#[test]
+fn wide_supports_of_parts_are_warned_of() {
+    let place = |u: f64, w: f64| [8.0 * u, 6.0 * w];
+    let plan = Plan::block([8, 6], [LEFT, RIGHT, BOTTOM, TOP], place).shaken(0.4);
+    let faces = "faces = { left = { clamped = true } }";
+    for (keys, wanted) in [
+        ("mechanics = \"sph\"", false),
+        ("mechanics = \"sph\"\nsph = { support = 3.0 }", true),
+        ("mechanics = \"rkpm\"\nrkpm = { support = 5.0, integration = \"gauss\" }", true),
+        ("mechanics = \"rkpm\"\nrkpm = { support = 5.0 }", false),
+    ] {
+        let text = scene("part.vtu", &plan.vtu(), &format!("dimension = 2\n{keys}\n{faces}"), "");
+        let (_, found) = parse_with_warnings(&text, "scene.toml").unwrap();
+        let told = found.iter().any(|warning| warning.finding().id == "supports_soften");
+        assert_eq!(told, wanted, "{keys}");
     }
 }

@@ -72,11 +72,13 @@ impl<const N: usize> Operator for Balance<'_, N> {
 /// The same with a factor of its matrix as the preconditioner.
 struct Factored<'a, const N: usize> {
     balance: &'a Balance<'a, N>,
+    form: Form,
+    places: &'a [[f64; 3]],
     factor: SparseCholesky,
 }
 
 impl<'a, const N: usize> Factored<'a, N> {
-    fn of(balance: &'a Balance<'a, N>, places: &[[f64; 3]]) -> Option<Self> {
+    fn of(balance: &'a Balance<'a, N>, (form, places): (Form, &'a [[f64; 3]])) -> Option<Self> {
         let mut columns: Vec<BTreeMap<u32, f64>> = vec![BTreeMap::new(); places.len()];
         for patch in balance.patches {
             for (column, terms) in patch.nodes.iter().zip(&patch.terms) {
@@ -91,7 +93,7 @@ impl<'a, const N: usize> Factored<'a, N> {
                 }
             }
         }
-        // Affine values have no energy.
+        // Affine values have no energy, and a factor needs some.
         for (node, column) in columns.iter_mut().enumerate() {
             *column.entry(node as u32).or_default() += SHIFT * balance.diagonal[node];
         }
@@ -110,7 +112,7 @@ impl<'a, const N: usize> Factored<'a, N> {
             triangle.column_start.push(triangle.rows.len());
         }
         let factor = Elimination::new(&triangle, &order).ok()?.factor(&triangle, 1).ok()?;
-        Some(Self { balance, factor })
+        Some(Self { balance, form, places, factor })
     }
 }
 
@@ -123,8 +125,9 @@ impl<const N: usize> Operator for Factored<'_, N> {
     }
 
     fn precondition(&self, residual: &[f64], out: &mut [f64]) {
-        out.copy_from_slice(residual);
-        self.factor.solve_in_place(out);
+        let mut solved = residual.to_vec();
+        self.factor.solve_in_place(&mut solved);
+        out.copy_from_slice(&without_affine::<N>(self.form, self.places, solved));
     }
 }
 
@@ -150,7 +153,7 @@ pub fn balance<const N: usize>(
     let mut factored = None;
     for &axis in axes {
         let missing = without_affine::<N>(form, nodes, missing(form, axis, particles, boundary));
-        let factors = solve(&system, &mut factored, nodes, &missing)?;
+        let factors = solve(&system, &mut factored, (form, nodes), &missing)?;
         for (points, patch) in particles.iter_mut().zip(&patches) {
             let change = patch.bent(&factors);
             for point in points {
@@ -166,7 +169,7 @@ pub fn balance<const N: usize>(
 fn solve<'a, const N: usize>(
     system: &'a Balance<N>,
     factored: &mut Option<Factored<'a, N>>,
-    places: &[[f64; 3]],
+    nodes: (Form, &'a [[f64; 3]]),
     missing: &[f64],
 ) -> Result<Vec<f64>, Refused> {
     let team = Team::new(1);
@@ -174,7 +177,7 @@ fn solve<'a, const N: usize>(
         if let Ok((factors, _)) = conjugate_gradients::solve(system, missing, TOLERANCE, &team) {
             return Ok(factors);
         }
-        *factored = Factored::of(system, places);
+        *factored = Factored::of(system, nodes);
     }
     let unbalanced = || Refused::Setting(UNBALANCED);
     let factored = factored.as_ref().ok_or_else(unbalanced)?;

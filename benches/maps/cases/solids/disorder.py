@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from math import sqrt
 from random import Random
 
-from plan import Answer, Axis, Boundary, Map, Work
+from plan import Answer, Axis, Map, Work
 from unit_run import equal_steps, run_unit, unit_work
 
 from cases.solids.large_strain import HEIGHT, LOAD, PLAIN, SLENDER, YOUNG, deflection, solid
@@ -149,7 +149,6 @@ def over_disorder(
     of: str,
     supports: list[float],
     method: Callable[[float], dict],
-    must_speak: bool = True,
 ) -> Map:
     """A map of the settings `method(support)` over the disorder of the nodes."""
     labels = [f"{disorder:g}" for disorder in DISORDERS]
@@ -166,7 +165,6 @@ def over_disorder(
         run=run_samples,
         judge=worst,
         colours=(1e-4, 1.0),
-        must_speak=must_speak,
     )
 
 
@@ -192,16 +190,13 @@ def disordered_kernels_gauss() -> Map:
         "nodes",
         supports,
         lambda support: kernels(support, integration="gauss"),
-        must_speak=False,
     )
 
 
 def disordered_particles() -> Map:
     supports = [1.4, 1.5, 1.6, 1.7, 1.8, 1.9, 2.0, 2.1, 2.2, 2.5, 3.0, 3.5, 4.0]
     title = "Particles on a disordered part"
-    return over_disorder(
-        "disordered_particles", title, "particles", supports, particles, must_speak=False
-    )
+    return over_disorder("disordered_particles", title, "particles", supports, particles)
 
 
 def graded_part() -> Map:
@@ -221,8 +216,5 @@ def graded_part() -> Map:
         work=lambda growth, support: cantilever(particles(support), 1e-3, growth),
         run=run_samples,
         judge=worst,
-        theory=[Boundary("second row from a face", lambda growth: 1.0 + growth, "1 + growth")],
         colours=(1e-4, 1.0),
-        refine=1.01,
-        must_speak=False,
     )
