@@ -16,6 +16,7 @@ mod read;
 mod reduced;
 mod reservoir;
 mod solid;
+mod wall;
 
 pub use build::{Assembly, Readings, build, reductions};
 pub use contract::{
@@ -23,8 +24,8 @@ pub use contract::{
     Occasion, Received, Resources, Structured,
 };
 pub use droplet::{
-    Kept, WallQuantity, fine_radius, forget_unused_records, keep_record, notes_on_walls, records,
-    to_be_recorded, wall_quantities, warnings_on_landing,
+    Kept, fine_radius, forget_unused_records, keep_record, notes_on_walls, records, to_be_recorded,
+    warnings_on_landing,
 };
 pub use error::BodyError;
 pub use exchanges::ExchangeForecast;
@@ -38,6 +39,7 @@ pub use read::{
 };
 pub use reduced::{KeptReduction, forget_unused_reductions, keep_reduction};
 pub use solid::{PointQuantity, point_quantities};
+pub use wall::{WallQuantity, wall_quantities};
 
 pub use crate::method::fem::Extreme;
 use build::threads_for;

@@ -1,4 +1,4 @@
-//! The wall below droplets, cut into cells that exchange heat and momentum with the fluid.
+//! The wall below bodies that fall, cut into cells that exchange heat and momentum with them.
 
 use std::f64::consts::PI;
 
@@ -166,6 +166,11 @@ impl WallExchange {
         for (sum, impulse) in cells.chain([(&mut self.impulse_outside, &other.impulse_outside)]) {
             sum.iter_mut().zip(impulse).for_each(|(sum, part)| *sum += part);
         }
+    }
+
+    /// An amount of the step as a mean rate; zero before the first step.
+    pub fn rate(&self, amount: f64) -> f64 {
+        if self.duration > 0.0 { amount / self.duration } else { 0.0 }
     }
 
     pub fn none(cells: usize) -> Self {

@@ -8,7 +8,6 @@ mod plan;
 mod reader;
 mod replay;
 mod totals;
-mod wall;
 mod warnings;
 mod watch;
 
@@ -16,25 +15,22 @@ pub use forecast::{DropletForecast, PARTICLE_MEMORY, exchange_time};
 pub use notes::{notes, notes_on_walls};
 pub use plan::{fine_radius, plan_of, refinements};
 pub use replay::{Kept, ReplayBody, forget_unused_records, keep_record, records, to_be_recorded};
-pub use wall::{WallQuantity, wall_quantities};
 pub use warnings::warnings_on_landing;
 pub use watch::Watch;
 
-use std::ops::Range;
-
+use super::wall::{Below, wall_quantities};
 use super::{
     Acts, Body, BodyError, Descriptor, Fields, Given, Link, Memo, Reading, Received, link,
 };
 use crate::body::{Events, Giver, Maxima, Resources};
 use crate::inputs::{InputLayout, InputPath};
 use crate::method::sph::{DropletSph, Failure, ParticleFields, UNKNOWNS};
-use crate::port::{Domain, Surface, WallCells, WallExchange};
+use crate::port::{Surface, WallCells, WallExchange};
 use crate::runtime::allowance::{Allowance, cost};
 use crate::scene::{Droplet, Scene};
 use crate::state::Layout;
 use demand::DropInputs;
 use memo::DropletMemo;
-use plan::cells_of;
 use reader::DropletReader;
 use warnings::STRAY_SHARE;
 
@@ -63,41 +59,6 @@ struct Rest {
     effusivity: f64,
 }
 
-/// Partner with which a droplet exchanges heat and momentum.
-enum Below {
-    Nothing,
-    Wall(Wall),
-    /// Another body; `traction` is true if forces are transferred.
-    Body {
-        traction: bool,
-    },
-}
-
-/// A wall whose cell temperatures are inputs.
-struct Wall {
-    /// Places of the temperatures among the inputs.
-    inputs: Range<usize>,
-    /// Area of each cell [m²].
-    areas: Vec<f64>,
-}
-
-impl Wall {
-    /// Temperatures at the beginning and at the end of a step [K].
-    fn over(&self, acts: &Acts) -> [Vec<f64>; 2] {
-        [0.0, acts.duration].map(|time| acts.path.at(0, time)[self.inputs.clone()].to_vec())
-    }
-
-    fn check(&self, inputs: &[f64]) -> Result<(), BodyError> {
-        match self.inputs.clone().find(|&index| inputs[index] <= 0.0) {
-            Some(index) => {
-                let message = format!("{} K is not above absolute zero", inputs[index]);
-                Err(BodyError::Input { index, message })
-            }
-            None => Ok(()),
-        }
-    }
-}
-
 /// The totals that a scene's droplet offers, each with its place in the table of its kind.
 pub fn offered_totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
     match scene.droplet(name).is_some_and(Droplet::is_replayed) {
@@ -123,22 +84,11 @@ impl DropletBody {
         on: Option<(WallCells, &Link)>,
         threads: impl Fn(bool) -> usize,
     ) -> Self {
-        let wall = scene.wall_under(name).filter(|_| on.is_none());
-        let wall_cells = wall.and_then(|wall| cells_of(&scene.wall[wall].footprint));
         let mut notes = notes(scene, name, droplet);
         notes.extend(on.as_ref().map(|(_, link)| link::note(link.interval)));
-        let below = match (&on, wall) {
-            (Some((_, link)), _) => Below::Body { traction: link.traction },
-            (None, Some(wall)) => Below::Wall(Wall {
-                inputs: layout.walls[wall].clone(),
-                areas: wall_cells
-                    .as_ref()
-                    .map_or(Vec::new(), |cells| cells.areas(Domain::whole(droplet.dimension))),
-            }),
-            (None, None) => Below::Nothing,
-        };
+        let (below, cells) = Below::of((scene, layout), name, on);
+        let wall = scene.wall_under(name).filter(|_| below.wall().is_some());
         let effusivity = wall.and_then(|wall| scene.wall[wall].effusivity);
-        let cells = on.map(|(cells, _)| cells).or(wall_cells);
         let mut plan = plan_of(droplet, cells, effusivity);
         plan.fluid.freezing = scene.freezing_of(name);
         if let Some(wall) = &mut plan.wall {
@@ -175,10 +125,7 @@ impl DropletBody {
         if let Some(surface) = acts.below {
             return droplet.advance_above(state, surface, dt, allowance);
         }
-        let temperatures = match &self.below {
-            Below::Wall(wall) => wall.over(acts),
-            Below::Nothing | Below::Body { .. } => Default::default(),
-        };
+        let temperatures = self.below.wall().map(|wall| wall.over(acts)).unwrap_or_default();
         let surface = droplet.surface(state, temperatures.each_ref().map(Vec::as_slice));
         droplet.advance_above(state, &surface, dt, allowance).map(|_| Vec::new())
     }
@@ -265,8 +212,7 @@ impl Body for DropletBody {
         if let Some(demand) = &self.demand {
             demand.check(inputs)?;
         }
-        let Below::Wall(wall) = &self.below else { return Ok(()) };
-        wall.check(inputs)
+        self.below.check_inputs(inputs)
     }
 
     fn memo(&self, _: &[f64], _: &[Received]) -> Memo {
@@ -302,10 +248,12 @@ impl Body for DropletBody {
         Ok(match *reading {
             Reading::Total(place) => totals::read(&mut reader, place),
             Reading::Cell { quantity, cell } => {
-                let Below::Wall(wall) = &self.below else {
-                    return Err(BodyError::NoSuchReading);
-                };
-                wall_quantities()[quantity].read(&mut reader, cell, &wall.areas)
+                let wall = self.below.wall().ok_or(BodyError::NoSuchReading)?;
+                let quantity = &wall_quantities()[quantity];
+                match quantity.is_mean() {
+                    true => quantity.mean(reader.exchange(), cell, wall)?,
+                    false => reader.frozen_on_wall()[cell],
+                }
             }
             Reading::Point { .. }
             | Reading::Mean { .. }

@@ -3,7 +3,7 @@
 use crate::method::fem::Refinement;
 use crate::method::sph::{self, Demand, DropletPlan, Extent, Release, Viscous};
 use crate::port::WallCells;
-use crate::scene::{Arrival, Coupling, Droplet, Footprint, PressureAdvance, ViscousAdvance};
+use crate::scene::{Arrival, Coupling, Droplet, PressureAdvance, ViscousAdvance};
 
 /// Returns the plan of a droplet, above the cells of a wall or in free space.
 pub fn plan_of(
@@ -68,15 +68,6 @@ pub fn release_at(droplet: &Droplet, arrival: &Arrival) -> Release {
         diameter: droplet.diameter,
         velocity: droplet.velocity(),
         temperature: droplet.initial_temperature,
-    }
-}
-
-/// Returns the cells of a wall's footprint; scenes with other footprints are refused.
-pub fn cells_of(footprint: &Footprint) -> Option<WallCells> {
-    match *footprint {
-        Footprint::Rings { count, radius } => Some(WallCells::Rings { count, radius }),
-        Footprint::Tiles { count, size } => Some(WallCells::Tiles { count, size }),
-        _ => None,
     }
 }
 

@@ -308,12 +308,10 @@ pub fn is_height(place: usize) -> bool {
 pub fn read(reader: &mut DropletReader, place: usize) -> f64 {
     match TOTALS[place].read {
         Read::Totals(of) => of(reader.totals()),
-        Read::Rate(of) => rate(of(reader.exchange()), reader.exchange()),
+        Read::Rate(of) => {
+            let exchange = reader.exchange();
+            exchange.rate(of(exchange))
+        }
         Read::Reader(of) => of(reader),
     }
-}
-
-/// An amount of the last step as a mean rate; zero before the first step.
-pub fn rate(amount: f64, exchange: &WallExchange) -> f64 {
-    if exchange.duration > 0.0 { amount / exchange.duration } else { 0.0 }
 }

@@ -10,18 +10,17 @@ pub use knowledge::{Kept, forget_unused_records, keep_record, records};
 pub use notes::notes;
 pub use totals::offered_totals;
 
+use super::STRAY_SHARE;
 use super::demand::DropInputs;
 use super::watch::Watch;
-use super::{Below, STRAY_SHARE, Wall, plan};
 use crate::advice::MEASURED_FILMS;
-use crate::body::{
-    Acts, Body, BodyError, Fields, Given, Link, Memo, Reading, Received, wall_quantities,
-};
+use crate::body::wall::{Below, wall_quantities};
+use crate::body::{Acts, Body, BodyError, Fields, Given, Link, Memo, Reading, Received};
 use crate::body::{Advice, Approach, Events, Giver, Maxima, Occasion, Resources};
 use crate::inputs::{InputLayout, InputPath};
 use crate::method::record::{Falling, Replay, ReplayPlan, ReplayTotals};
 use crate::method::sph::{Failure, ParticleFields, WarmPlace};
-use crate::port::{Domain, Surface, WallCells, WallExchange};
+use crate::port::{WallCells, WallExchange};
 use crate::runtime::allowance::Allowance;
 use crate::scene::{Arrival, Droplet, Scene, lateral_extents};
 use crate::state::Layout;
@@ -57,27 +56,15 @@ impl ReplayBody {
         threads: usize,
     ) -> Result<Self, Failure> {
         let course = knowledge::course(scene, (name, droplet), threads)?;
-        let wall = scene.wall_under(name).filter(|_| on.is_none());
-        let wall_cells = wall.and_then(|wall| plan::cells_of(&scene.wall[wall].footprint));
-        let below = match (&on, wall) {
-            (Some((_, link)), _) => Below::Body { traction: link.traction },
-            (None, Some(wall)) => Below::Wall(Wall {
-                inputs: layout.walls[wall].clone(),
-                areas: wall_cells
-                    .as_ref()
-                    .map_or(Vec::new(), |cells| cells.areas(Domain::whole(3))),
-            }),
-            (None, None) => Below::Nothing,
-        };
+        let (below, cells) = Below::of((scene, layout), name, on);
         // Scenes without anything below are refused earlier.
         let nothing = WallCells::Rings { count: 1, radius: FARTHEST };
-        let cells = on.map(|(cells, _)| cells).or(wall_cells).unwrap_or(nothing);
         let mass = droplet.mass();
         let mut said = notes(scene, (name, droplet));
         said.push(notes::on_course(&course, droplet));
         let replay = Replay::new(ReplayPlan {
             course,
-            cells,
+            cells: cells.unwrap_or(nothing),
             mass,
             heat_capacity: mass * droplet.fluid.specific_heat,
             most: droplet.drops(),
@@ -180,8 +167,7 @@ impl Body for ReplayBody {
             demand.check(inputs)?;
             demand.check_speed(inputs, self.replay.course())?;
         }
-        let Below::Wall(wall) = &self.below else { return Ok(()) };
-        wall.check(inputs)
+        self.below.check_inputs(inputs)
     }
 
     fn memo(&self, _: &[f64], _: &[Received]) -> Memo {
@@ -200,10 +186,7 @@ impl Body for ReplayBody {
         _: &Allowance,
     ) -> Result<Option<Given>, BodyError> {
         let (released, asked) = self.released(state, acts.path, acts.duration)?;
-        let held = match &self.below {
-            Below::Wall(wall) => Surface::following(wall.over(acts).each_ref().map(Vec::as_slice)),
-            Below::Nothing | Below::Body { .. } => Surface::default(),
-        };
+        let held = self.below.wall().map(|wall| wall.surface(acts)).unwrap_or_default();
         let surface = acts.below.unwrap_or(&held);
         let released = (&released[..], asked);
         let (exchange, falls) = self.replay.advance(state, released, surface, acts.duration);
@@ -218,11 +201,9 @@ impl Body for ReplayBody {
                 memo.exchange.get_or_insert_with(exchange)
             }),
             Reading::Cell { quantity, cell } => {
-                let Below::Wall(wall) = &self.below else {
-                    return Err(BodyError::NoSuchReading);
-                };
+                let wall = self.below.wall().ok_or(BodyError::NoSuchReading)?;
                 let exchange = memo.exchange.get_or_insert_with(exchange);
-                wall_quantities()[quantity].mean(exchange, cell, &wall.areas)?
+                wall_quantities()[quantity].mean(exchange, cell, wall)?
             }
             Reading::Point { .. }
             | Reading::Mean { .. }

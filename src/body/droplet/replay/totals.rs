@@ -1,6 +1,5 @@
 //! Readings of replayed drops.
 
-use crate::body::droplet::totals::rate;
 use crate::body::{Descriptor, Direct};
 use crate::method::record::ReplayTotals;
 use crate::port::WallExchange;
@@ -156,7 +155,7 @@ pub fn read<'a>(
         Read::Totals(of) => of(totals),
         Read::Rate(of) => {
             let exchange = exchange();
-            rate(of(exchange), exchange)
+            exchange.rate(of(exchange))
         }
     }
 }
