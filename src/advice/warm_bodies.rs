@@ -1,9 +1,9 @@
-//! Heat of solids of large strain that their meshes do not resolve, or that no coupling passes.
+//! Heat of solids of large strain that their meshes do not resolve, or that no contact passes.
 
 use super::Reviewer;
 use crate::limits::{number, two_digits};
-use crate::scene::LargeStrain;
 use crate::scene::locate::Path;
+use crate::scene::{LargeStrain, Scene};
 use crate::warning;
 
 /// Biot number of half an element from which on the temperature of a surface node differs from that of the surface.
@@ -21,15 +21,45 @@ pub fn review(reviewer: &mut Reviewer) {
                 warning::warm_layer_unresolved(two_digits(depth), spacing, two_digits(fine));
             reviewer.warn(&path.at("mesh.spacing"), finding);
         }
-        let Some(place) = scene.coupling_from(name) else { continue };
-        let coupling = &scene.coupling[place];
-        let Some((below, other)) = scene.solid_below(coupling) else { continue };
-        let difference = (solid.initial_temperature - other.initial_temperature).abs();
-        if coupling.conductance.is_none() && difference > DIFFERENT {
-            let path = Path::default().key("coupling").index(place);
-            let finding = warning::no_heat_passes(name, below, two_digits(difference));
-            reviewer.warn(&path.key("conductance"), finding);
+        insulated(reviewer, name, solid);
+    }
+}
+
+/// A surface below a body.
+struct Below<'a> {
+    path: Path,
+    name: &'a str,
+    temperature: f64,
+    conductance: Option<f64>,
+}
+
+impl<'a> Below<'a> {
+    fn of(scene: &'a Scene, body: &str) -> Option<Self> {
+        if let Some(place) = scene.coupling_from(body) {
+            let coupling = &scene.coupling[place];
+            let (name, solid) = scene.solid_below(coupling)?;
+            let (temperature, conductance) = (solid.initial_temperature, coupling.conductance);
+            return Some(Self { path: root("coupling", place), name, temperature, conductance });
         }
+        let place = scene.wall_under(body)?;
+        let wall = &scene.wall[place];
+        let temperature = wall.start.temperature.as_ref()?.numbers().next()?;
+        let (name, conductance) = (&wall.name, wall.conductance);
+        Some(Self { path: root("wall", place), name, temperature, conductance })
+    }
+}
+
+fn root(table: &str, place: usize) -> Path {
+    Path::default().key(table).index(place)
+}
+
+/// Warns of a contact of different temperatures through which no heat passes.
+fn insulated(reviewer: &mut Reviewer, name: &str, solid: &LargeStrain) {
+    let Some(below) = Below::of(reviewer.scene, name) else { return };
+    let difference = (solid.initial_temperature - below.temperature).abs();
+    if below.conductance.is_none() && difference > DIFFERENT {
+        let finding = warning::no_heat_passes(name, below.name, two_digits(difference));
+        reviewer.warn(&below.path.key("conductance"), finding);
     }
 }
 

@@ -1,4 +1,4 @@
-//! Walls below droplets, and couplings of bodies with solids.
+//! Walls below bodies that fall, and couplings of bodies with solids.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -12,29 +12,32 @@ const fn conductance() -> Limits {
     limits.plausible(&plausible::CONDUCTANCE)
 }
 
-/// A wall below a droplet whose temperatures are inputs, and heat fluxes and tractions outputs.
+/// A wall below a droplet or a solid of large strain, whose temperatures are inputs, and heat fluxes and tractions
+/// outputs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Wall {
     /// First part of the variables' names.
     #[schemars(extend("pattern" = IDENTIFIER, "condition" = "as that of the scene"))]
     pub name: String,
-    /// The droplet.
-    #[schemars(extend("condition" = "a droplet without coupling"))]
+    /// The droplet or solid of large strain that falls.
+    #[schemars(extend("condition" = "a droplet, or a solid of large strain with explicit motion, without coupling"))]
     pub under: String,
     /// Cells of the wall, centred on the origin.
-    #[schemars(extend("condition" = "`rings` (drops at the centre), `tiles`"))]
+    #[schemars(extend("condition" = "`rings` (bodies that fall at the centre), `tiles`"))]
     pub footprint: Footprint,
     /// √(kρc) of the solid that a master couples [W √s/(m² K)]. It limits the heat of first contact by the response of
     /// the solid's surface within a step.
     #[serde(default)]
     #[schemars(transform = above_zero("W √s/(m² K)")
         .low("the effusivity √(kρc) of what lies below is positive", "> 0 (W √s/(m² K))")
-        .otherwise("none: prescribed wall temperature"))]
+        .otherwise("none: prescribed wall temperature")
+        .condition("below droplets"))]
     pub effusivity: Option<f64>,
-    /// Heat flux over the difference of the temperatures of the surfaces of fluid and wall [W/(m² K)].
+    /// Heat flux over the difference of the temperatures of the surfaces of body and wall [W/(m² K)].
     #[serde(default)]
-    #[schemars(transform = conductance().otherwise("perfect contact"))]
+    #[schemars(transform = conductance()
+        .otherwise("perfect contact of a droplet; no heat from a solid of large strain"))]
     pub conductance: Option<f64>,
     /// Start values.
     #[serde(default)]
@@ -47,7 +50,7 @@ pub struct Wall {
 #[serde(deny_unknown_fields)]
 pub struct WallStart {
     /// Temperature of all cells, or a list for each [K].
-    #[schemars(transform = own_temperature().otherwise("that of the droplet"))]
+    #[schemars(transform = own_temperature().otherwise("that of the body"))]
     pub temperature: Option<CellValues>,
 }
 
@@ -56,7 +59,7 @@ pub struct WallStart {
 #[serde(deny_unknown_fields)]
 pub struct Coupling {
     /// The droplet or solid of large strain that falls, the filament that is laid, or the top face of the lower solid.
-    #[schemars(extend("condition" = "a droplet without wall, a solid of large strain with inertia, a filament; `SOLID.top`"))]
+    #[schemars(extend("condition" = "a droplet or a solid of large strain with explicit motion, without wall; a filament; `SOLID.top`"))]
     pub from: String,
     /// The face.
     #[schemars(extend(

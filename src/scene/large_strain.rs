@@ -121,9 +121,12 @@ pub struct LargeStrain {
         transform = Keys(FaceName::ALL.map(FaceName::as_str))
     )]
     pub faces: BTreeMap<FaceName, HeldFace>,
-    /// Conductance of the contact with the body below [W/(m² K)]; derived from the scene.
+    /// Conductance of the contact with the body or wall below [W/(m² K)]; derived from the scene.
     #[serde(skip)]
     pub conductance_below: Option<f64>,
+    /// True if the cells of a wall below are tiles, which no meridian section meets; derived from the scene.
+    #[serde(skip)]
+    pub is_on_tiles: bool,
 }
 
 /// Time steps of a solid of large strain with inertia.
@@ -289,10 +292,24 @@ impl LargeStrain {
         match self.symmetry {
             LargeStrainSymmetry::Axisymmetric => true,
             LargeStrainSymmetry::Auto => {
-                self.dimension == 3 && is_round && is_straight && self.smoothing().is_none()
+                let is_round_below = !self.is_on_tiles;
+                let may_be_round = is_round && is_round_below && self.smoothing().is_none();
+                self.dimension == 3 && may_be_round && is_straight
             }
             LargeStrainSymmetry::None | LargeStrainSymmetry::Quarter => false,
         }
+    }
+
+    /// Returns true if the body stays round about the axis x = 0, y = 0, or mirrors itself there: a meridian section, or
+    /// a shape about the origin that neither moves nor is drawn aside.
+    pub fn falls_centred(&self) -> bool {
+        let [u, v, _] = self.start.velocity;
+        let is_centred = match self.shape {
+            SolidShape::Ball(_) | SolidShape::Disc(_) | SolidShape::Box(_) => true,
+            SolidShape::Quadrilateral(_) | SolidShape::Strand(_) | SolidShape::Part(_) => false,
+        };
+        let is_straight = u == 0.0 && v == 0.0 && self.faces.values().all(HeldFace::is_straight);
+        self.is_axisymmetric() || is_centred && is_straight
     }
 
     /// Axes along which the displacement of a face is an input; see [`Self::held_axes`]. A face without rollers is held
@@ -428,7 +445,7 @@ impl LargeStrain {
         self.materials_of_layers().into_iter().map(of).collect()
     }
 
-    /// Returns true if heat flows in the body: a face has a thermal condition, or a body below takes heat.
+    /// Returns true if heat flows in the body: a face has a thermal condition, or what lies below takes heat.
     pub fn conducts(&self) -> bool {
         let is_heated = |face: &HeldFace| !face.heated().thermal().is_empty();
         self.conductance_below.is_some() || self.faces.values().any(is_heated)

@@ -188,9 +188,9 @@ impl Scene {
         self.body.keys().filter_map(|name| Some((name.as_str(), self.reservoir(name)?)))
     }
 
-    /// The index of the wall below a droplet.
-    pub fn wall_under(&self, droplet: &str) -> Option<usize> {
-        self.wall.iter().position(|wall| wall.under == droplet)
+    /// The index of the wall below a droplet or a solid of large strain.
+    pub fn wall_under(&self, body: &str) -> Option<usize> {
+        self.wall.iter().position(|wall| wall.under == body)
     }
 
     /// √(kρc) of the solid below a droplet [W √s/(m² K)], of its top layer; `None` for a wall of prescribed
@@ -230,14 +230,19 @@ impl Scene {
         below.and_then(|name| self.body.get(name)).is_some_and(Body::is_round)
     }
 
-    /// Stores in each droplet the properties of the surface below it, and in each solid of large strain the conductance
-    /// of its contact.
+    /// Stores in each droplet and each solid of large strain the properties of the surface below it.
     pub(super) fn store_surfaces_below(&mut self) {
         let names: Vec<String> = self.droplets().map(|(name, _)| name.to_owned()).collect();
         for name in names {
             let is_round = self.is_round_below(&name);
             if let Some(Body::Droplet(droplet)) = self.body.get_mut(&name) {
                 droplet.is_on_round = is_round;
+            }
+        }
+        for wall in &self.wall {
+            if let Some(Body::LargeStrain(solid)) = self.body.get_mut(&wall.under) {
+                solid.conductance_below = wall.conductance.filter(|_| solid.is_above());
+                solid.is_on_tiles = matches!(wall.footprint, Footprint::Tiles { .. });
             }
         }
         for coupling in &self.coupling {

@@ -83,8 +83,8 @@ pub struct Scene {
     /// Tables `[[flaw]]`: cracks that are assumed in solids, whose stress intensity becomes an output.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub flaw: Vec<Flaw>,
-    /// Tables `[[wall]]`: walls below droplets, whose temperatures become inputs; their heat and momentum become
-    /// outputs.
+    /// Tables `[[wall]]`: walls below droplets and solids of large strain. Their temperatures become inputs; their heat
+    /// and momentum become outputs.
     #[serde(default)]
     pub wall: Vec<Wall>,
     /// Tables `[[coupling]]`: droplets and filaments on solids of the same scene, and solids on solids.

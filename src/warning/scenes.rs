@@ -116,7 +116,7 @@ rules! {
 
     Check no_heat_passes(one, other, difference)
     "`{one}` and `{other}` differ by {difference} K, and no heat passes where they touch";
-    "give the coupling a `conductance`, [W/(m² K)]"
+    "give the coupling or wall a `conductance`, [W/(m² K)]"
 
     Check droplet_meets_no_wall(solid, drop)
     "the droplet falls through `{solid}`: nothing joins them";

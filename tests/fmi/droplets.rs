@@ -162,6 +162,39 @@ fn drops_above_a_wall_go_on_from_a_state_to_the_bit() {
     repeats_to_the_bit(WALL, "wall.temperature[1,1]", 310.0);
 }
 
+/// A gel that touches a wall from the first step on.
+const GEL: &str = r#"
+name = "Gel"
+stop_time = 2e-6
+step = 1e-7
+[body.gel]
+kind = "solid"
+strain = "finite"
+inertia = true
+shape = { disc = { radius = 2e-4, thickness = 1e-4 } }
+mesh = { spacing = 2e-5 }
+friction = 0.3
+initial_temperature = 350.0
+start = { velocity = [0.0, 0.0, -1.0] }
+material = { model = "neo_hookean", density = 1000.0, specific_heat = 4180.0, conductivity = 0.6, young = 2e4, poisson = 0.4 }
+[[wall]]
+name = "wall"
+under = "gel"
+footprint = { rings = { count = 3, radius = 1.5e-4 } }
+conductance = 1e4
+start = { temperature = 300.0 }
+"#;
+
+#[test]
+fn a_gel_on_a_wall_goes_on_from_a_state_to_the_bit() {
+    let unit = started(GEL);
+    assert_eq!(unit.step(0.0, STEP), OK);
+    for touched in ["wall.pressure[1]", "wall.heat_flux[2]", "wall.force_outside"] {
+        assert!(unit.get(touched) > 0.0, "{touched}");
+    }
+    repeats_to_the_bit(GEL, "wall.temperature[2]", 310.0);
+}
+
 /// Up to four drops that inputs release above the same wall.
 pub fn on_demand() -> String {
     let arrivals = "arrivals = [{ time = 0.0 }, { time = 4e-7, x = 8e-5 }]";

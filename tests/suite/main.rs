@@ -84,6 +84,7 @@ mod scene_reference;
 mod scene_refusals;
 mod shorthand;
 mod solid;
+mod solid_walls;
 mod strand_shapes;
 mod substance_reference;
 mod tension;

@@ -509,7 +509,7 @@ fn note_on_temperature(solid: &LargeStrain) -> Option<&'static str> {
     if solid.conducts() {
         return Some(match solid.conductance_below {
             Some(_) => {
-                "heat flows in the body as it is deformed, and to the body below where they touch; constants are those of its \
+                "heat flows in the body as it is deformed, and to what lies below where they touch; constants are those of its \
                  initial temperature"
             }
             None => {

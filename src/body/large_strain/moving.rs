@@ -1,4 +1,4 @@
-//! A solid of large strain that moves freely above a plane or another body.
+//! A solid of large strain that moves freely above a plane, the cells of a wall, or another body.
 
 use super::advised::Advised;
 use super::faces::{Faces, loaded};
@@ -7,16 +7,17 @@ use super::snapshot::{Seen, Snapshot, columns, copies};
 use super::totals::Sums;
 use super::warming::{Temperatures, Warming, heat_totals};
 use super::{View, is_large, named, plan, warning_on_mirrors};
+use crate::body::wall::{Below, wall_quantities};
 use crate::body::{
     Acts, Advice, Approach, BodyError, Events, Given, Giver, Link, Maxima, Occasion, Reading,
     Resources, Structured,
 };
 use crate::inputs::InputLayout;
 use crate::method::large_strain::{
-    Acting, Contacts, Course, Courses, CoursesOver, Dynamics, Failure, Film, Motion,
+    Acting, Contacts, Course, Courses, CoursesOver, Dynamics, Failure, Film, Motion, Place,
 };
 use crate::method::sph::ParticleFields;
-use crate::port::WallCells;
+use crate::port::{Surface, WallCells, WallExchange};
 use crate::runtime::allowance::{Allowance, cost};
 use crate::scene::{LargeStrain, Scene};
 use crate::state::store_all;
@@ -32,12 +33,17 @@ pub struct MovingBody {
     mirrors: [bool; 2],
     columns: Vec<[usize; 2]>,
     temperature: f64,
-    /// Heat of a body that conducts it, and conductance of its contact with the body below [W/(m² K)].
+    /// Heat of a body that conducts it, and conductance of its contact with what lies below [W/(m² K)].
     warming: Option<Warming>,
     conductance: Option<f64>,
-    /// True if the impulse on what lies below is transferred; `None` above a rigid plane.
-    traction: Option<bool>,
+    below: Below,
     advised: Advised,
+}
+
+/// Results of a state, and what passed to the cells below in the last step.
+pub struct MovingView {
+    own: View,
+    exchange: WallExchange,
 }
 
 /// Share of the momentum or energy that a balance may miss.
@@ -61,8 +67,7 @@ impl MovingBody {
         let advised = Advised::of((name, solid), &body);
         let plane = plan::plane(solid, &body);
         let columns = columns(&body.space, solid.is_box());
-        let traction = on.as_ref().map(|(_, link)| link.traction);
-        let cells = on.map(|(cells, _)| cells);
+        let (below, cells) = Below::of((scene, layout), name, on);
         let faces = Faces::new(layout, (name, solid), &mesh, &body);
         let probes = Probes::new(scene, (name, solid), &mesh, &body);
         let probes = probes.map_err(|refused| named(refused.into()))?;
@@ -84,7 +89,7 @@ impl MovingBody {
             temperature: solid.initial_temperature,
             warming,
             conductance: solid.conductance_below,
-            traction,
+            below,
             advised,
         })
     }
@@ -225,7 +230,8 @@ impl MovingBody {
         allowance: &Allowance,
     ) -> Result<(), BodyError> {
         warming.hold(&mut motion.warmth, &acts.path.at(0, 0.0));
-        let below = self.conductance.zip(acts.below);
+        let wall = self.below.wall().map(|wall| wall.surface(acts));
+        let below = self.conductance.zip(acts.below.or(wall.as_ref()));
         if below.is_none() {
             self.conduct(warming, motion, acts, Vec::new(), allowance)?;
         }
@@ -236,13 +242,31 @@ impl MovingBody {
         if warming.acts() {
             motion.warmth.felt = to;
         }
-        if let Some((conductance, surface)) = below {
-            let copies = copies(self.mirrors);
-            let films = contacts.films(surface, conductance, acts.duration, copies);
-            let heats = self.conduct(warming, motion, acts, films, allowance)?;
-            motion.warmth.exchange.fill(0.0);
-            for (cell, heat) in contacts.cells().zip(heats) {
-                motion.warmth.exchange[cell] += copies * heat;
+        match below {
+            Some(below) => self.warm_below(warming, motion, acts, (below, &contacts), allowance),
+            None => Ok(()),
+        }
+    }
+
+    /// Conducts heat, also through contacts with a surface below of this conductance [W/(m² K)].
+    fn warm_below(
+        &self,
+        warming: &Warming,
+        motion: &mut Motion,
+        acts: &Acts,
+        ((conductance, surface), contacts): ((f64, &Surface), &Contacts),
+        allowance: &Allowance,
+    ) -> Result<(), BodyError> {
+        let copies = copies(self.mirrors);
+        let films = contacts.films(surface, conductance, acts.duration, copies);
+        let heats = self.conduct(warming, motion, acts, films, allowance)?;
+        let warmth = &mut motion.warmth;
+        warmth.exchange.fill(0.0);
+        warmth.outside = 0.0;
+        for (place, heat) in contacts.places().zip(heats) {
+            match place {
+                Place::Cell(cell) => warmth.exchange[cell] += copies * heat,
+                Place::BeyondCell(_) => warmth.outside += copies * heat,
             }
         }
         Ok(())
@@ -282,8 +306,8 @@ impl MovingBody {
         advanced.map_err(|failure| named(&self.name, failure))
     }
 
-    fn given_of(&self, Motion { ledger, warmth, friction, .. }: &Motion) -> Option<Given> {
-        let traction = self.traction?;
+    /// What passed to the cells below in the last step, and beyond them.
+    fn exchange(&self, Motion { ledger, warmth, friction, .. }: &Motion) -> WallExchange {
         let heat = match warmth.exchange.is_empty() {
             true => vec![0.0; ledger.exchange.len()],
             false => warmth.exchange.clone(),
@@ -293,11 +317,23 @@ impl MovingBody {
             let [x, y] = along(cell);
             [x, y, -impulse]
         });
-        Some(Given {
+        WallExchange {
             duration: ledger.duration,
             heat,
+            impulse: impulse.collect(),
+            heat_outside: warmth.outside,
+            impulse_outside: [0.0, 0.0, -ledger.outside],
+        }
+    }
+
+    fn given_of(&self, motion: &Motion) -> Option<Given> {
+        let Below::Body { traction } = self.below else { return None };
+        let WallExchange { duration, heat, impulse, .. } = self.exchange(motion);
+        Some(Given {
+            duration,
+            heat,
             falling: Vec::new(),
-            impulse: if traction { impulse.collect() } else { Vec::new() },
+            impulse: if traction { impulse } else { Vec::new() },
             symmetric: self.dynamics.symmetric(),
         })
     }
@@ -305,7 +341,7 @@ impl MovingBody {
 
 impl Structured for MovingBody {
     type State = Motion;
-    type View = View;
+    type View = MovingView;
 
     fn name(&self) -> &str {
         &self.name
@@ -320,6 +356,7 @@ impl Structured for MovingBody {
     }
 
     fn check_inputs(&self, inputs: &[f64]) -> Result<(), BodyError> {
+        self.below.check_inputs(inputs)?;
         self.warming.as_ref().map_or(Ok(()), |warming| warming.check_inputs(inputs))
     }
 
@@ -336,7 +373,7 @@ impl Structured for MovingBody {
         Ok(self.given_of(state))
     }
 
-    fn view(&self, state: Motion, _: &[f64]) -> Result<View, BodyError> {
+    fn view(&self, state: Motion, _: &[f64]) -> Result<MovingView, BodyError> {
         let touch = self.dynamics.contact(&state);
         let over = self.over(&state).map_err(|failure| named(&self.name, failure))?;
         let seen = Seen { touch: Some(&touch), ..self.seen(&state, &over) };
@@ -344,11 +381,14 @@ impl Structured for MovingBody {
         let snapshot = seen.snapshot(&stresses);
         let sums = self.sums(&state, &snapshot);
         let probed = self.probes.read(&seen, &stresses, self.temperatures(&state));
-        Ok(View { snapshot, sums, forces: Vec::new(), probed })
+        let own = View { snapshot, sums, forces: Vec::new(), probed };
+        Ok(MovingView { own, exchange: self.exchange(&state) })
     }
 
-    fn read(&self, view: &View, reading: &Reading) -> Result<f64, BodyError> {
-        view.read(reading)
+    fn read(&self, view: &MovingView, reading: &Reading) -> Result<f64, BodyError> {
+        let Reading::Cell { quantity, cell } = *reading else { return view.own.read(reading) };
+        let wall = self.below.wall().ok_or(BodyError::NoSuchReading)?;
+        wall_quantities()[quantity].mean(&view.exchange, cell, wall)
     }
 
     fn drawn(&self, state: Motion, _: &[f64]) -> Result<ParticleFields, BodyError> {
@@ -360,19 +400,17 @@ impl Structured for MovingBody {
 }
 
 impl Giver for MovingBody {
+    /// Transfers to another body refer to the last exchange, however long the step.
     fn join_steps(&self, before: &[f64], state: &mut Vec<f64>) {
-        // A transfer to another body refers to the last exchange, however long the step.
-        if self.traction.is_some() {
+        if matches!(self.below, Below::Body { .. }) {
             return;
         }
-        let (before, mut motion) = (self.structure(before).ledger, self.structure(state));
-        motion.ledger.duration += before.duration;
-        motion.ledger.outside += before.outside;
+        let mut motion = self.structure(state);
+        motion.add_exchange(&self.structure(before));
         store_all(&mut motion, state);
     }
 
     fn given(&self, state: &[f64]) -> Option<Given> {
-        self.traction?;
         self.given_of(&self.structure(state))
     }
 }

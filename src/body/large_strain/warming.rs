@@ -362,13 +362,13 @@ impl Warming {
             return Err("a temperature is not above absolute zero".to_owned());
         }
         let [missing, scale] = self.balance(warmth);
-        let exchange = &warmth.exchange;
+        let mut exchange = warmth.exchange.iter().chain([&warmth.outside]);
         if missing.is_nan() || missing.abs() > BALANCE * scale {
             return Err(format!("{missing:.1e} J of heat have no cause"));
         }
         let content: f64 = self.conduction.capacity.iter().map(|c| c * self.zero).sum();
         let most = EXCHANGE * (content + scale);
-        if exchange.iter().any(|heat| heat.is_nan() || heat.abs() > most) {
+        if exchange.any(|heat| heat.is_nan() || heat.abs() > most) {
             return Err("a cell below took more heat than there is".to_owned());
         }
         Ok(())

@@ -7,6 +7,7 @@ use crate::advice;
 use crate::fmi::gate::answer::Status;
 use crate::output::OutputError;
 use crate::runtime::thread::aside;
+use crate::scene::Wall;
 use crate::warning::Warning;
 
 /// Subject of warnings about steps that are too short, of which one is sufficient.
@@ -28,8 +29,9 @@ impl Unit {
 
     /// Returns true if inputs may respond to a step during which they were constant, and no warning was sent yet.
     pub(super) fn listens_to_answers(&self) -> bool {
-        let is_held = self.scene.wall.iter().any(|wall| wall.effusivity.is_none());
-        is_held && !self.said.contains(HELD_WALL)
+        let is_held =
+            |wall: &Wall| wall.effusivity.is_none() && self.scene.drop_above(wall).is_some();
+        self.scene.wall.iter().any(is_held) && !self.said.contains(HELD_WALL)
     }
 
     /// Discards the inputs of the last step, because the next ones do not respond to it.

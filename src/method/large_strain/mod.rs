@@ -37,7 +37,8 @@ pub use failure::Failure;
 pub use fragments::Fragments;
 pub use friction::{Friction, Shear};
 pub use heat::{
-    Conduction, Contacts, Film, HEAT_STEPS, HEAT_WORK, HeatDrive, HeatOfLayer, Passed, Warmth,
+    Conduction, Contacts, Film, HEAT_STEPS, HEAT_WORK, HeatDrive, HeatOfLayer, Passed, Place,
+    Warmth,
 };
 pub use implicit::{Drive, IMPLICIT_STEPS, IMPLICIT_WORK, ImplicitDynamics, Stepped};
 pub use load::{FaceLoad, LoadedFaces, present_area};

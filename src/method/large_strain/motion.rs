@@ -22,7 +22,7 @@ pub struct Dynamics {
     pub gravity: [f64; 3],
     /// Planes x = 0 and y = 0 that mirror the body.
     mirrors: [bool; 2],
-    /// Cells of the surface on the plane that receives the impulse.
+    /// Cells of the surface on the plane that receive the impulse.
     pub cells: Option<WallCells>,
     /// Largest frequencies of the undeformed body and of contact [1/s].
     frequencies: [f64; 2],
@@ -229,7 +229,9 @@ impl Dynamics {
     fn cover(&self, cells: &WallCells, spot: &Spot, signs: [f64; 2]) -> Cover {
         match self.body.space.form {
             Form::Axisymmetric => cells.cover_ring(spot.ring()),
-            Form::Plane | Form::Solid => cells.cover(spot.rectangle(signs)),
+            Form::Solid => cells.cover(spot.rectangle(signs)),
+            // A row of tiles, however deep.
+            Form::Plane => cells.cover([spot.rectangle(signs)[0], [0.0; 2]]),
         }
     }
 
@@ -238,7 +240,8 @@ impl Dynamics {
         let (Some(contacts), Some(cells)) = (contacts, &self.cells) else { return };
         for signs in self.images() {
             let cover = |spot: usize| self.cover(cells, &moment.touch.spots[spot], signs);
-            contacts.add(&self.body, &motion.displacement, &moment.touch, dt, cover);
+            let own = (&self.body, &motion.displacement[..]);
+            contacts.add(own, &moment.touch, dt, cover, cells.end_with_the_body());
         }
     }
 

@@ -46,6 +46,24 @@ pub struct Ledger {
     pub duration: f64,
 }
 
+impl Motion {
+    /// Adds what passed to what lies below in an earlier part of the last step.
+    pub fn add_exchange(&mut self, earlier: &Self) {
+        let (ledger, before) = (&mut self.ledger, &earlier.ledger);
+        ledger.duration += before.duration;
+        ledger.outside += before.outside;
+        add(&mut ledger.exchange, &before.exchange);
+        let along = self.friction.exchange.as_flattened_mut();
+        add(along, earlier.friction.exchange.as_flattened());
+        add(&mut self.warmth.exchange, &earlier.warmth.exchange);
+        self.warmth.outside += earlier.warmth.outside;
+    }
+}
+
+fn add(sums: &mut [f64], parts: &[f64]) {
+    sums.iter_mut().zip(parts).for_each(|(sum, part)| *sum += part);
+}
+
 impl Ledger {
     /// Work of the stresses, of loads, and of faces that are held or moved [J].
     pub fn works(&self) -> [f64; 3] {

@@ -237,7 +237,7 @@ fn alone(checker: &mut Checker, path: &Path, i: usize, coupling: &Coupling) {
     let from = path.at("from");
     if let Some(wall) = scene.wall_under(&coupling.from) {
         let message = format!("`{}` has wall[{wall}] below it already", coupling.from);
-        checker.refuse(&from, message, "a wall or a coupling a droplet");
+        checker.refuse(&from, message, "a wall or a coupling a body");
     }
     if let Some(first) = scene.coupling_from(&coupling.from).filter(|&first| first != i) {
         let message = format!("`{}` is coupled by coupling[{first}] already", coupling.from);

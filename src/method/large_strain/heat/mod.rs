@@ -11,7 +11,7 @@ mod step;
 mod warmth;
 
 pub use conduction::{Conduction, HeatOfLayer};
-pub use contacts::Contacts;
+pub use contacts::{Contacts, Place};
 pub use step::{Film, HEAT_STEPS, HEAT_WORK, HeatDrive, Passed};
 pub use warmth::Warmth;
 

@@ -17,6 +17,8 @@ pub struct Warmth {
     pub given: f64,
     /// Heat to each cell below in the last step [J].
     pub exchange: Vec<f64>,
+    /// The same beyond the cells of a wall [J].
+    pub outside: f64,
     /// Work of thermal stretches on the body [J].
     pub swelling: f64,
 }
@@ -37,6 +39,10 @@ impl Warmth {
             ),
             (of("given", "heat to the body below [J]", Per::Body), from_mut(&mut self.given)),
             (of("warmed", "heat to cells in the last step [J]", Per::Cell), &mut self.exchange),
+            (
+                of("warmed_outside", "heat beyond the cells in the last step [J]", Per::Body),
+                from_mut(&mut self.outside),
+            ),
             (
                 of("swelling", "work of thermal stretches [J]", Per::Body),
                 from_mut(&mut self.swelling),
