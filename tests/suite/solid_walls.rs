@@ -322,3 +322,22 @@ fn walls_without_a_conductance_are_warned_of() {
     };
     assert_eq!(["", CONDUCTS].map(told), [true, false]);
 }
+
+/// A flat disc that lands presses evenly on all rings below it, up to the axis, and warms them evenly.
+#[test]
+fn even_contact_is_even_up_to_the_axis() {
+    let disc = "shape = { disc = { radius = 10e-3, thickness = 5e-3 } }\nmesh = { spacing = 1e-3 }\n\
+                start = { velocity = [0.0, 0.0, -1.0] }";
+    for count in [18_u32, 9, 4] {
+        let footprint = format!("rings = {{ count = {count}, radius = 9e-3 }}");
+        let mut trial = Trial::new(&gel(disc, &wall(&footprint, CONDUCTS)));
+        trial.step(2e-5);
+        for key in ["pressure", "heat_flux"] {
+            let mut of = |ring: u32| trial.get(&format!("wall.{key}[{ring}]"));
+            let last = of(count);
+            let worst = (1..count).map(|ring| off(of(ring), last)).fold(0.0, f64::max);
+            println!("{count} rings, {key}: {worst}");
+            assert!(worst < 0.08, "{count} {key} {worst}");
+        }
+    }
+}

@@ -39,12 +39,6 @@ impl Spot {
             [at - 0.5 * self.width, at + 0.5 * self.width]
         })
     }
-
-    /// Radii between which a ring presses [m].
-    pub fn ring(&self) -> [f64; 2] {
-        let [inner, outer] = self.rectangle([1.0; 2])[0];
-        [inner.max(0.0), outer]
-    }
 }
 
 /// Contact forces at a moment.

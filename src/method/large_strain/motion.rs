@@ -228,8 +228,9 @@ impl Dynamics {
     /// Cells below a point of an image of the body.
     fn cover(&self, cells: &WallCells, spot: &Spot, signs: [f64; 2]) -> Cover {
         match self.body.space.form {
-            Form::Axisymmetric => cells.cover_ring(spot.ring()),
-            Form::Solid => cells.cover(spot.rectangle(signs)),
+            // Round cells cover as much of a square anywhere on its circle: even contact is even up to the axis, which
+            // a ring between two radii leaves out.
+            Form::Solid | Form::Axisymmetric => cells.cover(spot.rectangle(signs)),
             // A row of tiles, however deep.
             Form::Plane => cells.cover([spot.rectangle(signs)[0], [0.0; 2]]),
         }
