@@ -3,6 +3,7 @@
 The units as they are run a step in `make verify`; `make examples` runs them to their end.
 """
 
+import re
 import subprocess
 import sys
 
@@ -50,4 +51,22 @@ def test_the_example_of_two_units_runs(pack, tmp_path):
         command += [f"--{name}", pack(folder / f"{name}.toml", edits)]
     ran = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert ran.returncode == 0, ran.stdout + ran.stderr
+    assert list(tmp_path.rglob("*.png")), "no picture"
+
+
+def test_the_gel_and_its_plate_run_as_two_units(pack, tmp_path):
+    folder = ROOT / "examples/gel_drop_on_plate"
+    coarse = {
+        "gel": {"spacing = 0.35e-3": "spacing = 1e-3"},
+        "plate": {"spacing = 0.1e-3, depth_spacing = 3e-6": "spacing = 1e-3, depth_spacing = 2e-5"},
+    }
+    command = [sys.executable, folder / "two_units.py", "--out", tmp_path]
+    for name in ("gel", "plate", "together"):
+        edits = coarse.get(name, coarse["gel"] | coarse["plate"])
+        command += [f"--{name}", pack(folder / f"{name}.toml", edits)]
+    ran = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    for balanced in ("that of the gel to", "given by the gel to"):
+        off = re.search(rf"{balanced} (\S+)", ran.stdout)
+        assert off and abs(float(off[1])) < 1e-9, ran.stdout
     assert list(tmp_path.rglob("*.png")), "no picture"

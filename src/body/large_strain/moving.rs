@@ -40,7 +40,7 @@ pub struct MovingBody {
     advised: Advised,
 }
 
-/// Results of a state, and what passed to the cells below in the last step.
+/// Results of a state, with the heat and impulse of the cells below in the last step.
 pub struct MovingView {
     own: View,
     exchange: WallExchange,
@@ -306,7 +306,7 @@ impl MovingBody {
         advanced.map_err(|failure| named(&self.name, failure))
     }
 
-    /// What passed to the cells below in the last step, and beyond them.
+    /// Returns the heat and impulse of the cells below in the last step, and beyond them.
     fn exchange(&self, Motion { ledger, warmth, friction, .. }: &Motion) -> WallExchange {
         let heat = match warmth.exchange.is_empty() {
             true => vec![0.0; ledger.exchange.len()],

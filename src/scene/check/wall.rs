@@ -54,7 +54,7 @@ fn has_body(checker: &mut Checker, path: &Path, name: &str) -> bool {
     false
 }
 
-/// What may fall on a wall.
+/// Bodies that may fall on a wall.
 const FALLING: &str = "a droplet, or a solid of large strain with explicit motion";
 
 fn under_droplet(
