@@ -115,3 +115,37 @@ fn multiply_with<E: Eight>(out: &mut [f64], own: &[f64], rows: &[f64]) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::random::Random;
+
+    /// The sums of all processors are those of plain loops, to the bit.
+    #[test]
+    fn vectors_round_as_plain_sums_do() {
+        let mut random = Random::of(3);
+        let mut numbers =
+            |count: usize| -> Vec<f64> { (0..count).map(|_| random.number()).collect() };
+        let (changes, tensors) = (numbers(WIDTH), numbers(2 * COMPONENTS));
+        let mut sums = numbers(2 * WIDTH);
+        let mut plain = sums.clone();
+        for (n, sum) in plain.iter_mut().enumerate() {
+            for b in 0..AXES {
+                *sum += 0.7 * tensors[AXES * (n / NODES) + b] * changes[NODES * b + n % NODES];
+            }
+        }
+        let (of_axes, _) = changes.as_chunks::<NODES>();
+        contract([0, 1, 2].map(|b| &of_axes[b][..]), &tensors, 0.7, &mut sums);
+        assert_eq!(sums, plain);
+
+        let terms = 5;
+        let (own, rows) = (numbers(terms * NODES), numbers(terms * WIDTH));
+        let mut out = vec![f64::NAN; NODES * WIDTH];
+        multiply(&mut out, &own, &rows);
+        for (n, found) in out.iter().enumerate() {
+            let term = |term: usize| own[NODES * term + n / WIDTH] * rows[WIDTH * term + n % WIDTH];
+            assert_eq!(*found, (0..terms).fold(0.0, |sum, t| sum + term(t)));
+        }
+    }
+}
