@@ -186,8 +186,8 @@ pub struct LargeStrainStart {
     pub height: f64,
 }
 
-/// Elements across the smallest extent, by default.
-const ACROSS: f64 = 10.0;
+/// Distances of nodes across the smallest extent, by default, of linear functions and of quadratic elements.
+const ACROSS: [f64; 2] = [10.0, 6.0];
 
 impl LargeStrain {
     /// Extents along x, y and z [m].
@@ -276,7 +276,7 @@ impl LargeStrain {
         if let Some(part) = self.part() {
             return part.spacing();
         }
-        self.mesh.spacing.unwrap_or(self.smallest() / ACROSS)
+        self.mesh.spacing.unwrap_or(self.smallest() / ACROSS[self.order() - 1])
     }
 
     /// Order of the functions of finite elements.

@@ -49,8 +49,8 @@ fn estimates_are_as_large_as_errors() {
 #[test]
 fn another_discretisation_with_a_smaller_error_is_named() {
     for (keys, remedy) in [
-        ("mechanics = \"sph\"", "`mechanics = \"fem\"` and `mesh.order = 2` with nodes"),
-        ("", "note: `mesh.order = 2` with nodes"),
+        ("mechanics = \"sph\"", "`mechanics = \"fem\"` and `mesh.order = 2` with the same"),
+        ("", "note: `mesh.order = 2` with the same"),
     ] {
         let found = estimate(&strip(keys, 2.5e-3));
         assert!(found.worst().unwrap() > 0.01, "{:?}", found.outputs);

@@ -431,6 +431,11 @@ pub fn notes(solid: &LargeStrain) -> Vec<String> {
     };
     let mut notes = vec![part, note_on_motion(solid)];
     notes.extend(note_on_temperature(solid).map(str::to_owned));
+    let expands =
+        solid.thermal().iter().any(Thermal::acts) && (solid.conducts() || solid.has_temperature());
+    if expands && solid.form() == Form::Plane && !solid.is_sheet() {
+        notes.push(NOTE_ON_PLANE_STRAIN.to_owned());
+    }
     notes.extend(match solid.mechanics {
         Mechanics::Fem => None,
         Mechanics::Rkpm => {
@@ -530,6 +535,10 @@ const NOTE_ON_METAL: &str = "a step in which little metal yields takes a quarter
 const NOTE_ON_SWINGING_METAL: &str = "a step in which little metal yields takes a quarter of the time forecast; one that strains it by several \
                                       times its yield strain takes three times that, and one that has to be cut into parts more: shorter \
                                       steps are cheaper then";
+
+/// Note on a plane body that expands.
+const NOTE_ON_PLANE_STRAIN: &str = "plane strain holds the body along y, so that it expands by 1 + ν times its coefficient in x and z; a strip \
+                                    that is free along y takes `section = \"plane_stress\"`";
 
 /// Note on kernels of a material that hardly changes its volume.
 const NOTE_ON_LOCKING: &str = "the material hardly changes its volume, so the points of a kernel's cell share its dilatation; on coarse meshes \

@@ -18,8 +18,9 @@ pub struct Equilibrium {
     pub loaded: LoadedFaces,
     pub(super) stiffness: Stiffness,
     held: Vec<[bool; 3]>,
-    /// Bound on the rounding of internal forces [N].
+    /// Bounds on the rounding of internal forces [N] and of the energy stored [J].
     rounding: f64,
+    pub rounding_of_energy: f64,
 }
 
 /// Displacements of the nodes and history of the points.
@@ -165,7 +166,8 @@ impl Equilibrium {
         let stiffness = Stiffness::new(&body, &held, &loaded.couplings(&body));
         let stiffness = stiffness.map_err(|_| Failure::Singular)?;
         let rounding = rounding(&body);
-        Ok(Self { body, loaded, stiffness, held, rounding })
+        let rounding_of_energy = rounding_of_energy(&body);
+        Ok(Self { body, loaded, stiffness, held, rounding, rounding_of_energy })
     }
 
     /// The undeformed body.

@@ -218,6 +218,6 @@ fn better(
             keys.push(format!("`mesh.order = {order}`"));
         }
         let keys = keys.join(" and ");
-        format!("{keys} with nodes as far apart would err by about {}", percent(error))
+        format!("{keys} with the same `mesh.spacing` would err by about {}", percent(error))
     })
 }

@@ -104,7 +104,16 @@ fn check_shape(checker: &mut Checker, path: &Path, solid: &LargeStrain) {
         None => count(0) * count(1) * count(2),
     };
     let dimensions = if is_flat || solid.is_axisymmetric() { 2.0 } else { 3.0 };
-    let coarser = spacing * (nodes / MOST_NODES).powf(1.0 / dimensions);
+    // Of the smallest spacings the number of nodes is beyond all numbers.
+    let size = |a: usize| (across[a] / spacing).max(1.0).log2();
+    let logarithm = match solid.strand() {
+        Some(own) => {
+            let axes = solid.dimension as f64;
+            own.sweep(solid.form()).volume().log2() - axes * spacing.log2()
+        }
+        None => size(0) + if is_flat { 0.0 } else { size(1) } + size(2),
+    };
+    let coarser = (spacing.log2() + (logarithm - MOST_NODES.log2()) / dimensions).exp2();
     checker.require(
         nodes <= MOST_NODES,
         &path_of_spacing,
@@ -289,7 +298,7 @@ fn check_law(checker: &mut Checker, path: &Path, material: &Material, temperatur
         }
     } else if material.law.deformation().large_strain(temperature).is_none() {
         let message = "a solid of large strain cannot be made of this material";
-        let allowed = "`model = \"neo_hookean\"` with `young` and `poisson`; `\"concrete\"` with `kcc`, too; \
+        let allowed = "`model = \"neo_hookean\"` with `young` and `poisson`, also of a `substance`; `\"concrete\"` with `kcc`, too; \
                        `\"viscoelastic\"` with `shear_relaxation`, without `bulk_relaxation`; or \
                        `\"elastoplastic\"` with `yield_stress`, with a `saturation` not below the yield stress";
         checker.refuse(path, message, allowed);

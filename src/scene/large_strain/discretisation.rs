@@ -100,7 +100,7 @@ pub struct LargeStrainMesh {
     /// Distance of nodes [m].
     #[schemars(transform = above_zero("m")
         .condition("up to the smallest extent")
-        .otherwise("a tenth of the smallest extent"))]
+        .otherwise("a tenth of the smallest extent; with `order = 2` a sixth"))]
     pub spacing: Option<f64>,
     /// Order of the shape functions: linear, or quadratic between nodes two distances apart.
     #[schemars(transform = whole(1, 2, "no shape functions of this order", "1 (linear), 2 (quadratic)")

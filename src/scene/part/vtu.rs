@@ -208,8 +208,10 @@ impl<'a> Grid<'a> {
         (start, place): (&BytesStart, usize),
         section: &str,
     ) -> Result<(), BadPart> {
-        let (line, own) = line_at(text, place);
-        let refused = |message: String, allowed: &str| BadPart::at((line, own), message, allowed);
+        let refused = |message: String, allowed: &str| {
+            let (line, own) = line_at(text, place);
+            BadPart::at((line, own), message, allowed)
+        };
         match section {
             "VTKFile" => {
                 let found = attribute(start, "type").unwrap_or_default();
