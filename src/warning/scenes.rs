@@ -103,7 +103,7 @@ rules! {
 
     Check pressure_is_spurious(body)
     "`{body}` hardly changes its volume, and its pressure swings from point to point: normal stresses that are read may be \
-     wrong by many times their value, though displacements are right";
+     wrong by many times their value, far more than displacements";
     "`mechanics = \"fem\"`, or `integration = \"gauss\"` of `rkpm`, reads them to some per cent"
 
     Check supports_soften(support, error, fine)
