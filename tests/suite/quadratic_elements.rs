@@ -47,7 +47,7 @@ fn round_shapes_are_round() {
     assert!(linear > 1e-2 && quadratic < 1.5e-3, "{linear} {quadratic}");
     let faces = "faces = { sides = { pressure = 0.0 }, bottom = { roller = true } }";
     let shape = "shape = { disc = { radius = 5e-3, thickness = 4e-3 } }";
-    for symmetry in ["axisymmetric", "quarter", "none"] {
+    for symmetry in ["axisymmetric", "quarter"] {
         let mesh = "mesh = { spacing = 1e-3, order = 2 }";
         let at = probe("inside", [2e-3, 1e-3, -1e-3], "\"stress\"");
         let text = rubber(&format!("{shape}\nsymmetry = \"{symmetry}\"\n{mesh}\n{faces}"));

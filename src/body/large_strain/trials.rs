@@ -10,6 +10,8 @@ use crate::scene::{Body, HeldFace, LargeStrain, Mechanics, Scene};
 
 /// Strain of the trials: far below that of yield, and far above rounding.
 const STRAIN: f64 = 1e-5;
+/// Least part of a stress of that strain by which a slender body is loaded.
+const LEAST: f64 = 1e-4;
 
 /// The trials of a body.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,7 +51,7 @@ impl SmallTrials {
             let change = match input.quantity {
                 Quantity::Displacement => STRAIN * own.smallest(),
                 Quantity::Temperature => warming(&own),
-                _ => STRAIN * shear,
+                _ => STRAIN * shear * slimness(&own),
             };
             let mut trial = rest.clone();
             // Sides bulge under one sign alone, and a largest extent is not linear.
@@ -57,7 +59,7 @@ impl SmallTrials {
             inputs.push(trial);
         }
         let is_weighed = solid.gravity > 0.0 && inputs.len() == 1;
-        let gravity = is_weighed.then(|| STRAIN * shear / weight);
+        let gravity = is_weighed.then(|| STRAIN * shear * slimness(solid) / weight);
         if inputs.len() == 1 && gravity.is_none() {
             return Err("nothing acts on the body by itself");
         }
@@ -154,6 +156,14 @@ fn stiffness_and_weight(solid: &LargeStrain) -> [f64; 2] {
     let shear = layers.iter().map(|layer| layer.law.shear).fold(f64::INFINITY, f64::min);
     let density = layers.iter().map(|layer| layer.density).fold(0.0, f64::max);
     [shear, density * solid.smallest()]
+}
+
+/// Stress of a load on a side over that of the bends that it causes, about: the square of the smallest extent over the
+/// largest.
+fn slimness(solid: &LargeStrain) -> f64 {
+    let [x, y, z] = solid.extents();
+    let largest = if solid.dimension == 2 { x.max(z) } else { x.max(y).max(z) };
+    (solid.smallest() / largest).powi(2).clamp(LEAST, 1.0)
 }
 
 /// Value of an input without effect.
