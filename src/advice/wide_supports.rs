@@ -5,8 +5,9 @@ use crate::scene::locate::Path;
 use crate::scene::{KernelIntegration, LargeStrain, Mechanics};
 use crate::warning;
 
-/// Supports from which on cantilevers of 8 cells across, whose nodes are off a lattice by 0.1 to 0.45 of their distance,
-/// sink by 5 % too much and more, by particles and by kernels with Gauss points (`docs/maps/solids.md`), and the most.
+/// Supports from which on cantilevers of 8 cells across, whose nodes are off a lattice by 0.1 to 0.45 of their
+/// distance, sink by 5 % too much and more, by particles and by kernels with Gauss points (`docs/maps/solids.md`), and
+/// the most.
 const WIDE: [f64; 2] = [2.5, 4.0];
 const MOST: &str = "up to 13 %";
 /// Supports with which they err by 4.4 % and 3 % at most.

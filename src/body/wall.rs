@@ -29,7 +29,8 @@ pub struct Wall {
 }
 
 impl Below {
-    /// Returns the partner below a body of a scene, and its cells; `on` holds the cells of a body below and the link with it.
+    /// Returns the partner below a body of a scene, and its cells; `on` holds the cells of a body below and the link
+    /// with it.
     pub fn of(
         (scene, layout): (&Scene, &InputLayout),
         name: &str,

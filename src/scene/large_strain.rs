@@ -300,8 +300,8 @@ impl LargeStrain {
         }
     }
 
-    /// Returns true if the body stays round about the axis x = 0, y = 0, or mirrors itself there: a meridian section, or
-    /// a shape about the origin that neither moves nor is drawn aside.
+    /// Returns true if the body stays round about the axis x = 0, y = 0, or mirrors itself there: a meridian section,
+    /// or a shape about the origin that neither moves nor is drawn aside.
     pub fn falls_centred(&self) -> bool {
         let [u, v, _] = self.start.velocity;
         let is_centred = match self.shape {

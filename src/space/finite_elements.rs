@@ -5,8 +5,8 @@ use super::shares::shares;
 use super::{Boundary, Form, Mesh, Samples, Sharing, Space, Value};
 use crate::math::matrix3::{self, cross};
 
-/// Places of Gauss points on the unit interval, by orders of functions, and weights of those of quadratic ones; those of
-/// linear ones are equal.
+/// Places of Gauss points on the unit interval, by orders of functions, and weights of those of quadratic ones; those
+/// of linear ones are equal.
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 const GAUSS_QUADRATIC: [f64; 3] = [0.112_701_665_379_258_3, 0.5, 0.887_298_334_620_741_7];
 const WEIGHTS_QUADRATIC: [f64; 3] = [5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0];

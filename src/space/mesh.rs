@@ -58,8 +58,8 @@ impl Mesh {
         edges
     }
 
-    /// A box with its origin at the centre of its top: `low` to `high`, cut into `count` linear cells along each axis of
-    /// the form.
+    /// A box with its origin at the centre of its top: `low` to `high`, cut into `count` linear cells along each axis
+    /// of the form.
     pub fn of_box(form: Form, low: [f64; 3], high: [f64; 3], count: [usize; 3]) -> Self {
         Self::of_box_by((form, 1), low, high, count)
     }
@@ -127,8 +127,8 @@ impl Mesh {
     }
 
     /// A cylinder of a radius and a thickness about z below the origin, of cells of an order: `counts` are those of the
-    /// inner block (half of it) along x and y, from it to the surface, and along z. Only the part with positive x (or y)
-    /// is meshed where `halved`.
+    /// inner block (half of it) along x and y, from it to the surface, and along z. Only the part with positive x (or
+    /// y) is meshed where `halved`.
     pub fn of_cylinder(
         order: usize,
         [radius, thickness]: [f64; 2],

@@ -488,7 +488,8 @@ fn particles_of_uneven_parts_do_not_stiffen() {
     }
 }
 
-/// The forces of particles balance in bodies that are hundreds of distances long, too: bars are drawn as in closed form.
+/// The forces of particles balance in bodies that are hundreds of distances long, too: bars are drawn as in closed
+/// form.
 #[test]
 fn long_bodies_of_particles_balance() {
     let law = Rubber::of_young(1e6, 0.3);

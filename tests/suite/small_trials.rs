@@ -44,8 +44,8 @@ fn estimates_are_as_large_as_errors() {
     }
 }
 
-/// Of a strip that particles make too soft and linear elements too stiff, quadratic elements with nodes as far apart have
-/// less than half the error.
+/// Of a strip that particles make too soft and linear elements too stiff, quadratic elements with nodes as far apart
+/// have less than half the error.
 #[test]
 fn another_discretisation_with_a_smaller_error_is_named() {
     for (keys, remedy) in [

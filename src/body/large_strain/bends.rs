@@ -48,8 +48,8 @@ struct Bends {
 /// Part of what stays of a bend that may be missing without a warning, and that of a mesh that a warning proposes.
 const MISSING: f64 = 0.035;
 const PROPOSED: f64 = 0.02;
-/// Error of the moment times the square of the number of elements across: of elements by their order, of kernels, and of
-/// particles and of kernels with a point a node, which are too soft.
+/// Error of the moment times the square of the number of elements across: of elements by their order, of kernels, and
+/// of particles and of kernels with a point a node, which are too soft.
 const OF_ELEMENTS: [f64; 2] = [0.75, 0.07];
 const OF_KERNELS: f64 = 0.14;
 const OF_SOFT: f64 = 0.3;

@@ -1,9 +1,9 @@
 //! Dilatations that points share, and their pressure.
 //!
-//! The dilatation J̄ of a point is the projection of those of its group on functions that are orthonormal over it, `J̄_p =
-//! Σ_k φ_k(p) Σ_q V_q φ_k(q) J_q`: a mean, or one that is linear over the group. The energy `Σ V U(J̄)` has the stress
-//! `p ∂J/∂F` with the projection p of `U′(J̄)`, and `dp_q = Σ_kl φ_k(q) D_kl Σ_r V_r φ_l(r) dJ_r` with `D_kl = Σ V U″(J̄)
-//! φ_k φ_l` (J. C. Simo, R. L. Taylor & K. S. Pister 1985, doi 10.1016/0045-7825(85)90033-7).
+//! The dilatation J̄ of a point is the projection of those of its group on functions that are orthonormal over it,
+//! `J̄_p = Σ_k φ_k(p) Σ_q V_q φ_k(q) J_q`: a mean, or one that is linear over the group. The energy `Σ V U(J̄)` has the
+//! stress `p ∂J/∂F` with the projection p of `U′(J̄)`, and `dp_q = Σ_kl φ_k(q) D_kl Σ_r V_r φ_l(r) dJ_r` with `D_kl = Σ
+//! V U″(J̄) φ_k φ_l` (J. C. Simo, R. L. Taylor & K. S. Pister 1985, doi 10.1016/0045-7825(85)90033-7).
 
 use super::Deformable;
 use super::tangent::Swelling;

@@ -1,7 +1,7 @@
 //! The sums of [`element`](super::element) for blocks of eight nodes that move along three axes: hexahedra.
 //!
-//! A vector holds a number for each node. Sums have the order of those for any number of nodes, and nothing is fused, so
-//! both round alike on all processors.
+//! A vector holds a number for each node. Sums have the order of those for any number of nodes, and nothing is fused,
+//! so both round alike on all processors.
 
 #[cfg(target_arch = "x86_64")]
 use crate::math::eight::Avx512;
@@ -15,8 +15,8 @@ const COMPONENTS: usize = AXES * AXES;
 /// Nodes whose rows are summed together.
 const TOGETHER: usize = 4;
 
-/// Adds weighted contractions of the changes of F under the displacements of all nodes with tensors, one after another in
-/// `tensors` and `sums`.
+/// Adds weighted contractions of the changes of F under the displacements of all nodes with tensors, one after another
+/// in `tensors` and `sums`.
 pub fn contract(changes: [&[f64]; AXES], tensors: &[f64], weight: f64, sums: &mut [f64]) {
     let changes = changes.map(|of_axis| of_axis.try_into().expect("a change for each node"));
     #[cfg(target_arch = "x86_64")]

@@ -16,8 +16,8 @@ use crate::runtime::parallel::Team;
 
 /// Iterations of conjugate gradients, at most, which cost about two thirds of a factor.
 const MOST: usize = 16;
-/// Part of the residual at a factor to which it has to fall before the factor is worth keeping: its fall in a Newton step
-/// is about half of the relative change of the tangent along that step.
+/// Part of the residual at a factor to which it has to fall before the factor is worth keeping: its fall in a Newton
+/// step is about half of the relative change of the tangent along that step.
 const FALLEN: f64 = 0.2;
 /// Largest residual of a linear system, over that before an iteration.
 const LOOSEST: f64 = 1e-2;
@@ -210,12 +210,12 @@ impl Iterations {
     /// Returns true if the last tangent is symmetric and not positive definite.
     ///
     /// Where no factor was made of it, conjugate gradients with a random load decide. Their residual is a polynomial of
-    /// the preconditioned tangent, 1 at zero, whose roots are positive where no curvature on the way was negative. So it
-    /// is larger than 1 at a negative eigenvalue and close to 1 at one close to zero: along such a mode the residual does
-    /// not fall. Of n unknowns a mode has about the part `n^(−1/2)` of a random load, thousands of times [`SURE`] in a
-    /// large body, so there is no such mode where iterations converge. The preconditioner does not matter, as the signs
-    /// of eigenvalues are the same for all that are positive definite (J. J. Sylvester 1852). Where iterations do not
-    /// converge, a factor decides.
+    /// the preconditioned tangent, 1 at zero, whose roots are positive where no curvature on the way was negative. So
+    /// it is larger than 1 at a negative eigenvalue and close to 1 at one close to zero: along such a mode the residual
+    /// does not fall. Of n unknowns a mode has about the part `n^(−1/2)` of a random load, thousands of times [`SURE`]
+    /// in a large body, so there is no such mode where iterations converge. The preconditioner does not matter, as the
+    /// signs of eigenvalues are the same for all that are positive definite (J. J. Sylvester 1852). Where iterations do
+    /// not converge, a factor decides.
     pub fn found_unstable(mut self, (stiffness, team): (&Stiffness, &Team)) -> bool {
         let Some(tangent) = self.tangent.take() else { return false };
         tangent.is_indefinite.unwrap_or_else(|| {

@@ -114,8 +114,8 @@ impl Sweep {
         })
     }
 
-    /// Meshes the strand by cells of an order with nodes at some distance. The side of its first section is left, that of
-    /// its last right.
+    /// Meshes the strand by cells of an order with nodes at some distance. The side of its first section is left, that
+    /// of its last right.
     pub fn mesh(&self, order: usize, spacing: f64) -> Mesh {
         let section = self.section(order, spacing);
         let [first, second] = self.across();

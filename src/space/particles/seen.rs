@@ -2,9 +2,9 @@
 //!
 //! What a linear fit leaves over of the quadratic terms has moments M. Where a single row of neighbours lies behind a
 //! face, nothing is left over across it but what makes the row uneven: a fit to that would see noise a thousandfold. So
-//! combinations of terms of which less than a part [`SEEN`] is left over have a derivative of zero. On a lattice that is
-//! 0.03 beside a face for supports of 2.2 distances and 0.1 from 2.5 on; a single row that is uneven by a tenth of the
-//! distance leaves 1e-3.
+//! combinations of terms of which less than a part [`SEEN`] is left over have a derivative of zero. On a lattice that
+//! is 0.03 beside a face for supports of 2.2 distances and 0.1 from 2.5 on; a single row that is uneven by a tenth of
+//! the distance leaves 1e-3.
 
 use nalgebra::DMatrix;
 
